@@ -1,0 +1,1 @@
+"""Contact mechanics of layered rough surfaces."""

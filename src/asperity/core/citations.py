@@ -1,0 +1,51 @@
+"""The papers behind the numbers. Objects name keys in ``citation_keys``; ``cite`` turns them into text."""
+
+from __future__ import annotations
+
+from .errors import InputError
+
+REFERENCES = {
+    "Almqvist2007": "Almqvist, A., Sahlin, F., Larsson, R., Glavatskih, S. (2007). On the dry elasto-plastic contact of nominally flat surfaces. Tribology International 40, 574-579.",
+    "Bemporad2015": "Bemporad, A., Paggi, M. (2015). Optimization algorithms for the solution of the frictionless normal contact between rough surfaces. International Journal of Solids and Structures 69-70, 94-105.",
+    "Boussinesq1885": "Boussinesq, J. (1885). Application des potentiels a l'etude de l'equilibre et du mouvement des solides elastiques. Gauthier-Villars, Paris.",
+    "Byrd1995": "Byrd, R. H., Lu, P., Nocedal, J., Zhu, C. (1995). A limited memory algorithm for bound constrained optimization. SIAM Journal on Scientific Computing 16, 1190-1208.",
+    "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",
+    "Cottle1992": "Cottle, R. W., Pang, J.-S., Stone, R. E. (1992). The Linear Complementarity Problem. Academic Press, Boston.",
+    "Johnson1985": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press.",
+    "Kalker1977": "Kalker, J. J. (1977). Variational principles of contact elastostatics. IMA Journal of Applied Mathematics 20, 199-219.",
+    "Lawson1974": "Lawson, C. L., Hanson, R. J. (1974). Solving Least Squares Problems. Prentice-Hall, Englewood Cliffs.",
+    "Liu2000": "Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT) for contact analyses. Wear 243, 101-111.",
+    "Love1929": "Love, A. E. H. (1929). The stress produced in a semi-infinite solid by pressure on part of the boundary. Philosophical Transactions of the Royal Society A 228, 377-420.",
+    "Nogi1997": "Nogi, T., Kato, T. (1997). Influence of a hard surface layer on the limit of elastic contact, part I. Journal of Tribology 119, 493-500.",
+    "Peng2001": "Peng, W. (2001). Contact mechanics of multilayered rough surfaces in tribology. Dissertation, Ohio State University.",
+    "PengBhushan2001": "Peng, W., Bhushan, B. (2001). A numerical three-dimensional model for the contact of layered elastic/plastic solids with rough surfaces by a variational principle. Journal of Tribology 123, 330-342.",
+    "Polonsky1999": "Polonsky, I. A., Keer, L. M. (1999). A numerical method for solving rough contact problems based on the multi-level multi-summation and conjugate gradient techniques. Wear 231, 206-219.",
+    "Roettger2022": "Roettger, M. C., Sanner, A., Thimons, L. A., et al. (2022). contact.engineering - Create, analyze and publish digital surface twins from topography measurements across many scales. Surface Topography: Metrology and Properties 10, 035032.",
+    "Stanley1997": "Stanley, H. M., Kato, T. (1997). An FFT-based method for rough surface contact. Journal of Tribology 119, 481-485.",
+    "Tian1996": "Tian, X., Bhushan, B. (1996). A numerical three-dimensional model for the contact of rough surfaces by variational principle. Journal of Tribology 118, 33-42.",
+    "Yastrebov2017": "Yastrebov, V. A., Anciaux, G., Molinari, J.-F. (2017). On the accurate computation of the true contact-area in mechanical contact of random rough surfaces. Tribology International 114, 161-171.",
+}
+"""Full references by key."""
+
+
+def citation_keys(*objects: object) -> tuple[str, ...]:
+    """Sorted, distinct keys that the ``objects`` name in their attribute ``citation_keys``."""
+    return tuple(sorted({key for item in objects for key in getattr(item, "citation_keys", ())}))
+
+
+def reference(key: str) -> str:
+    """Full reference of ``key``.
+
+    Raises
+    ------
+    InputError
+        If the key is unknown.
+    """
+    if key not in REFERENCES:
+        raise InputError(f"citation key must be one of {', '.join(sorted(REFERENCES))}, but is {key!r}.")
+    return REFERENCES[key]
+
+
+def cite(*objects: object) -> str:
+    """Text with one full reference a line for everything the ``objects`` (problem, result, …) rest on."""
+    return "\n".join(f"[{key}] {reference(key)}" for key in citation_keys(*objects))

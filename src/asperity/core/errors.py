@@ -1,0 +1,35 @@
+"""Exceptions. Every message names the input, what it must be, what was received and the usual fix."""
+
+from __future__ import annotations
+
+
+class AsperityError(Exception):
+    """Base of every exception that asperity raises on purpose."""
+
+
+class InputError(AsperityError, ValueError):
+    """An argument, a document or a file holds a value that cannot be used."""
+
+
+class UnitError(InputError):
+    """A quantity has no unit, an unknown unit, or a unit of the wrong dimension."""
+
+
+class FileFormatError(InputError):
+    """A file is missing, empty, truncated, of an unknown format, or lacks units or size."""
+
+
+class NoSolutionError(InputError):
+    """The problem as posed has no solution (for example a mean pressure above the hardness)."""
+
+
+class OutputError(AsperityError, OSError):
+    """A result cannot be written (exists already, unwritable folder, disk full)."""
+
+
+class ConvergenceError(AsperityError, RuntimeError):
+    """A solver did not reach its tolerance; ``result`` holds the unconverged answer, flagged as such."""
+
+    def __init__(self, message: str, result: object = None) -> None:
+        super().__init__(message)
+        self.result = result

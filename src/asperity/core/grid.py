@@ -1,0 +1,74 @@
+"""The rectangular grid on which heights, pressures and displacements live."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import require
+from .arrays import RealArray
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Regular grid of ``shape`` (nx, ny) pixels of ``spacing`` (dx, dy) metres; array axis 0 is x, axis 1 is y.
+
+    Every node owns one pixel, so the physical size is ``n * d`` per axis for periodic and for other maps alike.
+
+    Raises
+    ------
+    InputError
+        If a count is not a whole number >= 1 or a spacing is not positive.
+    """
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        for count, axis in zip(self.shape, "xy", strict=True):
+            require.integer(count, 1, f"number of grid points along {axis}")
+        for step, axis in zip(self.spacing, "xy", strict=True):
+            require.positive(step, f"grid spacing along {axis} (m)")
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Physical extent (Lx, Ly) in m."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+    @property
+    def pixel_area(self) -> float:
+        """Area of one pixel in m²."""
+        return self.spacing[0] * self.spacing[1]
+
+    @property
+    def area(self) -> float:
+        """Nominal area in m²."""
+        return self.shape[0] * self.shape[1] * self.pixel_area
+
+    @property
+    def n_points(self) -> int:
+        """Number of pixels nx·ny."""
+        return self.shape[0] * self.shape[1]
+
+    def coordinates(self) -> tuple[RealArray, RealArray]:
+        """Node coordinates x (nx, 1) and y (1, ny) in m, from 0 at node (0, 0)."""
+        (nx, ny), (dx, dy) = self.shape, self.spacing
+        return np.arange(nx)[:, None] * dx, np.arange(ny)[None, :] * dy
+
+    def centred_coordinates(self) -> tuple[RealArray, RealArray]:
+        """Coordinates x (nx, 1) and y (1, ny) in m, from 0 at node (nx // 2, ny // 2)."""
+        x, y = self.coordinates()
+        return x - x[self.shape[0] // 2, 0], y - y[0, self.shape[1] // 2]
+
+    def wavevector(self) -> tuple[RealArray, RealArray]:
+        """Wavevector components qx (nx, 1) and qy (1, ny // 2 + 1) in rad/m, in the order of a real 2-D FFT."""
+        (nx, ny), (dx, dy) = self.shape, self.spacing
+        qx = 2.0 * np.pi * np.fft.fftfreq(nx, dx)[:, None]
+        qy = 2.0 * np.pi * np.fft.rfftfreq(ny, dy)[None, :]
+        return qx, qy
+
+    def wavenumber(self) -> RealArray:
+        """Magnitude q of the wavevector, shape (nx, ny // 2 + 1), in rad/m."""
+        qx, qy = self.wavevector()
+        return np.hypot(qx, qy)

@@ -1,0 +1,80 @@
+"""Checks of single input values; each returns the value in its canonical type or raises ``InputError``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import RealArray
+from .errors import InputError
+
+
+def finite(value: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if it is a finite real number."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(_sentence(what, "a number", value, fix)) from None
+    if not math.isfinite(number):
+        raise InputError(_sentence(what, "a finite number", value, fix))
+    return number
+
+
+def positive(value: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if it is finite and > 0."""
+    number = finite(value, what, fix)
+    if number <= 0.0:
+        raise InputError(_sentence(what, "greater than zero", value, fix))
+    return number
+
+
+def non_negative(value: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if it is finite and >= 0."""
+    number = finite(value, what, fix)
+    if number < 0.0:
+        raise InputError(_sentence(what, "zero or greater", value, fix))
+    return number
+
+
+def between(value: float, low: float, high: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if ``low < value < high``."""
+    number = finite(value, what, fix)
+    if not low < number < high:
+        raise InputError(_sentence(what, f"greater than {low:g} and less than {high:g}", value, fix))
+    return number
+
+
+def integer(value: int, minimum: int, what: str, fix: str = "") -> int:
+    """Return ``value`` as int if it is a whole number >= ``minimum``."""
+    number = finite(value, what, fix)
+    if number != int(number) or number < minimum:
+        raise InputError(_sentence(what, f"a whole number of at least {minimum}", value, fix))
+    return int(number)
+
+
+def one_of(value: str, allowed: Iterable[str], what: str) -> str:
+    """Return ``value`` if it is one of the ``allowed`` words."""
+    choices = tuple(allowed)
+    if value not in choices:
+        raise InputError(_sentence(what, "one of " + ", ".join(choices), value))
+    return value
+
+
+def field(values: ArrayLike, what: str, shape: tuple[int, int] | None = None) -> RealArray:
+    """Return ``values`` as a two-dimensional floating-point array (float32 is kept, all else becomes float64)."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise InputError(_sentence(what, "an array of real numbers", f"an array of type {array.dtype}"))
+    if array.ndim != 2 or array.size == 0:
+        raise InputError(_sentence(what, "a two-dimensional array (nx, ny)", f"an array of shape {array.shape}"))
+    if shape is not None and array.shape != shape:
+        raise InputError(_sentence(what, f"an array of shape {shape}", f"an array of shape {array.shape}"))
+    return array if array.dtype == np.float32 else array.astype(np.float64, copy=False)
+
+
+def _sentence(what: str, must_be: str, received: object, fix: str = "") -> str:
+    shown = received if isinstance(received, str) and received.startswith("an array") else repr(received)
+    return f"{what} must be {must_be}, but is {shown}." + (f" {fix}" if fix else "")

@@ -1,0 +1,90 @@
+"""Real two-dimensional Fourier transforms, prepared once and applied many times.
+
+The only module that touches an FFT library: ducc0 (extra ``fast``) when it is installed, NumPy otherwise.
+The forward transform is unnormalised, the backward one carries 1/(nx·ny).
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+
+from . import require
+from .arrays import ComplexArray, RealArray
+
+
+def thread_count(threads: int | None = None) -> int:
+    """Number of threads: ``threads``, else the environment variable ASPERITY_THREADS, else the usable cores."""
+    if threads is not None:
+        return require.integer(threads, 1, "number of threads")
+    from_environment = os.environ.get("ASPERITY_THREADS")
+    if from_environment is not None:
+        if not from_environment.strip().isdigit():
+            from_environment = "0"
+        return require.integer(int(from_environment), 1, "environment variable ASPERITY_THREADS")
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def fft_library() -> str:
+    """Name of the FFT library in use: ``ducc0`` or ``numpy``."""
+    return "ducc0" if importlib.util.find_spec("ducc0") else "numpy"
+
+
+@dataclass(frozen=True)
+class RealTransform:
+    """Transform pair between real fields (nx, ny) and half spectra (nx, ny // 2 + 1).
+
+    Parameters
+    ----------
+    shape
+        (nx, ny), any lengths >= 1.
+    threads
+        Number of threads used by the library (ducc0 only).
+    """
+
+    shape: tuple[int, int]
+    threads: int = 1
+
+    @cached_property
+    def _ducc(self) -> Any:
+        return importlib.import_module("ducc0.fft") if fft_library() == "ducc0" else None
+
+    @property
+    def spectrum_shape(self) -> tuple[int, int]:
+        """Shape of the half spectrum."""
+        return self.shape[0], self.shape[1] // 2 + 1
+
+    def forward(self, field: RealArray, out: ComplexArray | None = None) -> ComplexArray:
+        """Unnormalised transform of ``field``; written into ``out`` if given."""
+        spectrum: ComplexArray
+        if self._ducc is None:
+            spectrum = np.fft.rfft2(field, out=cast(Any, out))
+        else:
+            spectrum = self._ducc.r2c(field, axes=(0, 1), out=out, nthreads=self.threads)
+        return spectrum
+
+    def backward(self, spectrum: ComplexArray, out: RealArray | None = None) -> RealArray:
+        """Normalised inverse transform of ``spectrum``, which may be overwritten."""
+        field: RealArray
+        if self._ducc is None:
+            field = np.fft.irfft2(spectrum, s=self.shape, out=cast(Any, out))
+        else:
+            field = self._ducc.c2r(
+                spectrum,
+                axes=(0, 1),
+                lastsize=self.shape[1],
+                forward=False,
+                inorm=2,
+                out=out,
+                nthreads=self.threads,
+                allow_overwriting_input=True,
+            )
+        return field

@@ -1,0 +1,112 @@
+"""Physical quantities with units at the door: text in, SI floats inside, text out."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import Any
+
+from .errors import UnitError
+
+DIMENSIONS = {
+    "length": "m",
+    "area": "m**2",
+    "pressure": "Pa",
+    "force": "N",
+    "energy": "J",
+    "surface tension": "N/m",
+    "stiffness": "Pa/m",
+    "angle": "rad",
+    "temperature": "K",
+    "time": "s",
+    "number": "dimensionless",
+}
+"""Kinds of quantity that can be asked for, with the SI unit in which they are returned."""
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def parse(text: str, kind: str, what: str) -> float:
+    """Return the SI value of a quantity such as ``"50 kPa"`` or ``"5nm"``.
+
+    Parameters
+    ----------
+    text
+        Number followed by a unit. A unit is never guessed.
+    kind
+        One of ``DIMENSIONS``.
+    what
+        Name of the input, for the error message.
+
+    Raises
+    ------
+    UnitError
+        If number or unit is missing, unknown, or of another dimension.
+    """
+    unit = DIMENSIONS[kind]
+    example = _EXAMPLES.get(kind, f"1 {unit}")
+    match = _NUMBER.fullmatch(str(text))
+    if match is None:
+        raise UnitError(f'{what} must be a number with a unit, such as "{example}", but is {text!r}.')
+    number, name = float(match.group(1)), match.group(2).strip()
+    if not name and kind != "number":
+        raise UnitError(f'{what} must have a unit, such as "{example}", but is {text!r} without one.')
+    return number * unit_factor(name, kind, what)
+
+
+def unit_factor(name: str, kind: str, what: str) -> float:
+    """SI value of one ``name`` (for example ``"nm"`` → 1e-9 for a length).
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown or of another dimension than ``kind``.
+    """
+    import pint
+
+    registry, unit = _registry(), DIMENSIONS[kind]
+    try:
+        return float(registry.Quantity(1.0, name or "dimensionless").to(unit).magnitude)
+    except pint.DimensionalityError:
+        raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
+    except Exception:  # pint raises many types on malformed unit text
+        raise UnitError(f"{what} has the unknown unit {name!r}; use for example {unit}.") from None
+
+
+def parse_size(text: str, what: str = "size") -> tuple[float, float]:
+    """Return (Lx, Ly) in m from text such as ``"20 um x 20 um"``; one length means a square.
+
+    Raises
+    ------
+    UnitError
+        If a length lacks a unit or the text has more than two parts.
+    """
+    parts = re.split(r"\s*[x×]\s*", str(text).strip())
+    if len(parts) == 1:
+        parts *= 2
+    if len(parts) != 2:
+        raise UnitError(f'{what} must be one or two lengths, such as "20 um x 20 um", but is {text!r}.')
+    return parse(parts[0], "length", what), parse(parts[1], "length", what)
+
+
+def show(value: float, unit: str, digits: int = 4) -> str:
+    """Text of an SI ``value`` with an SI-prefixed ``unit``, for example ``show(5e-9, "m")`` → ``"5 nm"``."""
+    if not unit or unit == "1":
+        return f"{value:.{digits}g}"
+    if value != value or value in (float("inf"), float("-inf")):
+        return f"{value:g} {unit}"
+    quantity = _registry().Quantity(value, unit)
+    compact = quantity.to_compact() if value != 0.0 else quantity
+    number = compact.magnitude
+    text = f"{number:.0f}" if 10**digits <= abs(number) < 1e7 else f"{number:.{digits}g}"  # squared units step by 1e6
+    return f"{text} {compact.units:~P}"
+
+
+_EXAMPLES = {"length": "5 nm", "pressure": "50 kPa", "force": "1 mN", "area": "1 um**2", "angle": "10 deg"}

@@ -1,0 +1,79 @@
+"""Homogeneous bodies: elastic half-spaces and the rigid body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ..core import require
+from ..core.errors import InputError
+from .strength import Strength
+
+
+@dataclass(frozen=True)
+class Elastic:
+    """Isotropic linear-elastic half-space.
+
+    Parameters
+    ----------
+    youngs_modulus
+        E in Pa, > 0.
+    poisson_ratio
+        nu, -1 < nu < 0.5.
+    strength
+        Hardness and yield stress, where known.
+    name, sources
+        Name of the material and where its values come from.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range.
+    """
+
+    youngs_modulus: float
+    poisson_ratio: float
+    strength: Strength = Strength()
+    name: str = ""
+    sources: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        require.positive(self.youngs_modulus, "Young's modulus (Pa)")
+        require.between(
+            self.poisson_ratio, -1.0, 0.5, "Poisson's ratio", "Use 0.4999 for a nearly incompressible solid."
+        )
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E' = E / (1 - nu²) in Pa."""
+        return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / 2(1 + nu) in Pa."""
+        return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """Body that does not deform."""
+
+    name: str = "rigid"
+
+
+Body: TypeAlias = Elastic | Rigid
+"""A body that can take part in a contact."""
+
+
+def contact_modulus(body: Body, counter_body: Body) -> float:
+    """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22).
+
+    Raises
+    ------
+    InputError
+        If both bodies are rigid.
+    """
+    compliance = sum(1.0 / b.plane_strain_modulus for b in (body, counter_body) if isinstance(b, Elastic))
+    if compliance == 0.0:
+        raise InputError("body and counter_body must not both be rigid; make at least one of them Elastic.")
+    return 1.0 / compliance

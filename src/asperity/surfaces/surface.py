@@ -1,0 +1,128 @@
+"""A measured or generated surface as frozen data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import require
+from ..core.arrays import BoolArray, RealArray
+from ..core.errors import InputError
+from ..core.grid import Grid
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a surface comes from.
+
+    ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data from the file;
+    ``history`` one sentence for every preparation step, oldest first.
+    """
+
+    source: str = ""
+    channel: str = ""
+    instrument: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    history: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights on a regular grid, positive out of the solid (the material is below).
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) heights in m; axis 0 is x, axis 1 is y. NaN marks a missing point.
+    dx, dy
+        Pixel size in m; ``dy`` defaults to ``dx``.
+    periodic
+        Whether node nx equals node 0 (a generated periodic map); a measured map is not periodic.
+    mask
+        (nx, ny), True where the point is missing. Points with NaN height are added to it.
+    origin
+        Source, channel, instrument and history.
+
+    Raises
+    ------
+    InputError
+        If heights are not a real 2-D array, hold an infinity, are missing everywhere, or a spacing is not positive.
+    """
+
+    heights: RealArray
+    dx: float
+    dy: float
+    periodic: bool = False
+    mask: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=bool))
+    origin: Origin = Origin()
+
+    def __init__(
+        self,
+        heights: ArrayLike,
+        dx: float,
+        dy: float | None = None,
+        *,
+        periodic: bool = False,
+        mask: ArrayLike | None = None,
+        origin: Origin = Origin(),
+    ) -> None:
+        values = np.array(require.field(heights, "surface heights (m)"))
+        missing = np.isnan(values)
+        if mask is not None:
+            given = np.asarray(mask, dtype=bool)
+            if given.shape != values.shape:
+                raise InputError(
+                    f"surface mask must have the shape of the heights {values.shape}, but has {given.shape}."
+                )
+            missing |= given
+        if np.isinf(values).any():
+            raise InputError("surface heights must be finite or NaN (missing), but hold infinities. Mask those points.")
+        if missing.all():
+            raise InputError("surface heights must hold at least one valid point, but every point is missing.")
+        values[missing] = np.nan
+        values.flags.writeable = False
+        missing.flags.writeable = False
+        grid = Grid((values.shape[0], values.shape[1]), (float(dx), float(dx if dy is None else dy)))
+        for name, value in (
+            ("heights", values),
+            ("dx", grid.spacing[0]),
+            ("dy", grid.spacing[1]),
+            ("periodic", bool(periodic)),
+            ("mask", missing),
+            ("origin", origin),
+        ):
+            object.__setattr__(self, name, value)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of points (nx, ny)."""
+        return self.heights.shape[0], self.heights.shape[1]
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of the surface."""
+        return Grid(self.shape, (self.dx, self.dy))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Physical extent (Lx, Ly) in m."""
+        return self.grid.size
+
+    @property
+    def n_missing(self) -> int:
+        """Number of missing points."""
+        return int(np.count_nonzero(self.mask))
+
+    def with_heights(
+        self, heights: ArrayLike, step: str, *, mask: ArrayLike | None = None, periodic: bool | None = None
+    ) -> Surface:
+        """Surface on the same pixels with other ``heights`` (m); ``step`` is added to the history.
+
+        ``mask`` defaults to the NaN points of ``heights`` and ``periodic`` to the flag of this surface.
+        """
+        origin = replace(self.origin, history=(*self.origin.history, step))
+        flag = self.periodic if periodic is None else periodic
+        return Surface(heights, self.dx, self.dy, periodic=flag, mask=mask, origin=origin)
