@@ -38,6 +38,21 @@ def fft_library() -> str:
     return "ducc0" if importlib.util.find_spec("ducc0") else "numpy"
 
 
+def fast_length(minimum: int) -> int:
+    """Smallest transform length of at least ``minimum`` without prime factors above 11."""
+    length = require.integer(minimum, 1, "transform length")
+    while _largest_factor_left(length) > 1:
+        length += 1
+    return length
+
+
+def _largest_factor_left(number: int) -> int:
+    for prime in (2, 3, 5, 7, 11):
+        while number % prime == 0:
+            number //= prime
+    return number
+
+
 @dataclass(frozen=True)
 class RealTransform:
     """Transform pair between real fields (nx, ny) and half spectra (nx, ny // 2 + 1).

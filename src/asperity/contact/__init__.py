@@ -1,0 +1,1 @@
+"""Layer 2: contact problems, the operators, laws and solvers behind them, and their results."""

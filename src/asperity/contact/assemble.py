@@ -1,0 +1,72 @@
+"""From the solution of the discrete problem to the result a user sees."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import measure
+from .boundary import Periodic
+from .certificate import Certificate
+from .control import Control
+from .problem import ContactProblem
+from .result import ContactResult
+from .solvers.optimality import level
+from .solvers.protocol import ContactQP, Solution
+from .state import InterfaceState
+
+
+def assemble(
+    problem: ContactProblem,
+    control: Control,
+    qp: ContactQP,
+    solution: Solution,
+    *,
+    state: InterfaceState | None,
+    stiffness: bool,
+    certificate: Certificate,
+    citations: tuple[str, ...],
+) -> ContactResult:
+    """Fields and scalars of ``solution``; ``state`` is the interface before this load."""
+    p, u = solution.state.pressure, solution.state.deflection
+    grid, cap = problem.grid, qp.cap
+    offset = -level(qp, p, u - qp.profile)
+    raw_gap = offset + u - qp.profile
+    capped = (p > 0.0) & (p >= cap)
+    indentation = np.where(capped, np.maximum(-raw_gap, 0.0), 0.0)
+    permanent = indentation if state is None else state.permanent_indentation + indentation
+    contact = p > 0.0
+    pixels = int(np.count_nonzero(contact))
+    periodic = isinstance(problem.boundary, Periodic)
+    area = measure.corrected_area(contact, grid, periodic=periodic)
+    spots = measure.contact_spots(contact, periodic=periodic) * grid.pixel_area
+    gap = np.maximum(raw_gap, 0.0)
+    return ContactResult(
+        problem=problem,
+        control=control,
+        pressure=p,
+        displacement=u,
+        gap=gap,
+        permanent_indentation=permanent,
+        offset=offset,
+        mean_pressure=float(p.mean()),
+        force=float(p.sum()) * grid.pixel_area,
+        area_fraction=pixels / grid.n_points,
+        area_fraction_corrected=area / grid.area,
+        contact_area=area,
+        mean_real_pressure=float(p.sum()) / pixels if pixels else 0.0,
+        max_pressure=float(p.max()),
+        approach=float(problem.profile().max()) - offset,
+        mean_gap=float(gap.mean()),
+        elastic_energy=0.5 * float((p * u).sum()) * grid.pixel_area,
+        plastic_work=float((np.where(capped, cap, 0.0) * indentation).sum()) * grid.pixel_area,
+        plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
+        max_permanent_indentation=float(permanent.max()),
+        normal_stiffness=measure.normal_stiffness(qp.operator, p, cap) if stiffness else np.nan,
+        n_spots=int(spots.size),
+        spot_areas=spots,
+        mean_spot_area=float(spots.mean()) if spots.size else 0.0,
+        contact_perimeter=measure.contact_perimeter(contact, grid, periodic=periodic),
+        certificate=certificate,
+        status=solution.status,
+        citation_keys=citations,
+    )

@@ -1,0 +1,71 @@
+"""How good is this answer? Numbers that bound the error of a solution, not only the solver's own opinion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .solvers.optimality import best_level, duality_gap, level
+from .solvers.protocol import ContactQP, FixedMean, Solution
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Checks of one solution.
+
+    Attributes
+    ----------
+    duality_gap
+        Rigorous bound on the relative error of the total complementary energy, G / |V|, with V measured at the
+        level of the solution (then \\|V\\| is the elastic energy for elastic contact). At prescribed offset the bound
+        holds for the problem with the load reached.
+    field_error
+        The customary error of the field, G / (total load x rms height).
+    penetration
+        Largest overlap of the bodies outside the plastic points, over the rms height.
+    load_imbalance
+        Relative difference of the load reached and the load prescribed; 0 where the position is prescribed.
+    tolerance
+        Tolerance the solver was given for its relative error.
+    iterations, fft_pairs
+        Work of the solver; FFT pairs of the size of the grid.
+    wall_time
+        Seconds from prepared operator to solution.
+    solver
+        Name of the method.
+    """
+
+    duality_gap: float
+    field_error: float
+    penetration: float
+    load_imbalance: float
+    tolerance: float
+    iterations: int
+    fft_pairs: float
+    wall_time: float
+    solver: str
+
+
+def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float, wall_time: float) -> Certificate:
+    """Certificate of ``solution``, which took ``wall_time`` s."""
+    p, deflection = solution.state.pressure, solution.state.deflection
+    r = deflection - qp.profile
+    at = level(qp, p, r)
+    sharpest = best_level(p, r, qp.cap)
+    total = float(p.sum())
+    bound = duality_gap(p, r, qp.cap, sharpest)
+    energy = abs(0.5 * float((p * deflection).sum()) - float((p * (qp.profile + at)).sum()))
+    overlap = np.where(p < qp.cap, np.maximum(at - r, 0.0), 0.0)
+    target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
+    return Certificate(
+        duality_gap=bound / energy if energy > 0.0 else 0.0 if bound == 0.0 else np.inf,
+        field_error=bound / (total * qp.height_scale) if total > 0.0 else 0.0,
+        penetration=float(overlap.max()) / qp.height_scale,
+        load_imbalance=abs(total - target) / target if target > 0.0 else 0.0,
+        tolerance=tolerance,
+        iterations=solution.state.iterations,
+        fft_pairs=solution.state.applications * qp.operator.pairs_per_application,
+        wall_time=wall_time,
+        solver=solver,
+    )

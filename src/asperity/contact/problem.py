@@ -1,0 +1,118 @@
+"""The contact problem: surfaces, bodies, boundary and interface law, without any load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.grid import Grid
+from ..solids.compliance.protocol import Compliance
+from ..solids.compliance.two_bodies import contact_compliance
+from ..solids.elastic import Body, Rigid, contact_modulus
+from ..surfaces.pair import composite
+from ..surfaces.surface import Surface
+from .boundary import Boundary, Periodic
+from .laws import HardWall, InterfaceLaw
+
+
+@dataclass(frozen=True)
+class Flat:
+    """A perfectly flat counter surface."""
+
+
+CounterSurface: TypeAlias = Surface | Flat
+"""Surface of the counter body."""
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """Two bodies with their surfaces, pressed together without friction.
+
+    Parameters
+    ----------
+    surface
+        Surface of ``body``, heights positive out of it. Missing points must have been filled.
+    body
+        The body under the surface.
+    counter_surface
+        Surface of the counter body on the same grid, heights positive out of *that* body and already laid in the
+        lateral frame of ``surface`` (see ``composite`` for the mirror a measured map needs). Flat by default.
+    counter_body
+        The counter body; rigid by default. Only one of the two may be rigid.
+    boundary
+        ``Periodic()`` or ``Free()``.
+    law
+        ``HardWall()`` (elastic) or ``Hardness(H)``.
+
+    Notes
+    -----
+    Only the sum of the two surfaces and the sum of the two compliances enter (Peng 2001, eq. 3.32 and app. D).
+
+    Raises
+    ------
+    InputError
+        If a surface has missing points, grids differ, both bodies are rigid, or a hardness array has another shape.
+    """
+
+    surface: Surface
+    body: Body
+    counter_surface: CounterSurface = Flat()
+    counter_body: Body = Rigid()
+    boundary: Boundary = Periodic()
+    law: InterfaceLaw = HardWall()
+
+    def __post_init__(self) -> None:
+        _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
+        _require(self.counter_surface, Surface | Flat, "counter_surface", "a Surface or Flat()")
+        _require(self.boundary, Boundary, "boundary", "Periodic() or Free()")
+        for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
+            _require(body, Body, what, "Elastic(...), a named material or Rigid()")
+        contact_modulus(self.body, self.counter_body)
+        for surface, what in ((self.surface, "surface"), (self.counter_surface, "counter_surface")):
+            if isinstance(surface, Surface) and surface.n_missing:
+                raise InputError(
+                    f"{what} must have no missing points, but {surface.n_missing} are missing. "
+                    "Fill them first: filled(surface), or --fill harmonic."
+                )
+        if isinstance(self.counter_surface, Surface):
+            composite(self.surface, self.counter_surface)
+        cap = self.law.pressure_cap()
+        if isinstance(cap, np.ndarray) and cap.shape != self.surface.shape:
+            raise InputError(
+                f"hardness array must have the shape {self.surface.shape} of the surface, but has {cap.shape}."
+            )
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of the contact."""
+        return self.surface.grid
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* in Pa."""
+        return contact_modulus(self.body, self.counter_body)
+
+    @property
+    def compliance(self) -> Compliance:
+        """Sum of the normal compliances of both bodies."""
+        return contact_compliance(self.body, self.counter_body)
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers the problem rests on."""
+        return (*self.compliance.citation_keys, *self.boundary.citation_keys, *self.law.citation_keys, "Kalker1977")
+
+    def profile(self) -> RealArray:
+        """Heights (nx, ny) in m of the composite surface, float64, positive towards the counter body."""
+        if isinstance(self.counter_surface, Surface):
+            return np.asarray(composite(self.surface, self.counter_surface).heights, dtype=np.float64)
+        return np.asarray(self.surface.heights, dtype=np.float64)
+
+
+def _require(value: object, kind: object, what: str, must_be: str) -> None:
+    if not isinstance(value, kind):  # type: ignore[arg-type]
+        raise InputError(f"{what} of a ContactProblem must be {must_be}, but is {type(value).__name__}.")

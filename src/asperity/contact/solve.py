@@ -1,0 +1,97 @@
+"""The one function in which problem, control, solver and what to keep meet."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Literal
+
+from ..core import require
+from ..core.errors import ConvergenceError, InputError
+from ..core.progress import Progress
+from .assemble import assemble
+from .certificate import certify
+from .control import Control
+from .drive import drive
+from .operators import Operator, prepare_operator
+from .problem import ContactProblem
+from .result import ContactResult
+from .solvers.choose import default_solver
+from .solvers.protocol import Solver
+from .state import InterfaceState
+
+
+@dataclass(frozen=True)
+class Keep:
+    """What to compute beyond the fields: ``stiffness`` costs about one further solve."""
+
+    stiffness: bool = True
+
+
+def solve(
+    problem: ContactProblem,
+    control: Control,
+    *,
+    solver: Solver | None = None,
+    state: InterfaceState | None = None,
+    keep: Keep = Keep(),
+    operator: Operator | None = None,
+    progress: Progress | None = None,
+    threads: int | None = None,
+    on_failure: Literal["raise", "return"] = "raise",
+) -> ContactResult:
+    """Solve a contact problem.
+
+    Parameters
+    ----------
+    problem
+        Surfaces, bodies, boundary, law.
+    control
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
+    solver
+        Method with its tolerance; chosen by ``default_solver`` if not given.
+    state
+        Result state of an earlier load: its permanent indentation is kept, its pressure is the first guess.
+    keep
+        What to compute beyond the fields.
+    operator
+        Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in repeated solves.
+    progress
+        Receives the error after every iteration.
+    threads
+        Threads of the transforms; default from ASPERITY_THREADS or the machine.
+    on_failure
+        ``"raise"`` a ConvergenceError holding the result, or ``"return"`` it with its status, when not converged.
+
+    Raises
+    ------
+    NoSolutionError
+        If the load exceeds what the pressure cap bears, or the position lies beyond full contact.
+    ConvergenceError
+        If the solver does not reach its tolerance and ``on_failure`` is ``"raise"``.
+    InputError
+        If state or operator do not belong to the grid of the problem.
+    """
+    require.one_of(on_failure, ("raise", "return"), "on_failure")
+    method = solver or default_solver(problem)
+    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=threads)
+    if ready.grid != problem.grid:
+        raise InputError(f"operator must be prepared on the grid {problem.grid}, but is on {ready.grid}.")
+    started = time.perf_counter()
+    qp, solution = drive(problem, control, method, ready, state, progress)
+    seconds = time.perf_counter() - started
+    certificate = certify(qp, solution, solver=method.name, tolerance=method.tolerance, wall_time=seconds)
+    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys, "Yastrebov2017"}))
+    result = assemble(
+        problem,
+        control,
+        qp,
+        solution,
+        state=state,
+        stiffness=keep.stiffness,
+        certificate=certificate,
+        citations=citation_keys,
+    )
+    if on_failure == "raise" and not solution.status.converged:
+        raise ConvergenceError(f"{solution.status.message} {solution.status.remedy}", result)
+    return result

@@ -1,0 +1,148 @@
+"""The discrete problem every solver solves, the state it iterates on, and the loop around it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.progress import NoProgress, Progress
+from ...core.status import Outcome, Status
+from ..operators.protocol import Operator
+
+
+@dataclass(frozen=True)
+class FixedMean:
+    """The mean pressure (Pa) is prescribed; the offset of the bodies is the multiplier of this constraint."""
+
+    mean_pressure: float
+
+
+@dataclass(frozen=True)
+class FixedOffset:
+    """The offset d (m) in gap = d + K p - h is prescribed."""
+
+    offset: float
+
+
+Constraint: TypeAlias = FixedMean | FixedOffset
+"""What fixes the rigid-body position."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactQP:
+    """Minimise p·Kp/2 - p·(h - d) over 0 <= p <= cap, with the mean of p or the offset d fixed (Kalker 1977).
+
+    Parameters
+    ----------
+    operator
+        K, from pressure (Pa) to displacement (m).
+    profile
+        h, composite heights (nx, ny) in m, float64.
+    cap
+        Largest pressure in Pa: a number, an (nx, ny) array, or infinity.
+    constraint
+        ``FixedMean`` or ``FixedOffset``.
+    height_scale
+        Length in m by which errors are made relative: the rms height of the profile.
+    """
+
+    operator: Operator
+    profile: RealArray
+    cap: float | RealArray
+    constraint: Constraint
+    height_scale: float
+
+    @property
+    def elastic(self) -> bool:
+        """Whether there is no cap at all."""
+        return not isinstance(self.cap, np.ndarray) and self.cap == np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class SolverState:
+    """One iterate, everything needed to continue from it.
+
+    ``pressure`` feasible pressure (Pa); ``deflection`` K·pressure (m); ``error`` its relative optimality error (see
+    ``optimality.relative_error``); ``iterations`` and operator ``applications`` so far; ``exhausted`` when the method
+    cannot improve the iterate; ``memory`` what the method carries from step to step.
+    """
+
+    pressure: RealArray
+    deflection: RealArray
+    error: float
+    iterations: int = 0
+    applications: int = 0
+    exhausted: bool = False
+    memory: object = None
+
+
+class Solver(Protocol):
+    """A method; a frozen value holding only its settings."""
+
+    @property
+    def name(self) -> str:
+        """Name in reports and documents."""
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of the method."""
+
+    @property
+    def tolerance(self) -> float:
+        """Relative error at which to stop."""
+
+    @property
+    def max_iterations(self) -> int:
+        """Number of steps after which to give up."""
+
+    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+        """State at the feasible pressure ``start``; does not change ``start``."""
+
+    def step(self, qp: ContactQP, state: SolverState) -> SolverState:
+        """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Last state of a solver and how it ended; ``errors`` holds the relative error after every iteration."""
+
+    state: SolverState
+    status: Status
+    errors: tuple[float, ...]
+
+
+PATIENCE = 500
+"""Iterations without a new smallest error after which a method counts as stagnated."""
+
+
+def run(solver: Solver, qp: ContactQP, start: RealArray, progress: Progress | None = None) -> Solution:
+    """Iterate ``solver`` from the feasible pressure ``start`` (Pa) until it converges, stagnates or gives up."""
+    report = progress or NoProgress()
+    state = solver.init(qp, start)
+    errors = [state.error]
+    best_at = 0
+    while True:
+        report.update(state.iterations, state.error, solver.tolerance)
+        stagnated = state.exhausted or len(errors) - 1 - best_at >= PATIENCE
+        if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
+            return Solution(state, _status(solver, state, stagnated), tuple(errors))
+        state = solver.step(qp, state)
+        errors.append(state.error)
+        if state.error < errors[best_at]:
+            best_at = len(errors) - 1
+
+
+def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:
+    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
+    if state.error <= solver.tolerance:
+        return Status(Outcome.CONVERGED, f"Converged: {reached}, tolerance {solver.tolerance:.0e}.")
+    if stagnated:
+        remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
+        return Status(Outcome.STAGNATED, f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}.", remedy)
+    remedy = f"Raise max_iterations above {solver.max_iterations} or loosen the tolerance."
+    return Status(
+        Outcome.ITERATION_LIMIT, f"Iteration limit before the tolerance {solver.tolerance:.0e}: {reached}.", remedy
+    )
