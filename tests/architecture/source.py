@@ -1,0 +1,78 @@
+"""The library's own source as syntax trees, and the modules that each file imports."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+PACKAGE = "asperity"
+ROOT = Path(__file__).parents[2] / "src" / PACKAGE
+
+
+@dataclass(frozen=True)
+class Module:
+    """One source file: dotted ``name`` and ``text``; ``is_package`` for an ``__init__`` file."""
+
+    name: str
+    text: str
+    is_package: bool = False
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        return ast.parse(self.text)
+
+    @property
+    def folder(self) -> str:
+        """Subpackage (or module) directly below the package; empty for the package's own ``__init__``."""
+        parts = self.name.split(".")
+        return parts[1] if len(parts) > 1 else ""
+
+
+@dataclass(frozen=True)
+class Import:
+    """Absolute ``target`` that is imported on ``line``: a module, or a name in a module."""
+
+    target: str
+    line: int
+
+
+def library() -> list[Module]:
+    """All modules of the library."""
+    return [_module(path) for path in sorted(ROOT.rglob("*.py"))]
+
+
+def _module(path: Path) -> Module:
+    parts = [PACKAGE, *path.relative_to(ROOT).with_suffix("").parts]
+    is_package = parts[-1] == "__init__"
+    return Module(".".join(parts[:-1] if is_package else parts), path.read_text(encoding="utf-8"), is_package)
+
+
+def imports(module: Module) -> Iterator[Import]:
+    """Everything that ``module`` imports, anywhere in it: at the top, in functions, for type checking, by name."""
+    for node in ast.walk(module.tree):
+        if isinstance(node, ast.Import):
+            yield from (Import(alias.name, node.lineno) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            origin = _absolute(module, "." * node.level + (node.module or ""))
+            yield from (Import(f"{origin}.{alias.name}", node.lineno) for alias in node.names)
+        elif isinstance(node, ast.Call) and _called(node) in {"import_module", "__import__"} and node.args:
+            name = node.args[0]
+            if isinstance(name, ast.Constant) and isinstance(name.value, str):
+                yield Import(_absolute(module, name.value), node.lineno)
+
+
+def _absolute(module: Module, name: str) -> str:
+    level = len(name) - len(name.lstrip("."))
+    if level == 0:
+        return name
+    parts = module.name.split(".")
+    base = parts[: len(parts) - level + (1 if module.is_package else 0)]
+    return ".".join([*base, *filter(None, [name.lstrip(".")])])
+
+
+def _called(node: ast.Call) -> str:
+    function = node.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")

@@ -1,0 +1,107 @@
+"""Imports point downwards: the layers of the library, as data."""
+
+from __future__ import annotations
+
+import pytest
+from architecture.source import PACKAGE, Import, Module, imports, library
+
+LAYERS = {
+    6: ("cli", "web"),
+    5: ("report",),
+    4: ("studies", "plots"),
+    3: ("io",),
+    2: ("contact", "stress"),
+    1: ("surfaces", "solids", "theories"),
+    0: ("core",),
+}
+"""Folders by layer; a folder may import folders of lower layers only."""
+
+DATA_FOLDERS = ("data",)
+"""Folders that hold files, and at most an ``__init__`` that imports nothing of the library."""
+
+SIDEWAYS = {("cli", "web"): "the command `asperity app` starts the web application"}
+"""Sideways imports that are allowed, each with its reason."""
+
+LAYER_OF = {folder: layer for layer, folders in LAYERS.items() for folder in folders} | dict.fromkeys(DATA_FOLDERS, -1)
+TOP_LEVEL = {"", "__main__"}
+MODULES = library()
+
+
+def violations(module: Module) -> list[str]:
+    """One sentence for each import of ``module`` that does not point downwards."""
+    return [
+        f"{module.name}:{item.line} imports {item.target}"
+        for item in imports(module)
+        if not allowed(module.folder, imported_folder(item))
+    ]
+
+
+def imported_folder(item: Import) -> str | None:
+    """Folder of the library that is imported, the empty text for the public names, None for foreign packages."""
+    parts = item.target.split(".")
+    if parts[0] != PACKAGE:
+        return None
+    return parts[1] if len(parts) > 1 and parts[1] in LAYER_OF else ""
+
+
+def allowed(importer: str, imported: str | None) -> bool:
+    """Whether a module in the folder ``importer`` may import from the folder ``imported``."""
+    if imported is None or importer in TOP_LEVEL or importer == imported:
+        return True
+    return LAYER_OF[importer] > LAYER_OF.get(imported, 99) or (importer, imported) in SIDEWAYS
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.name)
+def test_imports_point_downwards(module: Module) -> None:
+    assert violations(module) == []
+
+
+def test_every_folder_has_a_layer() -> None:
+    folders = {module.folder for module in MODULES} - TOP_LEVEL
+    assert folders <= set(LAYER_OF), "give the new folder a layer in LAYERS"
+
+
+def test_library_was_found() -> None:
+    assert {"core", "solids", "surfaces"} <= {module.folder for module in MODULES}
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("asperity.core.grid", "from ..solids import elastic"),
+        ("asperity.core.grid", "from ..solids.elastic import Elastic"),
+        ("asperity.core.grid", "import asperity.solids.elastic as e"),
+        ("asperity.core.grid", "def f():\n    from asperity.contact import solve"),
+        ("asperity.core.grid", "if TYPE_CHECKING:\n    from ..surfaces.surface import Surface"),
+        ("asperity.core.grid", "import importlib\nimportlib.import_module('asperity.io')"),
+        ("asperity.contact.solve", "from .. import solve"),
+        ("asperity.contact.solve", "from asperity import material"),
+        ("asperity.contact.solve", "import asperity"),
+        ("asperity.contact.solve", "from .. import stress"),
+        ("asperity.contact.laws.adhesion", "from ...stress.field import Field"),
+        ("asperity.stress.layered", "from ..contact.result import Result"),
+        ("asperity.solids.library", "from ..surfaces import surface"),
+        ("asperity.surfaces.pair", "from ..solids import elastic"),
+        ("asperity.theories.hertz", "from ..solids import elastic"),
+        ("asperity.plots.maps", "from ..studies import sweep"),
+        ("asperity.studies.sweep", "from ..plots import maps"),
+        ("asperity.io.documents", "from ..report import html"),
+        ("asperity.web.app", "from ..cli import main"),
+        ("asperity.data", "from ..core import grid"),
+    ],
+)
+def test_upward_and_sideways_imports_are_found(name: str, text: str) -> None:
+    assert len(violations(Module(name, text, is_package=name == "asperity.data"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("asperity.contact.solve", "from ..core.errors import InputError\nfrom .result import Result\nimport numpy"),
+        ("asperity.contact.laws.adhesion", "from ..problem import ContactProblem\nfrom ...solids import elastic"),
+        ("asperity.cli.app", "from ..web import server\nfrom ..io import documents"),
+        ("asperity", "from .cli import main"),
+    ],
+)
+def test_downward_imports_are_allowed(name: str, text: str) -> None:
+    assert violations(Module(name, text, is_package=name == "asperity")) == []
