@@ -1,0 +1,124 @@
+"""Output appears whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+from pathlib import Path
+
+import pytest
+
+from asperity.core.errors import InputError, OutputError
+from asperity.io.atomic import atomic_file, atomic_folder
+
+
+def names(folder: Path) -> set[str]:
+    return {entry.name for entry in folder.iterdir()}
+
+
+def test_file_appears_only_at_the_end(tmp_path: Path) -> None:
+    with atomic_file(tmp_path / "a.txt") as partial:
+        partial.write_text("new")
+        assert partial.suffix == ".txt"
+        assert partial.parent == tmp_path
+        assert not (tmp_path / "a.txt").exists()
+    assert (tmp_path / "a.txt").read_text() == "new"
+    assert names(tmp_path) == {"a.txt"}
+
+
+@pytest.mark.parametrize("failure", [KeyboardInterrupt, SystemExit, ValueError, MemoryError])
+def test_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path, failure: type[BaseException]) -> None:
+    target = tmp_path / "a.txt"
+    target.write_text("old")
+
+    def write() -> None:
+        with atomic_file(target, overwrite=True) as partial:
+            partial.write_text("half")
+            raise failure
+
+    with pytest.raises(failure):
+        write()
+    assert target.read_text() == "old"
+    assert names(tmp_path) == {"a.txt"}
+
+
+def test_existing_file_is_kept_unless_overwritten(tmp_path: Path) -> None:
+    target = tmp_path / "a.txt"
+    target.write_text("old")
+    with pytest.raises(OutputError, match=r"must not exist yet.*a\.txt"), atomic_file(target):
+        pytest.fail("the body must not run")
+    with atomic_file(target, overwrite=True) as partial:
+        partial.write_text("new")
+    assert target.read_text() == "new"
+
+
+def test_file_made_meanwhile_is_not_overwritten(tmp_path: Path) -> None:
+    target = tmp_path / "a.txt"
+    with pytest.raises(OutputError, match="must not exist yet"), atomic_file(target) as partial:  # noqa: PT012
+        partial.write_text("mine")
+        target.write_text("theirs")
+    assert target.read_text() == "theirs"
+    assert names(tmp_path) == {"a.txt"}
+
+
+def test_file_needs_a_folder_and_is_none(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="existing folder"), atomic_file(tmp_path / "none" / "a.txt"):
+        pytest.fail("the body must not run")
+    with pytest.raises(OutputError, match="add a file name"), atomic_file(tmp_path, overwrite=True):
+        pytest.fail("the body must not run")
+
+
+def test_full_disk_is_one_sentence_and_other_errors_pass(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot be written: No space left"), atomic_file(tmp_path / "a"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    with pytest.raises(InputError, match="unrelated"), atomic_file(tmp_path / "a"):
+        raise InputError("unrelated")
+    assert names(tmp_path) == set()
+
+
+def test_folder_appears_only_at_the_end_with_its_parents(tmp_path: Path) -> None:
+    target = tmp_path / "deep" / "run"
+    with atomic_folder(target) as partial:
+        (partial / "plots").mkdir()
+        (partial / "plots" / "a.png").write_text("a")
+        assert not target.exists()
+    assert (target / "plots" / "a.png").read_text() == "a"
+    assert names(target.parent) == {"run"}
+    assert target.stat().st_mode == (tmp_path / "deep").stat().st_mode
+
+
+@pytest.mark.parametrize("failure", [KeyboardInterrupt, OSError])
+def test_failed_folder_leaves_nothing(tmp_path: Path, failure: type[BaseException]) -> None:
+    def write() -> None:
+        with atomic_folder(tmp_path / "run") as partial:
+            (partial / "a").write_text("half")
+            raise failure
+
+    with pytest.raises(OutputError if failure is OSError else failure):
+        write()
+    assert names(tmp_path) == set()
+
+
+def test_overwriting_a_folder_keeps_files_of_other_names(tmp_path: Path) -> None:
+    target = tmp_path / "run"
+    (target / "plots").mkdir(parents=True)
+    (target / "plots" / "a.png").write_text("old")
+    (target / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match="new or empty"), atomic_folder(target):
+        pytest.fail("the body must not run")
+    with atomic_folder(target, overwrite=True) as partial:
+        (partial / "plots").mkdir()
+        (partial / "plots" / "a.png").write_text("new")
+    assert (target / "plots" / "a.png").read_text() == "new"
+    assert (target / "notes.txt").read_text() == "mine"
+    assert names(tmp_path) == {"run"}
+
+
+def test_empty_folder_is_used_and_a_file_is_not(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    with atomic_folder(tmp_path / "run") as partial:
+        (partial / "a").write_text("a")
+    assert names(tmp_path / "run") == {"a"}
+    (tmp_path / "file").write_text("")
+    for path in (tmp_path / "file", tmp_path / "file" / "below"):
+        with pytest.raises(OutputError), atomic_folder(path, overwrite=True):
+            pytest.fail("the body must not run")
