@@ -1,6 +1,6 @@
 """Contact mechanics of layered rough surfaces."""
 
-from .contact.advice import Advice
+from .contact.advice import Advice, advise, review
 from .contact.boundary import Free, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure
 from .contact.laws import Hardness, HardWall
@@ -54,8 +54,10 @@ __all__ = [
     "Surface",
     "UnitError",
     "__version__",
+    "advise",
     "cite",
     "contact_modulus",
     "prepare_operator",
+    "review",
     "solve",
 ]

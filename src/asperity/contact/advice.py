@@ -2,8 +2,31 @@
 
 from __future__ import annotations
 
+import math
+import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..solids.elastic import Elastic
+from .boundary import Free
+from .control import Control, Force, MeanPressure
+from .laws import HardWall
+from .problem import ContactProblem
+from .result import ContactResult
+
+LARGEST_SLOPE = 0.3
+PIXELS_PER_WAVE = 6.0
+LARGEST_EDGE_JUMP = 3.0
+LARGEST_LOAD_RATIO = 0.1
+NEARLY_FULL = 0.95
+LARGEST_AREA_CORRECTION = 0.15
+FEWEST_CONTACT_PIXELS = 10
+LARGEST_PATCH = 1.0 / 8.0
+FIELDS_OF_A_SOLVE = 16
 
 
 @dataclass(frozen=True)
@@ -17,3 +40,180 @@ class Advice:
     level: Literal["note", "warning"]
     criterion: str
     message: str
+
+
+def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
+    """Findings that can be made before solving: slopes, resolution, edges, load, memory."""
+    profile = problem.profile()
+    return (
+        *_slope(problem, profile),
+        *_resolution(problem, profile),
+        *_edges(problem, profile),
+        *_load(problem, control),
+        *_memory(problem),
+    )
+
+
+def review(result: ContactResult) -> tuple[Advice, ...]:
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded."""
+    return (*_contact_pixels(result), *_nearly_full(result), *_room(result), *_hardness(result))
+
+
+def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+    m2x, m2y = _mean_square_slopes(problem, profile)
+    slope = math.sqrt(m2x + m2y)
+    if slope > LARGEST_SLOPE:
+        yield Advice(
+            "warning",
+            "slope",
+            f"The rms slope is {slope:.2g}; half-space theory assumes small slopes (up to about {LARGEST_SLOPE:g}). "
+            "Treat areas and pressures as qualitative, or smooth the surface to the scale of interest.",
+        )
+
+
+def _resolution(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+    """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, against the pixel."""
+    for axis, name in enumerate("xy"):
+        if profile.shape[axis] < 3:
+            continue
+        m2 = _mean_square_slopes(problem, profile)[axis]
+        m4 = float((np.diff(profile, 2, axis=axis) ** 2).mean()) / problem.grid.spacing[axis] ** 4
+        if m4 <= 0.0:
+            continue
+        pixels = 2.0 * math.pi * math.sqrt(m2 / m4) / problem.grid.spacing[axis]
+        if pixels < PIXELS_PER_WAVE:
+            yield Advice(
+                "warning",
+                "resolution",
+                f"Along {name} the shortest effective wavelength 2π√(m2/m4) is {pixels:.1f} pixels (at least "
+                f"{PIXELS_PER_WAVE:g} wanted): asperities are not resolved, so contact area and peak pressure depend on the "
+                "pixel size. Resample to a finer grid or give the surface a short-wavelength cut-off.",
+            )
+
+
+def _edges(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+    if isinstance(problem.boundary, Free):
+        return
+    for axis, name in enumerate("xy"):
+        if profile.shape[axis] < 2:
+            continue
+        inside = float((np.diff(profile, axis=axis) ** 2).mean())
+        across = float(((profile.take(0, axis=axis) - profile.take(-1, axis=axis)) ** 2).mean())
+        if across > LARGEST_EDGE_JUMP**2 * inside:
+            jump = (
+                f"{math.sqrt(across / inside):.1f} times the rms step between neighbours" if inside > 0.0 else "a jump"
+            )
+            yield Advice(
+                "warning",
+                "periodic edges",
+                f"The surface does not repeat along {name}: across the border its rms step is {jump}, and the "
+                "periodic boundary turns that into a cliff. Periodise or taper it (--periodise, --taper), or use the "
+                "free boundary.",
+            )
+
+
+def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
+    if not isinstance(control, MeanPressure | Force):
+        return
+    mean = control.value if isinstance(control, MeanPressure) else control.value / problem.grid.area
+    ratio = mean / problem.contact_modulus
+    if ratio > LARGEST_LOAD_RATIO:
+        yield Advice(
+            "warning",
+            "load",
+            f"The mean pressure is {ratio:.2g} of the contact modulus E*; linear elasticity holds up to about "
+            f"{LARGEST_LOAD_RATIO:g}. Check unit and value of the load.",
+        )
+
+
+def _memory(problem: ContactProblem) -> Iterator[Advice]:
+    padding = 4 if isinstance(problem.boundary, Free) else 1
+    needed = 8.0 * FIELDS_OF_A_SOLVE * padding * problem.grid.n_points
+    names = getattr(os, "sysconf_names", {})
+    if "SC_AVPHYS_PAGES" not in names or "SC_PAGE_SIZE" not in names:
+        return
+    available = float(os.sysconf("SC_AVPHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE"))
+    if needed > available:
+        yield Advice(
+            "warning",
+            "memory",
+            f"The solve needs about {needed / 2**30:.1f} GiB of memory and {available / 2**30:.1f} GiB are free. "
+            "Crop the surface or resample it to fewer points.",
+        )
+
+
+def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
+    pixels = int(np.count_nonzero(result.contact))
+    if 0 < pixels < FEWEST_CONTACT_PIXELS:
+        yield Advice(
+            "warning",
+            "contact pixels",
+            f"Only {pixels} pixels are in contact (at least {FEWEST_CONTACT_PIXELS} wanted): area and peak pressure are set "
+            "by the pixel size. Raise the load or refine the grid.",
+        )
+        return
+    correction = 1.0 - result.area_fraction_corrected / result.area_fraction if pixels else 0.0
+    if correction > LARGEST_AREA_CORRECTION:
+        yield Advice(
+            "warning",
+            "contact pixels",
+            f"The perimeter correction takes {100 * correction:.0f} % off the pixel area (more than "
+            f"{100 * LARGEST_AREA_CORRECTION:.0f} %): contact spots are only a few pixels wide. Refine the grid.",
+        )
+
+
+def _nearly_full(result: ContactResult) -> Iterator[Advice]:
+    if result.area_fraction > NEARLY_FULL:
+        yield Advice(
+            "note",
+            "near-full contact",
+            f"The contact is {100 * result.area_fraction:.1f} % of the nominal area; what remains open is set by the "
+            "shortest waves and the numerical tolerance.",
+        )
+
+
+def _room(result: ContactResult) -> Iterator[Advice]:
+    contact, problem = result.contact, result.problem
+    if not contact.any():
+        return
+    if isinstance(problem.boundary, Free):
+        border = contact[0, :].any() or contact[-1, :].any() or contact[:, 0].any() or contact[:, -1].any()
+        if border:
+            yield Advice(
+                "note",
+                "contact at the border",
+                "Contact reaches the border of the grid, beyond which the free boundary has nothing to touch: the map acts "
+                "as a punch of its own outline. For a nominally flat surface the periodic boundary is the usual choice.",
+            )
+    elif not problem.surface.periodic and result.n_spots == 1:
+        widths = [np.ptp(np.flatnonzero(contact.any(axis=1 - axis))) / contact.shape[axis] for axis in (0, 1)]
+        if max(widths) > LARGEST_PATCH:
+            yield Advice(
+                "warning",
+                "patch against period",
+                f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
+                "feels its periodic images. Use the free boundary or a larger grid.",
+            )
+
+
+def _hardness(result: ContactResult) -> Iterator[Advice]:
+    if not isinstance(result.problem.law, HardWall):
+        return
+    for body in (result.problem.body, result.problem.counter_body):
+        hardness = body.strength.hardness if isinstance(body, Elastic) else math.nan
+        if result.max_pressure > hardness:
+            yield Advice(
+                "warning",
+                "hardness",
+                f"The maximum pressure is {result.max_pressure / hardness:.1f} times the hardness of "
+                f"{body.name or 'the body'}: it would yield. Use the law Hardness(...) (--hardness body).",
+            )
+
+
+def _mean_square_slopes(problem: ContactProblem, profile: RealArray) -> tuple[float, float]:
+    """Mean squares of the slopes along x and y by first differences inside the grid."""
+    x, y = (
+        float((np.diff(profile, axis=axis) ** 2).mean()) / step**2 if profile.shape[axis] > 1 else 0.0
+        for axis, step in enumerate(problem.grid.spacing)
+    )
+    return x, y

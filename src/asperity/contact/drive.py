@@ -85,11 +85,14 @@ def _start_at_load(qp: ContactQP, mean: float, start: RealArray | None) -> RealA
 
 def _start_at_offset(qp: ContactQP, start: RealArray | None) -> RealArray:
     if start is not None and start.any():
-        return np.clip(start, 0.0, qp.cap)
+        clipped: RealArray = np.clip(start, 0.0, qp.cap)
+        return clipped
     assert isinstance(qp.constraint, FixedOffset)
     overlap = np.maximum(qp.profile - qp.constraint.offset, 0.0)
     response = float((overlap * qp.operator.apply(overlap)).sum())
-    return np.clip(overlap * (float((overlap**2).sum()) / response if response > 0.0 else 0.0), 0.0, qp.cap)
+    factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
+    bounded: RealArray = np.clip(factor * overlap, 0.0, qp.cap)
+    return bounded
 
 
 def _require_below_full_contact(qp: ContactQP, top: float) -> None:

@@ -62,9 +62,9 @@ def contact_spots(contact: BoolArray, *, periodic: bool) -> RealArray:
         rows, columns = first[joined] - 1, last[joined] - 1
         links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
         count, merged = connected_components(links, directed=False)
+        pixels = np.bincount(merged[labels[contact] - 1], minlength=count)
     else:
-        merged = np.arange(count)
-    pixels = np.bincount(merged[labels[contact] - 1], minlength=count)
+        pixels = np.bincount(labels[contact] - 1, minlength=count)
     return np.sort(pixels)[::-1].astype(float)
 
 

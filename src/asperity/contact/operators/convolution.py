@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
@@ -11,7 +12,7 @@ LARGEST_DENSE = 6400
 """Largest number of points for a dense matrix (330 MB)."""
 
 
-def _offsets(n: int) -> RealArray:
+def _offsets(n: int) -> NDArray[np.int_]:
     return np.arange(n)[:, None] - np.arange(n)[None, :]
 
 
@@ -25,7 +26,8 @@ def circulant_matrix(response: RealArray) -> RealArray:
     """
     nx, ny = _small(response)
     i, j = _offsets(nx) % nx, _offsets(ny) % ny
-    return response[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    matrix: RealArray = response[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    return matrix
 
 
 def toeplitz_matrix(influence: RealArray) -> RealArray:
@@ -38,7 +40,8 @@ def toeplitz_matrix(influence: RealArray) -> RealArray:
     """
     nx, ny = _small(influence)
     i, j = np.abs(_offsets(nx)), np.abs(_offsets(ny))
-    return influence[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    matrix: RealArray = influence[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    return matrix
 
 
 def _small(kernel: RealArray) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.arrays import RealArray
+from ...core.arrays import BoolArray, RealArray
 from .feasible import scaled_to_load
 from .optimality import relative_error
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
@@ -58,50 +58,49 @@ class ConjugateGradient:
         response = qp.operator.apply(direction)
         length = _step_length(qp, gap, direction, response, working)
 
-        trial = p - length * direction
-        bounded = np.clip(trial, 0.0, qp.cap)
+        trial: RealArray = p - length * direction
+        bounded: RealArray = np.clip(trial, 0.0, qp.cap)
         entering = (bounded == 0.0) & (gap < 0.0) | (bounded == qp.cap) & (gap > 0.0)
         clipped = bool((bounded != trial).any())
         re_entered = bool(entering.any())
         if re_entered:
             bounded[entering] -= length * gap[entering]
-            np.clip(bounded, 0.0, qp.cap, out=bounded)
-
-        fixed_mean = isinstance(qp.constraint, FixedMean)
-        if fixed_mean:
+            bounded = np.clip(bounded, 0.0, qp.cap)
+        if isinstance(qp.constraint, FixedMean):
             bounded = scaled_to_load(bounded, qp.cap, qp.constraint.mean_pressure)
-        applications = state.applications + 1
-        if clipped or re_entered or (fixed_mean and not qp.elastic):
-            deflection = qp.operator.apply(bounded)
-            applications += 1
-        else:  # nothing but a linear combination and a common factor: no need to apply the operator again
-            factor = bounded.sum() / trial.sum() if fixed_mean else 1.0
+
+        linear = not (clipped or re_entered) and (qp.elastic or isinstance(qp.constraint, FixedOffset))
+        if linear:  # a combination and a common factor: no need to apply the operator again
+            factor = bounded.sum() / trial.sum() if isinstance(qp.constraint, FixedMean) else 1.0
             deflection = factor * (state.deflection - length * response)
+        else:
+            deflection = qp.operator.apply(bounded)
         return SolverState(
             bounded,
             deflection,
             relative_error(qp, bounded, deflection),
             state.iterations + 1,
-            applications,
+            state.applications + (1 if linear else 2) + (0 if working.any() else 1),
             memory=_Memory(direction, norm, conjugate=not re_entered),
         )
 
 
-def _gap(qp: ContactQP, state: SolverState, working: RealArray) -> RealArray:
-    """Gap (m): negative of the energy gradient's driving part, with zero mean over the working points under load."""
-    r = state.deflection - qp.profile
+def _gap(qp: ContactQP, state: SolverState, working: BoolArray) -> RealArray:
+    """Gap (m), under load relative to its mean over the working points; pressure must fall where it is positive."""
+    r: RealArray = state.deflection - qp.profile
     if isinstance(qp.constraint, FixedOffset):
-        return r + qp.constraint.offset
+        return np.asarray(r + qp.constraint.offset)
     return r - (r[working].mean() if working.any() else r.mean())
 
 
-def _step_length(qp: ContactQP, gap: RealArray, direction: RealArray, response: RealArray, working: RealArray) -> float:
+def _step_length(qp: ContactQP, gap: RealArray, direction: RealArray, response: RealArray, working: BoolArray) -> float:
+    """Pressure per gap (Pa/m) that minimises the energy along ``direction``."""
     if isinstance(qp.constraint, FixedMean) and working.any():
         response = response - response[working].mean()
     curvature = float((response[working] * direction[working]).sum())
     if curvature > 0.0:
         return float((gap[working] * direction[working]).sum()) / curvature
-    # nothing between the bounds: the step that levels one pixel, from the stiffest response of the operator
+    # nothing to move between the bounds: take the step that would level a lone pixel
     impulse = np.zeros_like(gap)
     impulse[0, 0] = 1.0
     return 1.0 / float(qp.operator.apply(impulse)[0, 0])
