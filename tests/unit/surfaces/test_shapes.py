@@ -1,0 +1,103 @@
+"""Shapes: closed forms, highest point at zero, periodicity and refusals."""
+
+import numpy as np
+import pytest
+
+from asperity.core.errors import InputError
+from asperity.core.grid import Grid
+from asperity.surfaces import generate as g
+
+GRID = Grid((32, 24), (1e-7, 2e-7))
+SHAPES = {
+    "sphere": lambda grid: g.sphere(grid, radius=1e-3),
+    "exact sphere": lambda grid: g.sphere(grid, radius=1e-5, exact=True),
+    "paraboloid": lambda grid: g.elliptic_paraboloid(grid, radius_x=1e-3, radius_y=2e-3),
+    "cylinder": lambda grid: g.cylinder(grid, radius=1e-3),
+    "cone": lambda grid: g.cone(grid, slope=0.1),
+    "punch": lambda grid: g.flat_punch(grid, radius=1e-6, depth=1e-6),
+    "sinusoid": lambda grid: g.sinusoid(grid, amplitude=1e-9, wavelength=1.6e-6),
+    "bisinusoid": lambda grid: g.bisinusoid(grid, amplitude=1e-9, wavelength=1.6e-6),
+    "flat": g.flat,
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_highest_point_is_zero_at_the_centre_node(name):
+    surface = SHAPES[name](GRID)
+    assert surface.shape == GRID.shape
+    assert (surface.dx, surface.dy) == GRID.spacing
+    assert surface.heights.max() == 0.0
+    assert surface.heights[16, 12] == 0.0
+    assert surface.origin.source
+    assert surface.origin.history[0].startswith("generated: ")
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_only_waves_are_periodic(name):
+    assert SHAPES[name](GRID).periodic is (name in ("sinusoid", "bisinusoid"))
+
+
+def test_closed_forms_at_a_node():
+    x, y = 5 * 1e-7, -3 * 2e-7
+    node = (16 + 5, 12 - 3)
+    r = np.hypot(x, y)
+    expected = {
+        "sphere": -(r**2) / 2e-3,
+        "exact sphere": -1e-5 + np.sqrt(1e-10 - r**2),
+        "paraboloid": -(x**2) / 2e-3 - y**2 / 4e-3,
+        "cylinder": -(x**2) / 2e-3,
+        "cone": -0.1 * r,
+        "punch": 0.0,
+        "sinusoid": 1e-9 * (np.cos(2 * np.pi * x / 1.6e-6) - 1),
+        "bisinusoid": 1e-9 * (np.cos(2 * np.pi * x / 1.6e-6) + np.cos(2 * np.pi * y / 1.6e-6) - 2),
+    }
+    for name, value in expected.items():
+        # the closed form of the exact sphere cancels 5 digits, hence the absolute part
+        assert SHAPES[name](GRID).heights[node] == pytest.approx(value, rel=1e-12, abs=1e-20), name
+
+
+def test_cylinder_along_x_varies_along_y_only():
+    heights = g.cylinder(GRID, radius=1e-3, axis="x").heights
+    assert np.ptp(heights, axis=0).max() == 0.0
+    assert heights[0, 0] == pytest.approx(-((12 * 2e-7) ** 2) / 2e-3, rel=1e-12)
+
+
+def test_sinusoid_along_y():
+    heights = g.sinusoid(GRID, amplitude=1e-9, wavelength=4.8e-6, axis="y").heights
+    assert np.ptp(heights, axis=0).max() == 0.0
+    assert heights.min() == pytest.approx(-2e-9, rel=1e-12)
+
+
+def test_paraboloid_and_sphere_differ_by_r4():
+    small = Grid((9, 9), (1e-7, 1e-7))
+    parabola, sphere = g.sphere(small, radius=1e-5).heights, g.sphere(small, radius=1e-5, exact=True).heights
+    x, y = small.centred_coordinates()
+    r2 = x**2 + y**2
+    # next term r⁴/(8R³); the one after it is smaller by r²/(2R²) < 2e-3
+    np.testing.assert_allclose(parabola - sphere, r2**2 / 8e-15, rtol=2e-3, atol=1e-22)
+
+
+def test_punch_depth_outside():
+    heights = SHAPES["punch"](GRID).heights
+    assert heights[0, 0] == -1e-6
+    assert heights[26, 12] == 0.0  # r = a belongs to the punch
+    assert heights[27, 12] == -1e-6
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: g.sphere(GRID, radius=0.0), "sphere radius"),
+        (lambda: g.sphere(GRID, radius=1e-6, exact=True), "larger radius"),
+        (lambda: g.cylinder(GRID, radius=1.0, axis="z"), "cylinder axis"),
+        (lambda: g.cone(GRID, slope=-1.0), "cone slope"),
+        (lambda: g.flat_punch(GRID, radius=1e-6, depth=0.0), "punch depth"),
+        (lambda: g.sinusoid(GRID, amplitude=1e-9, wavelength=1.5e-6), "whole number of wavelengths"),
+        (lambda: g.sinusoid(GRID, amplitude=1e-9, wavelength=1e-7), "two pixels"),
+        (lambda: g.bisinusoid(GRID, amplitude=1e-9, wavelength=3.2e-6), "along y"),
+        (lambda: g.elliptic_paraboloid(GRID, radius_x=1.0, radius_y=float("nan")), "along y"),
+    ],
+)
+def test_refusals(make, words):
+    with pytest.raises(InputError, match=words):
+        make()
