@@ -1,0 +1,1 @@
+"""Preparation of measured surfaces: levelling, cropping, resampling, filling and making periodic."""

@@ -1,0 +1,73 @@
+"""Removal of mean, tilt or curvature by least squares."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.units import show
+from ..characterise.heights import rms_height
+from ..surface import Surface
+
+_DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
+_BLOCK = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
+
+
+def levelled(surface: Surface, form: str = "plane") -> Surface:
+    """Surface less its least-squares ``form`` over the valid points.
+
+    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``) or 2 (``quadratic``),
+    found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling is a high-pass filter: it
+    lowers the rms height of a surface with waves as long as the map.
+
+    Raises
+    ------
+    InputError
+        If the form is unknown or the valid points do not determine it (all on one line, for example).
+    """
+    degree = _DEGREES[require.one_of(form, _DEGREES, "form to be removed")]
+    fit = _fitted(surface, degree, form)
+    before = surface.heights.astype(np.float64, copy=False)
+    step = f"levelled: {form} removed"
+    result = surface.with_heights(before - fit, step)
+    text = f"{step} (rms {show(rms_height(surface), 'm', 3)} -> {show(rms_height(result), 'm', 3)})"
+    return surface.with_heights(result.heights, text)
+
+
+def _fitted(surface: Surface, degree: int, form: str) -> RealArray:
+    """Least-squares polynomial at all nodes, shape (nx, ny), m."""
+    along_x, along_y = (_legendre(n, degree) for n in surface.shape)
+    powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
+    offset = float(np.nanmean(surface.heights))
+    triangle: RealArray = np.zeros((0, len(powers) + 1))
+    rows = max(1, _BLOCK // surface.shape[1])
+    for start in range(0, surface.shape[0], rows):
+        part = slice(start, start + rows)
+        valid = ~surface.mask[part]
+        columns = [(along_x[part, None, a] * along_y[None, :, b])[valid] for a, b in powers]
+        block = np.column_stack([*columns, surface.heights[part][valid].astype(np.float64) - offset])
+        triangle = np.linalg.qr(np.vstack([triangle, block])).R
+    coefficients = np.zeros((degree + 1, degree + 1))
+    for (a, b), value in zip(powers, _solved(triangle, len(powers), form), strict=True):
+        coefficients[a, b] = value
+    fit: RealArray = along_x @ coefficients @ along_y.T + offset
+    return fit
+
+
+def _solved(triangle: RealArray, unknowns: int, form: str) -> RealArray:
+    diagonal = np.abs(np.diag(triangle))[:unknowns]
+    if diagonal.size < unknowns or diagonal.min() < 1e-10 * diagonal.max():
+        raise InputError(
+            f"surface must have enough valid points, not all on one line, to fit a {form} ({unknowns} coefficients), "
+            "but has not. Use a lower form or fill the missing points."
+        )
+    solution: RealArray = np.linalg.solve(triangle[:unknowns, :unknowns], triangle[:unknowns, unknowns])
+    return solution
+
+
+def _legendre(count: int, degree: int) -> RealArray:
+    """Legendre polynomials 0 … degree at ``count`` equally spaced points on [-1, 1], shape (count, degree + 1)."""
+    points = np.linspace(-1.0, 1.0, count) if count > 1 else np.zeros(1)
+    return np.polynomial.legendre.legvander(points, degree)
