@@ -1,0 +1,93 @@
+"""Any file with heights → Surface. Units and sizes are taken from the file or asked for, never guessed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import FileFormatError
+from . import instrument, plain
+from .channels import ChannelInfo
+from .surface import Surface
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    channel: str | int | None = None,
+    size: tuple[float, float] | None = None,
+    height_unit: str | None = None,
+    z_scale: float | None = None,
+) -> Surface:
+    """Surface from a file; heights in m on axes x (to the right) and y (upwards in the picture).
+
+    * Instrument files (some forty formats, read by SurfaceTopography) state size and units themselves. The picture
+      that the instrument software shows has its top row at the largest y.
+    * Text matrices (.txt, .dat, .asc, .csv): one line per row of the picture, top row first, separated by blanks,
+      tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``.
+    * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.
+    * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit, 65535 for 16 bit) is
+      ``z_scale``; TIFF files of floating-point heights need ``height_unit`` instead. All need ``size``.
+
+    Parameters
+    ----------
+    path
+        File name.
+    channel
+        Name or index of the data channel (see :func:`channels`); the default height channel if omitted.
+    size
+        (Lx, Ly) in m, only if the file does not state it: number of points times pixel size.
+    height_unit
+        Unit of the heights such as ``"nm"``, only if the file does not state it.
+    z_scale
+        Height in m of the full grey scale of a picture.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, unreadable, empty, damaged, of unknown format, not a map, or lacks a size or unit that
+        is not given, or states one that is given.
+    UnitError
+        If ``height_unit`` is not a unit of length.
+    """
+    file = _checked(path)
+    if plain.is_plain(file):
+        surface = plain.read_plain(file, channel=channel, size=size, height_unit=height_unit, z_scale=z_scale)
+    else:
+        if z_scale is not None:
+            raise FileFormatError(f"file {file} is not a picture, so z_scale (--z-scale) must be left out.")
+        surface = instrument.read_instrument(file, channel=channel, size=size, height_unit=height_unit)
+    if min(surface.shape) < 2 or not np.isfinite(surface.size).all():
+        raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {surface.shape}.")
+    return surface
+
+
+def channels(path: str | os.PathLike[str]) -> tuple[ChannelInfo, ...]:
+    """The two-dimensional data channels of a file, in its order.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, unreadable, empty, damaged or of unknown format.
+    """
+    file = _checked(path)
+    return plain.plain_channels(file) if plain.is_plain(file) else instrument.instrument_channels(file)
+
+
+def _checked(path: str | os.PathLike[str]) -> Path:
+    """``path`` of a file that exists, can be opened and is not empty."""
+    file = Path(path)
+    if not file.exists():
+        raise FileFormatError(f"file {file} does not exist. Check the name and the folder.")
+    if not file.is_file():
+        raise FileFormatError(f"file {file} must be a file with heights, but is a folder or device.")
+    try:
+        with file.open("rb") as stream:
+            start = stream.read(4096)
+    except OSError as exc:
+        raise FileFormatError(f"file {file} cannot be opened: {exc.strerror}. Check its permissions.") from exc
+    if len(start) < 4096 and not start.strip():
+        raise FileFormatError(f"file {file} must hold heights, but is empty.")
+    return file

@@ -1,0 +1,162 @@
+"""Plain files: orientation, scales, and one sentence for every failure."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from asperity.core.errors import FileFormatError, UnitError
+from asperity.surfaces.read import channels, read
+
+SIZE = (4e-6, 3e-6)
+PICTURE = np.array([[1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12]], dtype=np.uint8)  # rows from top to bottom
+EXPECTED = PICTURE[::-1].T.astype(float)  # [x, y] with y upwards
+
+
+@pytest.mark.parametrize(
+    ("name", "delimiter"), [("a.txt", " "), ("a.dat", "\t"), ("a.asc", "  "), ("a.csv", ","), ("b.csv", ";")]
+)
+def test_text_matrix(tmp_path, name, delimiter):
+    path = tmp_path / name
+    path.write_text("\n".join(delimiter.join(str(v) for v in row) for row in PICTURE))
+    surface = read(path, size=SIZE, height_unit="nm")
+    np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-15)
+    assert surface.size == pytest.approx(SIZE)
+    assert surface.dx == pytest.approx(1e-6)
+    assert not surface.periodic
+    assert "nm" in surface.origin.history[0]
+
+
+def test_text_with_missing_points(tmp_path):
+    path = tmp_path / "a.txt"
+    path.write_text("1 2 nan\n4 5 6\n")
+    surface = read(path, size=(3e-6, 2e-6), height_unit="um")
+    assert surface.n_missing == 1
+    assert surface.mask[2, 1]
+    assert surface.heights[2, 0] == pytest.approx(6e-6)
+
+
+def test_text_export_with_header_states_its_size(tmp_path):
+    path = tmp_path / "export.txt"
+    header = "# Channel: Z\n# Width: 4 µm\n# Height: 3 µm\n# Value units: m\n"
+    path.write_text(header + "\n".join(" ".join(f"{v}e-9" for v in row) for row in PICTURE), encoding="utf-8")
+    surface = read(path)
+    np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-12)
+    assert surface.size == pytest.approx(SIZE)
+
+
+def test_numpy_array_is_taken_as_x_y(tmp_path):
+    path = tmp_path / "a.npy"
+    np.save(path, EXPECTED)
+    surface = read(path, size=SIZE, height_unit="nm")
+    np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.tif", "a.bmp"])
+def test_eight_bit_picture(tmp_path, name):
+    path = tmp_path / name
+    Image.fromarray(PICTURE).save(path)
+    surface = read(path, size=SIZE, z_scale=255e-9)
+    np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-14)
+
+
+def test_other_pictures(tmp_path):
+    sixteen, floating, rgb = tmp_path / "a.png", tmp_path / "f.tif", tmp_path / "g.png"
+    Image.fromarray(PICTURE.astype(np.uint16) * 257).save(sixteen)
+    Image.fromarray(PICTURE.astype(np.float32)).save(floating)
+    Image.fromarray(np.repeat(PICTURE[:, :, None], 3, axis=2)).save(rgb)
+    for surface in (
+        read(sixteen, size=SIZE, z_scale=255e-9),
+        read(floating, size=SIZE, height_unit="nm"),
+        read(rgb, size=SIZE, z_scale=255e-9),
+    ):
+        np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-12)
+
+
+def test_channels_of_a_plain_file(tmp_path):
+    path = tmp_path / "a.npy"
+    np.save(path, EXPECTED)
+    (info,) = channels(path)
+    assert info.shape == (4, 3)
+    assert info.size is None
+    assert info.default
+    with pytest.raises(FileFormatError, match="channel of file"):
+        read(path, channel="Phase", size=SIZE, height_unit="nm")
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("a.txt", {}, "--size"),
+        ("a.txt", {"size": SIZE}, "--height-unit"),
+        ("a.txt", {"size": (1e-6, 0.0), "height_unit": "nm"}, "two positive lengths"),
+        ("a.txt", {"size": 1e-6, "height_unit": "nm"}, "two positive lengths"),
+        ("a.txt", {"size": SIZE, "height_unit": "nm", "z_scale": 1.0}, "--z-scale"),
+        ("a.png", {"size": SIZE}, "--z-scale"),
+        ("a.png", {"z_scale": 1e-9}, "--size"),
+        ("a.png", {"size": SIZE, "height_unit": "nm"}, "--z-scale"),
+        ("colour.png", {"size": SIZE, "z_scale": 1e-9}, "colour"),
+        ("empty.txt", {}, "is empty"),
+        ("blank.txt", {}, "is empty"),
+        ("ragged.txt", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
+        ("words.txt", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
+        ("line.txt", {"size": SIZE, "height_unit": "nm"}, "2 x 2"),
+        ("gone.txt", {}, "does not exist"),
+        ("folder", {}, "folder"),
+        ("broken.png", {"size": SIZE, "z_scale": 1e-9}, "cannot be read"),
+        ("broken.npy", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
+        ("cube.npy", {"size": SIZE, "height_unit": "nm"}, "two-dimensional"),
+        ("object.npy", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
+        ("nothing.txt", {"size": SIZE, "height_unit": "nm"}, "valid point"),
+        ("noise.xyz1", {}, "unknown format"),
+    ],
+)
+def test_refusals_are_one_sentence_with_the_remedy(tmp_path, name, options, words):
+    _write_bad_files(tmp_path)
+    with pytest.raises(FileFormatError, match=words) as caught:
+        read(tmp_path / name, **options)
+    assert name in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_wrong_unit(tmp_path):
+    _write_bad_files(tmp_path)
+    with pytest.raises(UnitError, match="height_unit"):
+        read(tmp_path / "a.txt", size=SIZE, height_unit="kg")
+
+
+def test_unreadable_file(tmp_path, monkeypatch):
+    path = tmp_path / "locked.txt"
+    path.write_text("1 2\n3 4\n")
+
+    def refuse(self, *args, **options):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)  # file modes do not bind a privileged user
+    with pytest.raises(FileFormatError, match="Permission denied"):
+        read(path)
+
+
+def _write_bad_files(folder):
+    texts = {
+        "a.txt": "1 2\n3 4\n",
+        "empty.txt": "",
+        "blank.txt": " \n",
+        "ragged.txt": "1 2 3\n4 5\n",
+        "words.txt": "hello world\n",
+        "line.txt": "1 2 3\n",
+        "nothing.txt": "nan nan\nnan nan\n",
+    }
+    for name, text in texts.items():
+        (folder / name).write_text(text)
+    (folder / "folder").mkdir()
+    Image.fromarray(PICTURE).save(folder / "a.png")
+    colours = np.zeros((3, 4, 3), dtype=np.uint8)
+    colours[..., 0] = PICTURE
+    Image.fromarray(colours).save(folder / "colour.png")
+    (folder / "broken.png").write_bytes((folder / "a.png").read_bytes()[:40])
+    np.save(folder / "cube.npy", np.zeros((2, 2, 2)))
+    np.save(folder / "object.npy", np.array([[{}, {}]]), allow_pickle=True)
+    (folder / "broken.npy").write_bytes((folder / "cube.npy").read_bytes()[:-8])
+    (folder / "noise.xyz1").write_bytes(bytes(np.random.default_rng(1).integers(0, 256, 4000, dtype=np.uint8)))
