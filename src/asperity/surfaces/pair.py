@@ -1,0 +1,74 @@
+"""Two rough bodies as one composite surface."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from .surface import Origin, Surface
+
+
+def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | None = None) -> Surface:
+    """Sum h = h1 + h2 of two surfaces, each with heights positive out of its own body.
+
+    Only this sum enters the undeformed gap g = g0 - h of frictionless half-spaces. A map of the upper body is
+    measured looking at that body: turning it over about the y axis replaces x by Lx - x (``mirrored="x"``), about
+    the x axis y by Ly - y (``mirrored="y"``). Points missing in either surface are missing in the sum, which is
+    periodic only if both are; a periodic surface is mirrored about its node 0, any other about its middle.
+
+    Parameters
+    ----------
+    surface, counter_surface
+        Surfaces with equal numbers of points and equal pixel sizes (to 1e-6).
+    mirrored
+        None, ``x`` or ``y``: how the counter surface is turned over.
+
+    Raises
+    ------
+    InputError
+        If the grids differ, the mirror is unknown, or no point is valid in both surfaces.
+    """
+    if mirrored is not None:
+        require.one_of(mirrored, ("x", "y"), "mirror of the counter surface")
+    _require_equal_grids(surface, counter_surface)
+    other = counter_surface.heights
+    if mirrored is not None:
+        other = _mirrored(other, "xy".index(mirrored), counter_surface.periodic)
+    return Surface(
+        surface.heights + other,
+        surface.dx,
+        surface.dy,
+        periodic=surface.periodic and counter_surface.periodic,
+        origin=_joint_origin(surface.origin, counter_surface.origin, mirrored),
+    )
+
+
+def _mirrored(heights: RealArray, axis: int, periodic: bool) -> RealArray:
+    flipped = np.flip(heights, axis)
+    return np.roll(flipped, 1, axis) if periodic else flipped
+
+
+def _require_equal_grids(first: Surface, second: Surface) -> None:
+    pixels = np.allclose(first.grid.spacing, second.grid.spacing, rtol=1e-6, atol=0.0)
+    if first.shape == second.shape and pixels:
+        return
+    raise InputError(
+        "the two surfaces of a pair must have equal numbers of points and pixel sizes, but have "
+        f"{_words(first)} and {_words(second)}. Use cropped() and resampled() to bring them on one grid."
+    )
+
+
+def _words(surface: Surface) -> str:
+    return f"{surface.shape[0]} x {surface.shape[1]} points of {surface.dx:.6g} x {surface.dy:.6g} m"
+
+
+def _joint_origin(first: Origin, second: Origin, mirrored: str | None) -> Origin:
+    history = (
+        *(f"surface 1: {step}" for step in first.history),
+        *(f"surface 2: {step}" for step in second.history),
+        "composite: sum of surfaces 1 and 2" + (f", surface 2 mirrored along {mirrored}" if mirrored else ""),
+    )
+    source = " + ".join(origin.source or "unnamed surface" for origin in (first, second))
+    return Origin(source=source, history=history)
