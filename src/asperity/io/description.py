@@ -1,0 +1,92 @@
+"""Bodies, laws, boundaries and controls as plain dictionaries, and back; exact, for files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any, get_args
+
+import numpy as np
+
+from ..contact.boundary import Boundary
+from ..contact.control import Control
+from ..contact.laws import Hardness, HardWall
+from ..contact.problem import Flat
+from ..core.arrays import RealArray
+from ..core.errors import FileFormatError, InputError
+from ..solids.elastic import Body
+from ..solids.strength import Strength
+
+TYPES: tuple[type, ...] = (
+    *get_args(Body),
+    *get_args(Boundary),
+    *get_args(Control),
+    Flat,
+    Hardness,
+    HardWall,
+    Strength,
+)
+"""Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
+
+ARRAY = "array"
+"""Key that stands for an (nx, ny) array, which is kept beside the dictionary under the name it holds."""
+
+NUMBER = "number"
+"""Key that stands for a number that JSON lacks: nan or an infinity, as text."""
+
+
+def describe(value: object, arrays: dict[str, RealArray] | None = None, name: str = "") -> Any:
+    """Plain dictionary ``{"type": ..., field: ...}`` of ``value``; arrays go into ``arrays`` under their field's name.
+
+    Raises
+    ------
+    InputError
+        If ``value`` is of a type that files do not know (for example an interface law of one's own).
+    """
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return {NUMBER: repr(value)}
+    if value is None or isinstance(value, str | bool | int | float):
+        return value
+    if isinstance(value, tuple | list):
+        return [describe(item, arrays, name) for item in value]
+    if isinstance(value, np.ndarray) and arrays is not None and name not in arrays:
+        arrays[name] = value
+        return {ARRAY: name}
+    if is_dataclass(value) and type(value) in TYPES:
+        entries = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
+        kind = type(value).__name__
+        return {"type": kind, **{key: describe(item, arrays, f"{kind}_{key}") for key, item in entries.items()}}
+    raise InputError(
+        f"every part of a result to be saved must be one of {', '.join(sorted(t.__name__ for t in TYPES))}, numbers "
+        f"or text, but {name or 'one'} is {type(value).__name__}; export its fields instead."
+    )
+
+
+def rebuild(description: Any, arrays: Mapping[str, RealArray] | None = None) -> Any:
+    """The value that ``describe`` made ``description`` and ``arrays`` from.
+
+    Raises
+    ------
+    FileFormatError
+        If it names an unknown type or lacks an array.
+    """
+    if isinstance(description, list):
+        return tuple(rebuild(item, arrays) for item in description)
+    if not isinstance(description, dict):
+        return description
+    if NUMBER in description:
+        return float(description[NUMBER])
+    if ARRAY in description:
+        if arrays is None or description[ARRAY] not in arrays:
+            raise FileFormatError(f"result file must hold the array {description[ARRAY]!r}, but does not.")
+        return arrays[description[ARRAY]]
+    kinds = {kind.__name__: kind for kind in TYPES}
+    name = description.get("type")
+    if name not in kinds:
+        raise FileFormatError(
+            f"type in a result file must be one of {', '.join(sorted(kinds))}, but is {name!r}; update asperity."
+        )
+    return kinds[name](**{key: rebuild(item, arrays) for key, item in description.items() if key != "type"})

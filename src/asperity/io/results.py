@@ -1,0 +1,200 @@
+"""A result as one labelled NetCDF-4 file: written whole, read back exactly."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.certificate import Certificate
+from ..contact.problem import ContactProblem
+from ..contact.result import ContactResult
+from ..core.arrays import RealArray
+from ..core.digest import array_digest
+from ..core.errors import FileFormatError
+from ..core.status import Outcome, Status
+from ..surfaces.surface import Origin, Surface
+from .atomic import atomic_file
+from .description import describe, rebuild
+from .labels import ALL_SCALARS, FIELDS
+from .provenance import provenance, surface_provenance
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT_VERSION = 1
+"""Version of the layout of result files; raised whenever an older asperity could misread a newer file."""
+
+PARTS = ("body", "counter_body", "boundary", "law", "control")
+"""Attributes that describe problem and control, each a JSON text."""
+
+
+def dataset(result: ContactResult, *, document: str | None = None) -> xarray.Dataset:
+    """``result`` as an ``xarray.Dataset`` with dimensions x, y (m) and spot, units and labels on every variable.
+
+    Scalars are 0-d variables; bodies, boundary, law, control, certificate, status, provenance, citation keys and the
+    text of the problem ``document`` are attributes.
+
+    Raises
+    ------
+    InputError
+        If the problem holds a type that files do not know.
+    """
+    import xarray
+
+    problem = result.problem
+    arrays: dict[str, RealArray] = {}
+    owners = {"control": result} | dict.fromkeys(PARTS[:4], problem)
+    parts = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
+    variables: dict[str, Any] = {"heights": _field(problem.surface.heights, "m", "heights of the surface")}
+    if isinstance(problem.counter_surface, Surface):
+        heights = problem.counter_surface.heights
+        variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
+    for item in FIELDS:
+        variables[item.attribute] = _field(getattr(result, item.attribute), item.unit, item.label)
+    variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
+    variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
+    for item in ALL_SCALARS:
+        variables[item.attribute] = ((), getattr(result, item.attribute), _labels(item.unit, item.label))
+    variables |= {name: _field(values, "Pa", "hardness") for name, values in arrays.items()}
+    x, y = problem.grid.coordinates()
+    coordinates = {
+        "x": ("x", x[:, 0], _labels("m", "position along x")),
+        "y": ("y", y[0], _labels("m", "position along y")),
+    }
+    attributes = _attributes(result) | parts | ({} if document is None else {"document": document})
+    return xarray.Dataset(variables, coordinates, attributes)
+
+
+def save(result: ContactResult, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
+    """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    InputError
+        If the problem holds a type that files do not know.
+    """
+    data = dataset(result, document=document)
+    encoding: dict[str, dict[str, Any]] = {str(name): {"_FillValue": None} for name in data.variables}
+    for name in ("pressure", "permanent_indentation", "contact"):  # mostly zero, so packing costs little and saves much
+        encoding[name] |= {"zlib": True, "complevel": 1, "shuffle": True}
+    with atomic_file(path, overwrite=overwrite) as partial:
+        data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)
+
+
+def open_dataset(path: str | Path) -> xarray.Dataset:
+    """The result file ``path`` as an ``xarray.Dataset`` in memory, for analysis.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer format.
+    """
+    import xarray
+
+    if not Path(path).is_file():
+        raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
+    try:
+        data = xarray.load_dataset(path, engine="h5netcdf", decode_times=False)
+    except Exception as error:  # the readers below raise many types on foreign or damaged bytes
+        raise FileFormatError(
+            f"result file must be a whole NetCDF-4 file, but {path} is not ({error}). Was the copy interrupted?"
+        ) from error
+    version = data.attrs.get("asperity_format")
+    if version is None:
+        raise FileFormatError(f"result file must be written by asperity, but {path} is another NetCDF-4 file.")
+    if int(version) > FORMAT_VERSION:
+        raise FileFormatError(
+            f"result file must be of format {FORMAT_VERSION} or older, but {path} is of {version}; update asperity."
+        )
+    return data
+
+
+def load(path: str | Path) -> ContactResult:
+    """The result in the file ``path``, equal to the one that was saved: same fields to the bit, same problem.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer format.
+    """
+    data = open_dataset(path)
+    try:
+        return _result(data)
+    except FileFormatError:
+        raise
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise FileFormatError(f"result file must hold a whole result, but {path} lacks or garbles {error}.") from error
+
+
+def _result(data: xarray.Dataset) -> ContactResult:
+    attributes = data.attrs
+    arrays = {str(name): np.asarray(variable) for name, variable in data.data_vars.items() if variable.ndim == 2}
+    parts = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
+    control = parts.pop("control")
+    surface = _surface(arrays["heights"], attributes["surface"])
+    if "counter_heights" in arrays:
+        parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
+    certificate = {f.name: _plain(attributes[f"certificate_{f.name}"]) for f in fields(Certificate)}
+    values: dict[str, Any] = {item.attribute: arrays[item.attribute] for item in FIELDS}
+    values |= {item.attribute: data[item.attribute].item() for item in ALL_SCALARS}
+    return ContactResult(
+        problem=ContactProblem(surface=surface, **parts),
+        control=control,
+        spot_areas=np.asarray(data["spot_areas"]),
+        certificate=Certificate(**certificate),
+        status=Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"]),
+        citation_keys=tuple(attributes["citation_keys"].split()),
+        **values,
+    )
+
+
+def _attributes(result: ContactResult) -> dict[str, Any]:
+    """Everything that is neither field nor scalar nor a part of the problem described elsewhere."""
+    status, counter = result.status, result.problem.counter_surface
+    described = {
+        "title": "contact of rough surfaces",
+        "asperity_format": FORMAT_VERSION,
+        "surface": _surface_text(result.problem.surface),
+        "status_outcome": str(status.outcome),
+        "status_message": status.message,
+        "status_remedy": status.remedy,
+        "provenance": json.dumps(provenance(result)),
+        "citation_keys": " ".join(result.citation_keys),
+    }
+    if isinstance(counter, Surface):
+        described["counter_surface"] = _surface_text(counter)
+    checks = {f"certificate_{f.name}": getattr(result.certificate, f.name) for f in fields(Certificate)}
+    return described | checks
+
+
+def _surface_text(surface: Surface) -> str:
+    grid = {"dx": surface.dx, "dy": surface.dy, "periodic": surface.periodic}
+    return json.dumps(grid | surface_provenance(surface))
+
+
+def _surface(heights: np.ndarray[Any, Any], text: str) -> Surface:
+    described = json.loads(text)
+    if array_digest(heights) != described["digest"]:
+        raise ValueError("heights: they do not match their digest")
+    origin = Origin(
+        described["source"], described["channel"], described["instrument"], history=tuple(described["history"])
+    )
+    return Surface(heights, described["dx"], described["dy"], periodic=described["periodic"], origin=origin)
+
+
+def _field(values: np.ndarray[Any, Any], unit: str, label: str) -> tuple[tuple[str, str], Any, dict[str, str]]:
+    return ("x", "y"), values, _labels(unit, label)
+
+
+def _labels(unit: str, label: str) -> dict[str, str]:
+    return {"units": unit, "long_name": label}
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
