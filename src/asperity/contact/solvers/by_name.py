@@ -1,0 +1,51 @@
+"""The methods by the names that documents and the command line use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import TypeAlias
+
+from ...core import require
+from .conjugate_gradient import ConjugateGradient
+from .dense import DenseActiveSet
+from .lemke import Lemke
+from .nnls import NonNegativeLeastSquares
+from .protocol import Solver
+from .quasi_newton import QuasiNewton
+from .steepest_descent import SteepestDescent
+
+SolverClass: TypeAlias = Callable[..., Solver]
+"""Makes a solver from the optional keywords ``tolerance`` and ``max_iterations``."""
+
+SOLVERS: Mapping[str, SolverClass] = MappingProxyType(
+    {
+        cls.name: cls
+        for cls in (
+            ConjugateGradient,
+            SteepestDescent,
+            QuasiNewton,
+            NonNegativeLeastSquares,
+            DenseActiveSet,
+            Lemke,
+        )
+    }
+)
+"""Class of every method by its name."""
+
+
+def solver_by_name(name: str, tolerance: float | None = None, max_iterations: int | None = None) -> Solver:
+    """Method called ``name``, with its own defaults for what is not given.
+
+    Raises
+    ------
+    InputError
+        If no method has this name, the tolerance is not positive or the limit not a whole number >= 1.
+    """
+    make = SOLVERS[require.one_of(name, SOLVERS, "solver")]
+    settings: dict[str, float] = {}
+    if tolerance is not None:
+        settings["tolerance"] = require.positive(tolerance, "tolerance of the solver")
+    if max_iterations is not None:
+        settings["max_iterations"] = require.integer(max_iterations, 1, "iteration limit of the solver")
+    return make(**settings)
