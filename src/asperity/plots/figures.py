@@ -1,0 +1,139 @@
+"""Whole figures as PNG: the standard set of a result, and the picture of one surface."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from ..contact.result import ContactResult
+from ..core.errors import OutputError
+from ..core.grid import Grid
+from ..io.atomic import atomic_file
+from ..surfaces.surface import Surface
+from .histogram import plot_pressure_histogram
+from .maps import SLENDER, plot_contact, plot_gap, plot_heights, plot_pressure
+from .section import plot_section
+from .style import DPI, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Draw: TypeAlias = "Callable[[ContactResult, Axes], Axes]"
+"""Draws a result on axes."""
+
+CURVE_SIZE = (5.6, 3.4)
+"""Width and height in inches of figures that are no maps."""
+
+MAP_SIZE = 3.4
+"""Longer side of a map in inches, about."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """One figure of the standard set: ``name`` of its file, ``title``, ``caption``, how to draw it, map or curve."""
+
+    name: str
+    title: str
+    caption: str
+    draw: Draw
+    is_map: bool = True
+
+
+def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
+    return plot_heights(result.problem.surface, ax)
+
+
+PLOTS = (
+    Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface),
+    Plot("pressure", "Pressure", "Contact pressure; grey where the bodies do not touch.", plot_pressure),
+    Plot(
+        "pressure_log",
+        "Pressure, logarithmic",
+        "Contact pressure on a logarithmic scale of three decades below the maximum.",
+        partial(plot_pressure, log=True),
+    ),
+    Plot("contact", "Contact", "Where the bodies touch, elastically or at the hardness.", plot_contact),
+    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap),
+    Plot(
+        "section",
+        "Section",
+        "Cut along x through the highest pressure: deformed composite surface against the counter surface, "
+        "and the pressure below. Heights are exaggerated.",
+        plot_section,
+        is_map=False,
+    ),
+    Plot(
+        "histogram",
+        "Distribution of pressure",
+        "Probability density of the pressure over the real contact area.",
+        plot_pressure_histogram,
+        is_map=False,
+    ),
+)
+"""The standard figures of a result in the order of a report."""
+
+
+def render(plot: Plot, result: ContactResult) -> bytes:
+    """PNG of ``plot`` for ``result``."""
+    size = _map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
+    return _png(lambda ax: plot.draw(result, ax), size)
+
+
+def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+    """Write the standard figures of ``result`` as PNG into ``folder`` (made if missing) and return their paths.
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    place = Path(folder)
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"folder of the plots {place} cannot be made: {error.strerror}; choose another.") from error
+    paths = tuple(place / f"{plot.name}.png" for plot in PLOTS)
+    for plot, path in zip(PLOTS, paths, strict=True):
+        with atomic_file(path, overwrite=overwrite) as file:
+            file.write_bytes(render(plot, result))
+    return paths
+
+
+def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write the map of heights of ``surface`` as PNG to ``path``.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    with atomic_file(path, overwrite=overwrite) as file:
+        file.write_bytes(_png(lambda ax: plot_heights(surface, ax), _map_size(surface.grid)))
+
+
+def _png(draw: Callable[[Axes], Axes], size: tuple[float, float]) -> bytes:
+    """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its content."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    buffer = io.BytesIO()
+    with style():
+        figure = Figure(figsize=size)
+        FigureCanvasAgg(figure)
+        draw(figure.add_subplot())
+        figure.savefig(buffer, format="png", dpi=DPI, bbox_inches="tight", pad_inches=0.06)
+    return buffer.getvalue()
+
+
+def _map_size(grid: Grid) -> tuple[float, float]:
+    """Figure for a map with its longer side of MAP_SIZE; slender maps are stretched (see ``maps``)."""
+    width, height = grid.size
+    ratio = width / height
+    if 1 in grid.shape or not 1.0 / SLENDER <= ratio <= SLENDER:
+        return CURVE_SIZE
+    longer = MAP_SIZE * (1.5 if ratio > 2.0 else 1.0) / 0.775  # 0.775 is the share of the figure that the axes take
+    return (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)

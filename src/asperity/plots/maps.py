@@ -1,0 +1,172 @@
+"""Maps of a surface or a contact seen from above: x to the right, y up. Grids of one row become curves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.result import ContactResult
+from ..core.arrays import RealArray
+from ..core.grid import Grid
+from ..surfaces.surface import Surface
+from .style import BLUE, GAP_MAP, HEIGHT_MAP, NO_CONTACT, PRESSURE_MAP, VERMILLION, Scale, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
+
+DECADES = 3.0
+"""Range of the logarithmic pressure map below the maximum, in powers of ten."""
+
+SLENDER = 8.0
+"""Ratio of sides above which a map is stretched instead of drawn to scale."""
+
+WIDE = 2.0
+"""Ratio of width to height above which the colour bar lies above the map instead of beside it."""
+
+
+def plot_heights(surface: Surface, ax: Axes) -> Axes:
+    """Draw the heights of ``surface`` relative to their mean on ``ax``; missing points are grey."""
+    level = np.nanmean(surface.heights, dtype=np.float64)
+    flat = np.nanmax(surface.heights) == np.nanmin(surface.heights)
+    heights = np.where(surface.mask, np.nan, 0.0) if flat else surface.heights - level  # not the rounding of the mean
+    return _plot_field(heights, surface.grid, ax, unit="m", label="height", colours=HEIGHT_MAP)
+
+
+def plot_gap(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are grey."""
+    gap = np.where(result.contact, np.nan, result.gap)
+    grid = result.problem.grid
+    return _plot_field(gap, grid, ax, unit="m", label="gap", colours=GAP_MAP, limits=(0.0, None))
+
+
+def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes:
+    """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact is grey."""
+    from matplotlib.colors import LogNorm
+
+    pressure = np.where(result.contact, result.pressure, np.nan)
+    label = "contact pressure"
+    top = result.max_pressure
+    if not (log and top > 0.0):
+        return _plot_field(pressure, result.problem.grid, ax, unit="Pa", label=label, limits=(0.0, None))
+    in_unit = scale(top, "Pa")
+    norm = LogNorm(in_unit(top) * 10.0**-DECADES, in_unit(top), clip=True)
+    return _plot_field(pressure, result.problem.grid, ax, unit="Pa", label=label, norm=norm)
+
+
+def plot_contact(result: ContactResult, ax: Axes) -> Axes:
+    """Draw where the bodies of ``result`` touch on ``ax``: not, elastically, or at the hardness."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    kinds = result.contact.astype(float) + result.plastic
+    shares = [float(np.mean(kinds == kind)) for kind in range(3)]
+    names, colours = ("no contact", "elastic", "plastic"), (NO_CONTACT, BLUE, VERMILLION)
+    image = _image(kinds, result.problem.grid, ax, cmap=ListedColormap(colours), vmin=-0.5, vmax=2.5)
+    image.set_interpolation("nearest")
+    shown = [kind for kind in range(3) if kind < 2 or shares[kind] > 0.0]
+    handles = [
+        Patch(facecolor=colours[k], edgecolor="0.4", linewidth=0.5, label=f"{names[k]} {percent(shares[k])}")
+        for k in shown
+    ]
+    ax.legend(
+        handles=handles,
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=len(shown),
+        borderaxespad=0.3,
+        handlelength=1.0,
+        handletextpad=0.5,
+        columnspacing=1.2,
+        borderpad=0.2,
+    )
+    return ax
+
+
+def percent(share: float) -> str:
+    """Text of a ``share`` of one, with three digits."""
+    return f"{100.0 * share:.3g} %"
+
+
+def _plot_field(
+    values: RealArray,
+    grid: Grid,
+    ax: Axes,
+    *,
+    unit: str,
+    label: str,
+    colours: str = PRESSURE_MAP,
+    limits: tuple[float | None, float | None] = (None, None),
+    norm: Any = None,
+) -> Axes:
+    """Map of ``values`` (nx, ny) in SI ``unit`` with a colour bar, or their curve along a grid of one row."""
+    in_unit = scale(values, unit)
+    title = f"{label} ({in_unit.symbol})"
+    if 1 in grid.shape:
+        return _plot_curve(in_unit(values).ravel(), grid, ax, title, log=norm is not None)
+    drawn = in_unit(values)
+    low, high = _limits(drawn, limits)
+    image = _image(drawn, grid, ax, cmap=colours, **({"norm": norm} if norm else {"vmin": low, "vmax": high}))
+    _colour_bar(image, grid, ax, title)
+    return ax
+
+
+def _limits(drawn: RealArray, limits: tuple[float | None, float | None]) -> tuple[float, float]:
+    """Range of colours; equal or absent values get a range around them."""
+    finite = drawn[np.isfinite(drawn)]
+    low = limits[0] if limits[0] is not None else float(finite.min(initial=np.inf)) if finite.size else 0.0
+    high = float(finite.max()) if finite.size else 1.0
+    if high <= low:
+        return low - 0.5 * (limits[0] is None), low + 0.5 + 0.5 * (limits[0] is not None)
+    return low, high
+
+
+def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:
+    """Pixels of ``drawn`` [x, y] with x to the right and y up, lengths to scale unless the map is very slender."""
+    from matplotlib import colormaps
+
+    length = scale(max(grid.size), "m")
+    width, height = (float(side) for side in length(grid.size))
+    ratio = max(width, height) / min(width, height)
+    colours = (colormaps[cmap] if isinstance(cmap, str) else cmap).with_extremes(bad=NO_CONTACT)
+    image = ax.imshow(
+        np.ma.masked_invalid(drawn.T),
+        origin="lower",
+        extent=(0.0, width, 0.0, height),
+        aspect="auto" if ratio > SLENDER else "equal",
+        cmap=colours,
+        **options,
+    )
+    ax.locator_params(nbins=6, steps=(1, 2, 5, 10))
+    ax.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})")
+    return image
+
+
+def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
+    from matplotlib.colors import LogNorm
+    from matplotlib.ticker import FuncFormatter, NullFormatter
+
+    width, height = grid.size
+    wide = width > WIDE * height
+    aspect = min(max(1.0, width / height, height / width), 4.0)  # keeps the bar's thickness on slender maps
+    place = (0.0, 1.0 + 0.03 * aspect, 1.0, 0.03 * aspect) if wide else (1.0 + 0.03 * aspect, 0.0, 0.045 * aspect, 1.0)
+    bar_axes = ax.inset_axes(place)
+    bar = ax.figure.colorbar(image, cax=bar_axes, orientation="horizontal" if wide else "vertical")
+    bar.set_label(title)
+    if isinstance(image.norm, LogNorm):
+        bar.formatter = FuncFormatter(lambda value, _: f"{value:g}")
+        bar.minorformatter = NullFormatter()
+    if wide:
+        bar_axes.xaxis.set_ticks_position("top")
+        bar_axes.xaxis.set_label_position("top")
+
+
+def _plot_curve(values: RealArray, grid: Grid, ax: Axes, title: str, *, log: bool) -> Axes:
+    axis = 0 if grid.shape[0] >= grid.shape[1] else 1
+    length: Scale = scale(grid.size[axis], "m")
+    ax.plot(length((np.arange(values.size) + 0.5) * grid.spacing[axis]), values, color=BLUE)
+    if log:
+        ax.set_yscale("log")
+    ax.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=title, xlim=(0.0, float(length(grid.size[axis]))))
+    return ax
