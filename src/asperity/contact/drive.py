@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,10 +10,10 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
 from ..core.progress import Progress
 from .control import Approach, Control, Force, MeanGap, MeanPressure
+from .load_search import LoadSearch, Solved, contact_level, mean_gap, solve_at_load
 from .operators import Operator
 from .problem import ContactProblem
-from .solvers.feasible import scaled_to_load
-from .solvers.protocol import ContactQP, FixedMean, FixedOffset, Solution, Solver, run
+from .solvers.protocol import ContactQP, FixedOffset, Solver, run
 from .state import InterfaceState
 
 
@@ -24,7 +24,7 @@ def drive(
     operator: Operator,
     state: InterfaceState | None,
     progress: Progress | None,
-) -> tuple[ContactQP, Solution]:
+) -> Solved:
     """Pose the discrete problem that ``control`` asks for, starting from ``state``, and solve it."""
     virgin = problem.profile()
     scale = _height_scale(virgin, control, operator)
@@ -32,14 +32,19 @@ def drive(
     start = None if state is None else state.pressure
     if isinstance(control, MeanPressure | Force):
         mean = control.value if isinstance(control, MeanPressure) else control.value / problem.grid.area
-        qp = replace(posed, constraint=FixedMean(mean))
-        return qp, run(solver, qp, _start_at_load(qp, mean, start), progress)
+        return solve_at_load(posed, mean, solver, start, progress)
+    top = float(virgin.max())
     if isinstance(control, Approach):
-        qp = replace(posed, constraint=FixedOffset(float(virgin.max()) - control.value))
-        _require_below_full_contact(qp, float(virgin.max()))
-        return qp, run(solver, qp, _start_at_offset(qp, start), progress)
+        _require_below_full_contact(posed, top, control.value)
+        if not operator.zero_mean_mode:
+            qp = replace(posed, constraint=FixedOffset(top - control.value))
+            return qp, run(solver, qp, _start_at_offset(qp, start), progress)
+        search = LoadSearch(posed, solver, progress, start)
+        return search.find(lambda qp, solution: top + contact_level(qp, solution), control.value)
     if isinstance(control, MeanGap):
-        return _at_mean_gap(posed, control.value, solver, start, progress)
+        _require_touching(posed, control.value)
+        search = LoadSearch(posed, solver, progress, start)
+        return search.find(lambda qp, solution: -mean_gap(qp, solution), -control.value)
     raise InputError(f"control must be MeanPressure, Force, Approach or MeanGap, but is {type(control).__name__}.")
 
 
@@ -72,77 +77,30 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
     return float(np.abs(operator.apply(np.full(virgin.shape, mean))).max()) or 1.0
 
 
-def _start_at_load(qp: ContactQP, mean: float, start: RealArray | None) -> RealArray:
-    bearable = float(np.mean(qp.cap))
-    if mean > bearable:
-        raise NoSolutionError(
-            f"mean pressure must be at most the mean hardness {bearable:.6g} Pa (force: hardness times nominal area), "
-            f"but is {mean:.6g} Pa. Lower the load or raise the hardness."
-        )
-    guess = np.full(qp.profile.shape, mean) if start is None or not start.any() else np.maximum(start, 0.0)
-    return scaled_to_load(guess, qp.cap, mean)
-
-
 def _start_at_offset(qp: ContactQP, start: RealArray | None) -> RealArray:
+    """First guess at a prescribed offset: the last pressure, or the overlap times its best common stiffness."""
     if start is not None and start.any():
-        clipped: RealArray = np.clip(start, 0.0, qp.cap)
-        return clipped
+        return np.asarray(np.clip(start, 0.0, qp.cap))
     assert isinstance(qp.constraint, FixedOffset)
     overlap = np.maximum(qp.profile - qp.constraint.offset, 0.0)
     response = float((overlap * qp.operator.apply(overlap)).sum())
     factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
-    bounded: RealArray = np.clip(factor * overlap, 0.0, qp.cap)
-    return bounded
+    return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))
 
 
-def _require_below_full_contact(qp: ContactQP, top: float) -> None:
+def _require_below_full_contact(qp: ContactQP, top: float, approach: float) -> None:
     """Beyond full contact a periodic elastic half-space would carry any pressure: its mean gap cannot be negative."""
-    if not (qp.elastic and qp.operator.zero_mean_mode):
-        return
-    assert isinstance(qp.constraint, FixedOffset)
     largest = top - float(qp.profile.mean())
-    if top - qp.constraint.offset >= largest:
+    if qp.elastic and qp.operator.zero_mean_mode and approach >= largest:
         raise NoSolutionError(
             f"approach must be less than {largest:.6g} m, where a periodic elastic contact is full and its mean gap zero, "
-            f"but is {top - qp.constraint.offset:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
+            f"but is {approach:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
         )
 
 
-@dataclass
-class _Trials:
-    """Solutions at trial offsets, each started from the one before."""
-
-    posed: ContactQP
-    solver: Solver
-    start: RealArray | None
-    progress: Progress | None
-    last: list[tuple[ContactQP, Solution]] = field(default_factory=list)
-
-    def mean_gap(self, offset: float) -> float:
-        qp = replace(self.posed, constraint=FixedOffset(offset))
-        start = self.last[-1][1].state.pressure if self.last else self.start
-        solution = run(self.solver, qp, _start_at_offset(qp, start), self.progress)
-        self.last[:] = [(qp, solution)]
-        return float(np.maximum(offset + solution.state.deflection - qp.profile, 0.0).mean())
-
-
-def _at_mean_gap(
-    posed: ContactQP, target: float, solver: Solver, start: RealArray | None, progress: Progress | None
-) -> tuple[ContactQP, Solution]:
-    from scipy.optimize import brentq
-
-    mean, top = float(posed.profile.mean()), float(posed.profile.max())
-    if target >= top - mean:
+def _require_touching(qp: ContactQP, gap: float) -> None:
+    first_touch = float(qp.profile.max() - qp.profile.mean())
+    if gap >= first_touch:
         raise NoSolutionError(
-            f"mean gap must be less than {top - mean:.6g} m, the mean gap at first touch, but is {target:.6g} m."
+            f"mean gap must be less than {first_touch:.6g} m, the mean gap at first touch, but is {gap:.6g} m."
         )
-    trials = _Trials(posed, solver, start, progress)
-    high = mean + target  # the mean displacement is never negative, so here the mean gap is at least the target
-    if trials.mean_gap(high) - target > 1e-12 * target:
-        step = top - mean - target
-        low = high - step
-        while trials.mean_gap(low) > target:
-            step *= 2.0
-            low -= step
-        brentq(lambda offset: trials.mean_gap(offset) - target, low, high, xtol=1e-10 * target, rtol=1e-12)
-    return trials.last[-1]

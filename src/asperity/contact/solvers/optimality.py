@@ -29,6 +29,12 @@ def level(qp: ContactQP, pressure: RealArray, r: RealArray) -> float:
     return float(0.5 * (low + high))
 
 
+def energy(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:
+    """Total complementary energy per pixel area (Pa·m), p·Kp/2 - p·(h - d), d = 0 where the load is prescribed."""
+    height = qp.profile - qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else qp.profile
+    return float((pressure * (0.5 * deflection - height)).sum())
+
+
 def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: float) -> float:
     """Sum of (r - lambda)+ p + (lambda - r)+ (cap - p) in Pa·m; times the pixel area it bounds V(p) - V(p*).
 

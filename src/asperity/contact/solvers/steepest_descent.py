@@ -47,41 +47,54 @@ class SteepestDescent:
     def init(self, qp: ContactQP, start: RealArray) -> SolverState:
         """State at ``start``."""
         deflection = qp.operator.apply(start)
-        impulse = np.zeros_like(start)
-        impulse[0, 0] = 1.0
-        memory = _Memory(1.0 / float(qp.operator.apply(impulse)[0, 0]))
+        memory = _Memory(levelling_step(qp))
         return SolverState(start, deflection, relative_error(qp, start, deflection), applications=2, memory=memory)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One step along the projected gradient."""
         assert isinstance(state.memory, _Memory)
-        p = state.pressure
-        gradient = state.deflection - qp.profile
-        downhill = _free_gradient(qp, p, gradient)
-        if isinstance(qp.constraint, FixedOffset):
-            gradient = gradient + qp.constraint.offset
-        length = _exact_length(qp, downhill) or state.memory.pixel_step
-        applications = state.applications + 1
-        for _ in range(_HALVINGS):
-            trial = _projected(qp, p - length * gradient)
-            deflection = qp.operator.apply(trial)
-            applications += 1
-            change = trial - p
-            slope = float((gradient * change).sum())
-            decrease = -slope - 0.5 * float((change * (deflection - state.deflection)).sum())
-            if slope < 0.0 and decrease >= -_SUFFICIENT * slope:
-                error = relative_error(qp, trial, deflection)
-                return SolverState(trial, deflection, error, state.iterations + 1, applications, memory=state.memory)
-            length *= 0.5
-        return SolverState(
-            p,
-            state.deflection,
-            state.error,
-            state.iterations + 1,
-            applications,
-            exhausted=True,
-            memory=state.memory,
-        )
+        return descend(qp, state, state.memory.pixel_step)
+
+
+def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState:
+    """Next state along the projected gradient, lower in energy; exhausted if rounding hides any decrease.
+
+    ``pixel_step`` (Pa/m) is the step of last resort, see ``levelling_step``.
+    """
+    p = state.pressure
+    gradient = state.deflection - qp.profile
+    downhill = _free_gradient(qp, p, gradient)
+    if isinstance(qp.constraint, FixedOffset):
+        gradient = gradient + qp.constraint.offset
+    length = _exact_length(qp, downhill) or pixel_step
+    applications = state.applications + 1
+    for _ in range(_HALVINGS):
+        trial = _projected(qp, p - length * gradient)
+        deflection = qp.operator.apply(trial)
+        applications += 1
+        change = trial - p
+        slope = float((gradient * change).sum())
+        decrease = -slope - 0.5 * float((change * (deflection - state.deflection)).sum())
+        if slope < 0.0 and decrease >= -_SUFFICIENT * slope:
+            error = relative_error(qp, trial, deflection)
+            return SolverState(trial, deflection, error, state.iterations + 1, applications, memory=state.memory)
+        length *= 0.5
+    return SolverState(
+        p,
+        state.deflection,
+        state.error,
+        state.iterations + 1,
+        applications,
+        exhausted=True,
+        memory=state.memory,
+    )
+
+
+def levelling_step(qp: ContactQP) -> float:
+    """Step in Pa/m that levels a single pixel: the largest that can make sense. Costs one application."""
+    impulse = np.zeros_like(qp.profile)
+    impulse[0, 0] = 1.0
+    return 1.0 / float(qp.operator.apply(impulse)[0, 0])
 
 
 def _free_gradient(qp: ContactQP, pressure: RealArray, gradient: RealArray) -> RealArray:

@@ -1,0 +1,133 @@
+"""Finding the load at which a contact reaches a prescribed position.
+
+At prescribed load the discrete problem is well conditioned up to and beyond full contact; at prescribed position on a
+periodic half-space it is not (a uniform pressure moves nothing). Approach and mean gap are monotone in the load, so a
+bracketing root search over loads, each solve starting from the last, is the robust way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import NoSolutionError
+from ..core.progress import Progress
+from .solvers.feasible import scaled_to_load
+from .solvers.optimality import level
+from .solvers.protocol import ContactQP, FixedMean, Solution, Solver, run
+
+Solved: TypeAlias = tuple[ContactQP, Solution]
+Measure: TypeAlias = Callable[[ContactQP, Solution], float]
+
+_FACTOR = 8.0
+_EXPANSIONS = 60
+_PRECISION = 1e-10
+
+
+def solve_at_load(
+    posed: ContactQP, mean: float, solver: Solver, start: RealArray | None, progress: Progress | None
+) -> Solved:
+    """Solve at the ``mean`` pressure (Pa), from ``start`` scaled to it or from a uniform pressure.
+
+    Raises
+    ------
+    NoSolutionError
+        If the mean pressure exceeds the mean of the pressure cap.
+    """
+    bearable = float(np.mean(posed.cap))
+    if mean > bearable:
+        raise NoSolutionError(
+            f"mean pressure must be at most the mean hardness {bearable:.6g} Pa (force: hardness times nominal area), "
+            f"but is {mean:.6g} Pa. Lower the load or raise the hardness."
+        )
+    qp = replace(posed, constraint=FixedMean(mean))
+    guess = np.full(qp.profile.shape, mean) if start is None or not start.any() else np.maximum(start, 0.0)
+    return qp, run(solver, qp, scaled_to_load(guess, qp.cap, mean), progress)
+
+
+def contact_level(qp: ContactQP, solution: Solution) -> float:
+    """Level of the contacting plane (m), see ``solvers.optimality.level``."""
+    state = solution.state
+    return level(qp, state.pressure, state.deflection - qp.profile)
+
+
+def mean_gap(qp: ContactQP, solution: Solution) -> float:
+    """Mean gap (m) of the deformed, permanently indented bodies."""
+    r = solution.state.deflection - qp.profile
+    return float(np.maximum(r - contact_level(qp, solution), 0.0).mean())
+
+
+class _NotConvergedError(Exception):
+    """A solve on the way failed; its state is the last of the search."""
+
+
+@dataclass
+class LoadSearch:
+    """Root search over loads; ``solved`` holds every solve so far, the latest last."""
+
+    posed: ContactQP
+    solver: Solver
+    progress: Progress | None
+    start: RealArray | None
+    solved: list[Solved] = field(default_factory=list)
+
+    def find(self, measure: Measure, target: float) -> Solved:
+        """Solution at which ``measure``, a quantity growing with the load, equals ``target``.
+
+        Without convergence on the way the failed solve is returned, whose status says so.
+        """
+        from scipy.optimize import brentq
+
+        def miss(log_load: float) -> float:
+            start = self.solved[-1][1].state.pressure if self.solved else self.start
+            self.solved.append(solve_at_load(self.posed, float(np.exp(log_load)), self.solver, start, self.progress))
+            if not self.solved[-1][1].status.converged:
+                raise _NotConvergedError
+            return measure(*self.solved[-1]) - target
+
+        try:
+            low, high = self._bracket(miss)
+            if low < high:
+                brentq(miss, low, high, xtol=_PRECISION, rtol=_PRECISION)
+        except _NotConvergedError:
+            pass
+        return self._with_all_work()
+
+    def _with_all_work(self) -> Solved:
+        """Latest solve, with the iterations and applications of the whole search."""
+        qp, solution = self.solved[-1]
+        iterations = sum(earlier.state.iterations for _, earlier in self.solved)
+        applications = sum(earlier.state.applications for _, earlier in self.solved)
+        state = replace(solution.state, iterations=iterations, applications=applications)
+        return qp, replace(solution, state=state)
+
+    def _bracket(self, miss: Callable[[float], float]) -> tuple[float, float]:
+        """Logarithms of two loads around the target, from the load that flattens one pixel's worth of roughness."""
+        limit = float(np.log(np.mean(self.posed.cap)))
+        at = min(float(np.log(self._first_load())), limit)
+        sign = np.sign(miss(at))
+        step = np.log(_FACTOR) * (-1.0 if sign > 0.0 else 1.0)
+        for _ in range(_EXPANSIONS):
+            ahead = min(at + step, limit)
+            if ahead == at:
+                break
+            reached = miss(ahead)
+            if reached == 0.0 or np.sign(reached) != sign:
+                return min(at, ahead), max(at, ahead)
+            at = ahead
+        if sign == 0.0:
+            return at, at
+        raise NoSolutionError(
+            "the prescribed position is not reached by any load: at a mean pressure equal to the hardness every point "
+            "yields and the position is undetermined. Prescribe a load, or a position of less overlap."
+        )
+
+    def _first_load(self) -> float:
+        """Mean pressure (Pa) of the order that moves the surface by a tenth of its rms height."""
+        response = self.posed.operator.apply(self.posed.profile)
+        stiffness = float(self.posed.profile.std()) / float(response.std() or 1.0)
+        return 0.1 * self.posed.height_scale * stiffness
