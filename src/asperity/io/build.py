@@ -1,0 +1,108 @@
+"""From the text of a problem document to the objects that are solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..contact.boundary import Boundary, Free, Periodic
+from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
+from ..contact.laws import Hardness, HardWall, InterfaceLaw
+from ..contact.problem import ContactProblem, Flat
+from ..contact.solvers.by_name import solver_by_name
+from ..contact.solvers.choose import default_solver
+from ..contact.solvers.protocol import Solver
+from ..core import units
+from ..core.errors import InputError
+from ..solids.elastic import Body, Elastic, Rigid
+from ..solids.library import material
+from ..solids.strength import Strength
+from .build_surface import build_surface, turned_over
+from .schemas.problem import BodyTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
+from .schemas.values import FROM_BODY
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a document asks for: ``problem``, ``control``, ``solver`` and ``threads``."""
+
+    problem: ContactProblem
+    control: Control
+    solver: Solver
+    threads: int | None = None
+
+
+def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
+    """Objects described by ``document``; its relative file paths start at ``base_folder``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read, a material is unknown, or the parts do not fit together.
+    """
+    folder = Path(base_folder)
+    body = build_body(document.body, folder)
+    counter_body = build_body(document.counter_body, folder)
+    boundary: Boundary = Free() if document.boundary.kind == "free" else Periodic()
+    problem = ContactProblem(
+        build_surface(document.surface, folder),
+        body,
+        Flat() if document.counter_surface is None else turned_over(document.counter_surface, folder),
+        counter_body,
+        boundary,
+        build_law(document.law, (body, counter_body)),
+    )
+    solver = build_solver(document.solver, problem)
+    return Case(problem, build_control(document.control), solver, document.solver.threads)
+
+
+def build_body(table: BodyTable, folder: Path) -> Body:
+    """Body that ``table`` names or describes."""
+    if table.rigid:
+        return Rigid()
+    if table.material is not None:
+        return material(table.material, library=None if table.materials_file is None else folder / table.materials_file)
+    assert table.youngs_modulus is not None
+    assert table.poisson_ratio is not None
+    strength = Strength(_pressure(table.hardness), _pressure(table.yield_stress))
+    return Elastic(
+        _pressure(table.youngs_modulus), table.poisson_ratio, strength, name=table.name or "", sources=("user",)
+    )
+
+
+def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
+    """Law that ``table`` names; a hardness from the body is the lowest known one."""
+    if not isinstance(table, HardnessTable):
+        return HardWall()
+    if table.hardness != FROM_BODY:
+        return Hardness(_pressure(table.hardness))
+    strengths = [body.strength.hardness for body in bodies if isinstance(body, Elastic)]
+    known = [hardness for hardness in strengths if hardness == hardness]
+    if not known:
+        raise InputError(
+            "hardness must be known for at least one body to be taken from it, but neither states one. "
+            'Give law.hardness (--hardness) as a pressure, such as "5 GPa".'
+        )
+    return Hardness(min(known))
+
+
+def build_control(table: ControlTable) -> Control:
+    """The one control that ``table`` gives."""
+    if table.mean_pressure is not None:
+        return MeanPressure(_pressure(table.mean_pressure))
+    if table.force is not None:
+        return Force(units.parse(table.force, "force", "control.force"))
+    if table.approach is not None:
+        return Approach(units.parse(table.approach, "length", "control.approach"))
+    assert table.mean_gap is not None
+    return MeanGap(units.parse(table.mean_gap, "length", "control.mean_gap"))
+
+
+def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:
+    """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``."""
+    chosen = default_solver(problem)
+    return solver_by_name(table.method or chosen.name, table.tolerance, table.max_iterations)
+
+
+def _pressure(text: str | None) -> float:
+    return float("nan") if text is None else units.parse(text, "pressure", "pressure")

@@ -1,0 +1,168 @@
+"""The problem document: one versioned, schema-checked text that describes a contact problem, its load and its solver.
+
+Every shell (command line, study, web) is a way to fill in this document. Quantities are text with units.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from ..core.errors import FileFormatError, InputError
+from .atomic import atomic_file
+from .schemas.problem import ProblemDocument
+from .schemas.wording import problems
+
+__all__ = [
+    "ProblemDocument",
+    "checked",
+    "dumps",
+    "json_schema",
+    "load_document",
+    "loads",
+    "read_table",
+    "relocated",
+    "save_document",
+]
+
+
+def load_document(path: str | os.PathLike[str]) -> ProblemDocument:
+    """Document in the TOML file, or JSON file if its name ends in ``.json``, at ``path``.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, unreadable, or neither TOML nor JSON.
+    InputError
+        If the document has problems; the message has one line for each.
+    """
+    return checked(read_table(path), f"problem document {path}")
+
+
+def loads(text: str, *, form: str = "toml") -> ProblemDocument:
+    """Document in ``text``, which is ``toml`` or ``json``; errors as in :func:`load_document`."""
+    return checked(_parsed(text, form, "problem document"), "problem document")
+
+
+def read_table(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Content of the file at ``path`` before any check of keys and values.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, unreadable, or neither TOML nor JSON.
+    """
+    file = Path(path)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise FileFormatError(f"problem document must exist, but {file} does not; check the path.") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"problem document must be a text file in UTF-8, but {file} is not: {error}.") from None
+    return _parsed(text, _form(file), f"problem document {file}")
+
+
+def checked(
+    table: Mapping[str, Any], where: str = "problem document", names: Mapping[str, str] | None = None
+) -> ProblemDocument:
+    """Document made of the nested ``table``.
+
+    Parameters
+    ----------
+    table
+        Content of the document.
+    where
+        What is checked, for the message.
+    names
+        What to call a dotted key in messages instead, for example ``{"control.force": "--load"}``.
+
+    Raises
+    ------
+    InputError
+        If anything is missing, unknown or out of range; the message has one line for each problem.
+    """
+    try:
+        return ProblemDocument.model_validate(dict(table))
+    except ValidationError as error:
+        lines = problems(error, json_schema(), names or {})
+    if len(lines) == 1:
+        raise InputError(f"{where}: {lines[0]}")
+    raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
+
+
+def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
+    """Text of ``document`` as ``toml`` or ``json``; loading it gives an equal document."""
+    table = _tidy(document.model_dump(mode="json", exclude_none=True))
+    if form == "json":
+        return json.dumps(table, indent=2, ensure_ascii=False) + "\n"
+    import tomli_w
+
+    return tomli_w.dumps(table)
+
+
+def save_document(document: ProblemDocument, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+    """Write ``document`` to ``path`` as TOML, or JSON if the name ends in ``.json``, wholly or not at all.
+
+    Relative file paths are written as they are; see :func:`relocated`.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    with atomic_file(Path(path), overwrite=overwrite) as partial:
+        partial.write_text(dumps(document, form=_form(Path(path))), encoding="utf-8", newline="\n")
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON schema of the document, for forms and editors."""
+    return ProblemDocument.model_json_schema()
+
+
+def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemDocument:
+    """``document`` of the folder ``source`` for use in the folder ``target``: relative paths lead to the same files."""
+
+    def moved(path: str) -> str:
+        if Path(path).is_absolute():
+            return path
+        found = source.absolute() / path
+        try:
+            return Path(os.path.relpath(found, target.absolute())).as_posix()
+        except ValueError:  # on Windows: another drive
+            return str(found)
+
+    changed = {key: _with_paths(getattr(document, key), moved) for key in ("surface", "counter_surface")}
+    changed |= {key: _with_paths(getattr(document, key), moved) for key in ("body", "counter_body")}
+    return document.model_copy(update=changed)
+
+
+def _tidy(table: dict[str, Any]) -> dict[str, Any]:
+    """``table`` without empty parts, the key that tells what it is first and the preparation last."""
+    filled = {key: _tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
+    kept = {key: value for key, value in filled.items() if value not in ({}, [], "")}
+    return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))
+
+
+def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
+    paths = {key: moved(path) for key in ("path", "materials_file") if (path := getattr(table, key, None)) is not None}
+    return table.model_copy(update=paths) if paths else table
+
+
+def _form(path: Path) -> str:
+    return "json" if path.suffix.lower() == ".json" else "toml"
+
+
+def _parsed(text: str, form: str, where: str) -> dict[str, Any]:
+    try:
+        table = json.loads(text) if form == "json" else tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"{where} must be valid {form.upper()}, but is not: {error}.") from None
+    if not isinstance(table, dict):
+        raise FileFormatError(f"{where} must hold a table of keys, but holds {type(table).__name__}.")
+    return table

@@ -1,0 +1,311 @@
+"""The problem document: exact round trip, and all errors at once in plain words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from asperity import FileFormatError, InputError, OutputError
+from asperity.io.documents import (
+    ProblemDocument,
+    checked,
+    dumps,
+    json_schema,
+    load_document,
+    loads,
+    relocated,
+    save_document,
+)
+
+SMALL: Mapping[str, Any] = {
+    "version": 1,
+    "surface": {"kind": "sphere", "points": [16, 12], "size": "8 um x 6 um", "radius": "20 um"},
+    "body": {"youngs_modulus": "100 GPa", "poisson_ratio": 0.3},
+    "control": {"mean_pressure": "1 MPa"},
+}
+
+
+def with_(**tables: Any) -> dict[str, Any]:
+    """The small document with other tables; None removes one."""
+    return {key: value for key, value in (dict(SMALL) | tables).items() if value is not None}
+
+
+def message(table: Mapping[str, Any]) -> str:
+    with pytest.raises(InputError) as caught:
+        checked(table)
+    return str(caught.value)
+
+
+def quantities(*units: str) -> st.SearchStrategy[str]:
+    numbers = st.floats(1e-3, 1e6).map(repr) | st.integers(1, 999).map(str)
+    return st.builds("{}{}{}".format, numbers, st.sampled_from(["", " "]), st.sampled_from(units))
+
+
+LENGTHS = quantities("nm", "um", "µm", "m")
+PRESSURES = quantities("Pa", "kPa", "GPa", "N/mm**2")
+TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=12).filter(lambda text: bool(text.strip()))
+POSITIVE = st.floats(1e-300, 1e300)
+COUNTS = st.integers(1, 10**6)
+POINTS = st.lists(COUNTS, min_size=2, max_size=2)
+STEPS = st.one_of(
+    st.fixed_dictionaries(
+        {"step": st.just("level")}, optional={"form": st.sampled_from(["mean", "plane", "quadratic"])}
+    ),
+    st.fixed_dictionaries({"step": st.just("crop"), "x": st.just(["0 nm", "1.5 um"])}),
+    st.fixed_dictionaries({"step": st.just("resample"), "points": POINTS}),
+    st.fixed_dictionaries(
+        {"step": st.just("fill")}, optional={"method": st.sampled_from(["harmonic", "mean", "nearest"])}
+    ),
+    st.fixed_dictionaries({"step": st.just("taper")}, optional={"width": st.floats(1e-6, 0.5)}),
+    st.fixed_dictionaries({"step": st.just("periodise")}),
+)
+
+
+def generated(kind: str, **keys: st.SearchStrategy[Any]) -> st.SearchStrategy[dict[str, Any]]:
+    return st.fixed_dictionaries(
+        {
+            "kind": st.just(kind),
+            "points": POINTS,
+            "size": st.builds("{} x {}".format, LENGTHS, LENGTHS) | LENGTHS,
+            **keys,
+        },
+        optional={"prepare": st.lists(STEPS, max_size=3)},
+    )
+
+
+SPECTRA = st.fixed_dictionaries(
+    {"kind": st.just("exponential"), "rms_height": LENGTHS, "correlation_length": LENGTHS},
+    optional={"drop": st.floats(0.01, 0.99), "correlation_length_y": LENGTHS},
+) | st.fixed_dictionaries(
+    {
+        "kind": st.just("self_affine"),
+        "rms_slope": POSITIVE,
+        "hurst": st.floats(0.01, 1.0),
+        "rolloff_wavelength": LENGTHS,
+        "shortest_wavelength": LENGTHS,
+    },
+    optional={"longest_wavelength": LENGTHS},
+)
+FILES = st.fixed_dictionaries(
+    {"kind": st.just("file"), "path": TEXTS},
+    optional={
+        "channel": TEXTS | st.integers(0, 9),
+        "size": LENGTHS,
+        "height_unit": st.sampled_from(["nm", "m"]),
+        "z_scale": LENGTHS,
+        "prepare": st.lists(STEPS, max_size=4),
+    },
+)
+SURFACES = st.one_of(
+    FILES,
+    generated("sphere", radius=LENGTHS, exact=st.booleans()),
+    generated("cylinder", radius=LENGTHS, axis=st.sampled_from("xy")),
+    generated("cone", slope=POSITIVE),
+    generated("flat_punch", radius=LENGTHS, depth=LENGTHS),
+    generated("sinusoid", amplitude=LENGTHS, wavelength=LENGTHS),
+    generated("bisinusoid", amplitude=LENGTHS, wavelength=LENGTHS),
+    generated("flat"),
+    generated("rough", seed=st.integers(0, 2**63 - 1), spectrum=SPECTRA, exact_rms=st.booleans()),
+)
+BODIES = st.one_of(
+    st.fixed_dictionaries({"material": TEXTS}, optional={"materials_file": TEXTS}),
+    st.fixed_dictionaries(
+        {"youngs_modulus": PRESSURES, "poisson_ratio": st.floats(-0.99, 0.49)},
+        optional={"hardness": PRESSURES, "yield_stress": PRESSURES, "name": TEXTS},
+    ),
+)
+CONTROLS = st.one_of(
+    st.fixed_dictionaries({"mean_pressure": PRESSURES}),
+    st.fixed_dictionaries({"force": quantities("N", "mN")}),
+    st.fixed_dictionaries({"approach": LENGTHS}),
+    st.fixed_dictionaries({"mean_gap": LENGTHS}),
+)
+LAWS = st.just({"kind": "hard_wall"}) | st.fixed_dictionaries(
+    {"kind": st.just("hardness"), "hardness": PRESSURES | st.just("from body")}
+)
+SOLVERS = st.fixed_dictionaries(
+    {},
+    optional={
+        "method": st.sampled_from(["conjugate_gradient", "nnls"]),
+        "tolerance": POSITIVE,
+        "max_iterations": COUNTS,
+        "threads": COUNTS,
+    },
+)
+DOCUMENTS = st.fixed_dictionaries(
+    {"version": st.just(1), "surface": SURFACES, "body": BODIES, "control": CONTROLS},
+    optional={
+        "title": st.text(st.characters(codec="utf-8"), max_size=20),
+        "counter_surface": SURFACES.map(lambda table: {**table, "mirror": "x"}),
+        "counter_body": BODIES | st.just({"rigid": True}),
+        "boundary": st.sampled_from([{"kind": "periodic"}, {"kind": "free"}]),
+        "law": LAWS,
+        "solver": SOLVERS,
+    },
+)
+
+
+@settings(max_examples=150, suppress_health_check=[HealthCheck.too_slow])
+@given(DOCUMENTS)
+def test_round_trip_is_exact(table: dict[str, Any]) -> None:
+    document = checked(table)
+    assert loads(dumps(document)) == document
+    assert loads(dumps(document, form="json"), form="json") == document
+
+
+def test_written_document_states_its_kind_first_and_nothing_empty() -> None:
+    text = dumps(checked(SMALL))
+    assert '[surface]\nkind = "sphere"' in text
+    assert "prepare" not in text
+    assert "[solver]" not in text
+
+
+@pytest.mark.parametrize("name", ["case.toml", "case.json"])
+def test_file_round_trip(tmp_path: Path, name: str) -> None:
+    document = checked(SMALL)
+    save_document(document, tmp_path / name)
+    assert load_document(tmp_path / name) == document
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    with pytest.raises(OutputError):
+        save_document(document, tmp_path / name)
+    save_document(document, tmp_path / name, overwrite=True)
+
+
+def test_demo_document_is_valid() -> None:
+    text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
+    assert loads(text).control.mean_pressure == "400 kPa"
+
+
+def test_documents_do_not_change() -> None:
+    document = checked(SMALL)
+    with pytest.raises(ValueError, match="frozen"):
+        document.title = "other"  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("tables", "expected"),
+    [
+        ({"version": None}, "version must be given, but is missing."),
+        ({"version": 2}, "version must be 1, but is 2."),
+        (
+            {"control": {"mean_pressure": "50"}},
+            "control.mean_pressure must have a unit, such as \"50 kPa\", but is '50'",
+        ),
+        ({"control": {"mean_pressure": 50}}, "control.mean_pressure must be text with a number and a unit"),
+        ({"control": {"mean_pressure": "50 nm"}}, "control.mean_pressure must be a pressure"),
+        ({"control": {"mean_pressure": "50 kPq"}}, "control.mean_pressure has the unknown unit 'kPq'"),
+        ({"control": {"force": "0 N"}}, "control.force must be greater than zero, but is '0 N'."),
+        ({"control": {"approach": "-1 nm"}}, "control.approach must be greater than zero, but is '-1 nm'."),
+        ({"control": {}}, "control must give exactly one of mean_pressure, force, approach, mean_gap, but gives none."),
+        ({"control": {"force": "1 N", "approach": "1 nm"}}, "but gives force and approach."),
+        ({"control": None}, "control must be given, but is missing."),
+        ({"control": "50 kPa"}, "control must be a table, but is '50 kPa'."),
+        ({"bondary": {}}, "bondary is not a known key; did you mean boundary?"),
+        ({"body": {"youngs_modulus": "1 GPa"}}, "body must give youngs_modulus and poisson_ratio together"),
+        ({"body": {"rigid": True}}, "body and counter_body must not both be rigid"),
+        ({"body": {"material": "DLC", "rigid": True}}, "but gives rigid = true and material."),
+        ({"body": {"material": "DLC", "hardness": "1 GPa"}}, "may give hardness only together with youngs_modulus"),
+        ({"body": {"youngs_modulus": "-1 GPa", "poisson_ratio": 0.3}}, "body.youngs_modulus must be greater than zero"),
+        ({"body": {"youngs_modulus": "1 GPa", "poisson_ratio": 0.5}}, "body.poisson_ratio must be greater than -1"),
+        ({"surface": {"kind": "sphrere"}}, "surface.kind must be one of 'file', 'sphere'"),
+        ({"surface": {}}, "surface.kind must be given, one of"),
+        ({"surface": {"kind": "file", "path": "a.txt", "mirror": "x"}}, "surface.mirror must be left out"),
+        (
+            {"surface": {"kind": "file", "path": "a.txt", "channel": True}},
+            "surface.channel must be the name of a channel",
+        ),
+        ({"counter_surface": {"kind": "file", "path": "a.txt"}}, "counter_surface.mirror must be given"),
+        ({"surface": SMALL["surface"] | {"points": [16]}}, "surface.points must be two whole numbers"),
+        ({"surface": SMALL["surface"] | {"points": [16, 0]}}, "surface.points must be two whole numbers"),
+        ({"surface": SMALL["surface"] | {"size": "1 um x 2"}}, "surface.size must have a unit"),
+        ({"surface": SMALL["surface"] | {"size": "0 um"}}, "surface.size must be greater than zero"),
+        ({"surface": SMALL["surface"] | {"radus": "1 um"}}, "surface.radus is not a known key; did you mean radius?"),
+        (
+            {"surface": SMALL["surface"] | {"prepare": [{"step": "crop"}]}},
+            "surface.prepare[1] must give x or y or both",
+        ),
+        ({"surface": SMALL["surface"] | {"prepare": [{"step": "melt"}]}}, "surface.prepare[1].step must be one of"),
+        (
+            {"surface": SMALL["surface"] | {"prepare": [{"step": "crop", "x": ["2 um", "1 um"]}]}},
+            "surface.prepare[1].x must end after its start",
+        ),
+        (
+            {"surface": SMALL["surface"] | {"prepare": [{"step": "taper", "width": 0.7}]}},
+            "must be at most 0.5 of the side",
+        ),
+        ({"law": {"kind": "hardness", "hardness": "5"}}, "law.hardness must have a unit"),
+        ({"solver": {"method": "magic"}}, "solver.method must be one of conjugate_gradient"),
+        ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than zero"),
+        ({"solver": {"tolerance": float("nan")}}, "solver.tolerance must be a finite number"),
+        ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number, but is 1.5."),
+        ({"boundary": {"kind": "open"}}, "boundary.kind must be 'periodic' or 'free', but is 'open'."),
+    ],
+)
+def test_errors_are_plain_words(tables: dict[str, Any], expected: str) -> None:
+    text = message(with_(**tables))
+    assert expected in text
+    for jargon in ("Input should", "Value error", "pydantic", "type=", "Extra inputs", "Field required"):
+        assert jargon not in text
+
+
+def test_all_errors_come_at_once() -> None:
+    text = message(with_(version=7, control={"force": "1 nm"}, boundry={}, solver={"threads": 0}))
+    assert text.splitlines()[0] == "problem document has 4 problems:"
+    assert [line.split()[0] for line in text.splitlines()[1:]] == [
+        "version",
+        "control.force",
+        "solver.threads",
+        "boundry",
+    ]
+
+
+def test_names_of_the_caller_replace_keys() -> None:
+    with pytest.raises(InputError, match="--load must have a unit"):
+        checked(with_(control={"force": "1"}), names={"control.force": "--load"})
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [("version = ", "valid TOML"), (b"\xff\xfe\x00", "UTF-8"), ("", "has 4 problems")],
+)
+def test_damaged_files(tmp_path: Path, content: str | bytes, expected: str) -> None:
+    path = tmp_path / "case.toml"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(InputError, match=expected):
+        load_document(path)
+
+
+def test_missing_file_and_wrong_json(tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError, match="must exist"):
+        load_document(tmp_path / "none.toml")
+    (tmp_path / "list.json").write_text("[1]")
+    with pytest.raises(FileFormatError, match="table of keys"):
+        load_document(tmp_path / "list.json")
+    (tmp_path / "broken.json").write_text("{")
+    with pytest.raises(FileFormatError, match="valid JSON"):
+        load_document(tmp_path / "broken.json")
+
+
+def test_relocated_paths_lead_to_the_same_files(tmp_path: Path) -> None:
+    table = with_(
+        surface={"kind": "file", "path": "scans/a.txt"},
+        counter_surface={"kind": "file", "path": str(tmp_path / "b.txt"), "mirror": "x"},
+        body={"material": "X", "materials_file": "own.toml"},
+    )
+    moved = relocated(checked(table), tmp_path, tmp_path / "out" / "run").model_dump()
+    assert moved["surface"]["path"] == "../../scans/a.txt"
+    assert moved["counter_surface"]["path"] == str(tmp_path / "b.txt")
+    assert moved["body"]["materials_file"] == "../../own.toml"
+
+
+def test_schema_is_json_and_names_every_table() -> None:
+    schema = json.loads(json.dumps(json_schema()))
+    assert set(schema["properties"]) == set(ProblemDocument.model_fields)
+    assert schema["additionalProperties"] is False
