@@ -148,8 +148,9 @@ def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
     from matplotlib.ticker import FuncFormatter, NullFormatter
 
     width, height = grid.size
-    wide = width > WIDE * height
-    aspect = min(max(1.0, width / height, height / width), 4.0)  # keeps the bar's thickness on slender maps
+    wide = WIDE < width / height <= SLENDER
+    ratio = max(width / height, height / width)
+    aspect = 1.0 if ratio > SLENDER else min(ratio, 4.0)  # keeps the bar's thickness on oblong maps
     place = (0.0, 1.0 + 0.03 * aspect, 1.0, 0.03 * aspect) if wide else (1.0 + 0.03 * aspect, 0.0, 0.045 * aspect, 1.0)
     bar_axes = ax.inset_axes(place)
     bar = ax.figure.colorbar(image, cax=bar_axes, orientation="horizontal" if wide else "vertical")
@@ -165,7 +166,7 @@ def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
 def _plot_curve(values: RealArray, grid: Grid, ax: Axes, title: str, *, log: bool) -> Axes:
     axis = 0 if grid.shape[0] >= grid.shape[1] else 1
     length: Scale = scale(grid.size[axis], "m")
-    ax.plot(length((np.arange(values.size) + 0.5) * grid.spacing[axis]), values, color=BLUE)
+    ax.plot(length((np.arange(values.size) + 0.5) * grid.spacing[axis]), values, color=BLUE, marker=".", markersize=3.0)
     if log:
         ax.set_yscale("log")
     ax.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=title, xlim=(0.0, float(length(grid.size[axis]))))

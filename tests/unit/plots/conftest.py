@@ -31,7 +31,9 @@ MAKERS = {
     "column": lambda: contact((1, 40)),
     "slender": lambda: contact((4, 90)),
     "wide": lambda: contact((60, 16)),
-    "point": lambda: contact((1, 1)),
+    "point": lambda: asp.solve(
+        asp.ContactProblem(asp.Surface([[1e-9]], 1e-8), asp.Elastic(1e11, 0.3), boundary=asp.Free()), asp.Force(1e-9)
+    ),
     "full": lambda: asp.solve(
         asp.ContactProblem(asp.Surface(np.zeros((8, 6)), 1e-8, periodic=True), asp.Elastic(1e11, 0.3)),
         asp.MeanPressure(1e6),

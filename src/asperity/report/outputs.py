@@ -1,0 +1,75 @@
+"""Results and their certificate in words for a table."""
+
+from __future__ import annotations
+
+import math
+
+from ..contact.result import SCALARS, ContactResult, Quantity
+from ..core.units import show
+from ..io.labels import CERTIFICATE
+from .inputs import Rows
+
+MEANINGS = {
+    "duality_gap": "The total energy of this answer differs from the exact one on this grid by at most this fraction.",
+    "field_error": "How far pressure and gap are from excluding each other, relative to load and rms height.",
+    "penetration": "The deepest point at which the bodies still overlap, as a fraction of the rms height.",
+    "load_imbalance": "How far the load reached is from the load asked for; zero where a position was asked for.",
+    "tolerance": "The relative error at which the solver was told to stop.",
+    "iterations": "Steps of the solver.",
+    "fft_pairs": "Work in forward and backward transforms, the unit of cost.",
+    "wall_time": "From the prepared problem to the solution, on the machine named below.",
+    "solver": "The numerical method.",
+}
+"""What each entry of a certificate says, in plain words."""
+
+HEADLINE = {
+    "area_fraction_corrected": "real contact area",
+    "mean_pressure": "mean pressure",
+    "max_pressure": "maximum pressure",
+    "mean_gap": "mean gap",
+    "approach": "approach",
+    "n_spots": "contact spots",
+}
+"""Scalars at the top of a report, with short labels."""
+
+
+def value_text(quantity: Quantity, value: float | int | str) -> str:
+    """Text of ``value`` with the unit of ``quantity``; whole numbers in full, shares also in percent."""
+    if isinstance(value, str | int):
+        return str(value)
+    if math.isnan(value):
+        return "not computed"
+    text = show(value, quantity.unit)
+    if quantity.attribute.endswith(("fraction", "fraction_corrected")):
+        return f"{text} ({100.0 * value:.3g} %)"
+    return text
+
+
+def result_rows(result: ContactResult) -> Rows:
+    """Every scalar of ``result``."""
+    return [(q.label, value_text(q, getattr(result, q.attribute))) for q in SCALARS]
+
+
+def headline_rows(result: ContactResult) -> Rows:
+    """The scalars that people look for first; the real contact area in percent of the nominal area."""
+    chosen = {q.attribute: value_text(q, getattr(result, q.attribute)) for q in SCALARS}
+    chosen["area_fraction_corrected"] = f"{100.0 * result.area_fraction_corrected:.3g} %"
+    return [(label, chosen[name]) for name, label in HEADLINE.items()]
+
+
+def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
+    """Label, value and meaning of every entry of the certificate."""
+    return [
+        (q.label, value_text(q, getattr(result.certificate, q.attribute)), MEANINGS[q.attribute]) for q in CERTIFICATE
+    ]
+
+
+def summary(result: ContactResult) -> str:
+    """One sentence on the state of the contact."""
+    share = f"{100.0 * result.area_fraction_corrected:.3g} % of the nominal area"
+    if not result.contact.any():
+        return "The bodies do not touch."
+    if result.is_plastic:
+        plastic = f"{100.0 * result.plastic_area_fraction:.3g} % of the real contact area is at the hardness"
+        return f"The bodies touch on {share}. The contact is plastic: {plastic}."
+    return f"The bodies touch on {share}. The contact is elastic."

@@ -1,0 +1,121 @@
+"""A self-contained HTML report of one contact."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ..contact.advice import Advice
+from ..contact.result import ContactResult
+from ..core.citations import REFERENCES
+from ..core.errors import InputError
+from ..io.atomic import atomic_file
+from ..io.provenance import provenance
+from ..plots.figures import PLOTS, render
+from .inputs import Rows, body_rows, setting_rows, surface_rows
+from .outputs import certificate_rows, headline_rows, result_rows, summary
+
+TEMPLATE = "report.html"
+"""Template in the folder ``templates``."""
+
+
+def write_report(
+    result: ContactResult,
+    path: str | Path,
+    *,
+    advice: Sequence[Advice] = (),
+    document: str | None = None,
+    overwrite: bool = False,
+) -> None:
+    """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
+
+    Parameters
+    ----------
+    result
+        The result, converged or not; if not, the report says so first.
+    path
+        HTML file to write.
+    advice
+        Findings of the checks of resolution and regime.
+    document
+        Text of the problem document that the result came from.
+    overwrite
+        Whether an existing file is replaced.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    InputError
+        If ``advice`` holds anything but ``Advice``.
+    """
+    for item in advice:
+        if not isinstance(item, Advice):
+            raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
+    with atomic_file(path, overwrite=overwrite) as file:
+        file.write_text(_html(result, advice, document), encoding="utf-8")
+
+
+def _html(result: ContactResult, advice: Sequence[Advice], document: str | None) -> str:
+    import jinja2
+
+    text = resources.files(__package__).joinpath("templates", TEMPLATE).read_text(encoding="utf-8")
+    environment = jinja2.Environment(
+        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    warnings = [item for item in advice if item.level == "warning"]
+    return environment.from_string(text).render(
+        title=_title(result),
+        result=result,
+        summary=summary(result),
+        headline=headline_rows(result),
+        inputs=_inputs(result),
+        certificate=certificate_rows(result),
+        results=result_rows(result),
+        figures=_figures(result),
+        warnings=warnings,
+        notes=[item for item in advice if item.level != "warning"],
+        provenance=_provenance_rows(provenance(result)),
+        references=[(key, REFERENCES.get(key, "unknown reference")) for key in result.citation_keys],
+        document=document,
+    )
+
+
+def _title(result: ContactResult) -> str:
+    source = result.problem.surface.origin.source
+    return f"Contact report: {source}" if source else "Contact report"
+
+
+def _inputs(result: ContactResult) -> list[tuple[str, Rows]]:
+    problem = result.problem
+    return [
+        ("Surface", surface_rows(problem.surface)),
+        ("Body", body_rows(problem.body)),
+        ("Counter surface", surface_rows(problem.counter_surface)),
+        ("Counter body", body_rows(problem.counter_body)),
+        ("Boundary, law and load", setting_rows(result)),
+    ]
+
+
+def _figures(result: ContactResult) -> list[dict[str, str]]:
+    """Title, caption and base64 PNG of the standard figures."""
+    return [
+        {
+            "title": plot.title,
+            "caption": plot.caption,
+            "picture": base64.b64encode(render(plot, result)).decode("ascii"),
+        }
+        for plot in PLOTS
+    ]
+
+
+def _provenance_rows(described: dict[str, Any]) -> Rows:
+    surfaces = [key for key in ("surface", "counter_surface") if key in described]
+    return [
+        ("written (UTC)", described["created"]),
+        *((name.replace("_", " "), text) for name, text in described["software"].items()),
+        *((f"SHA-256 of the {key.replace('_', ' ')}", described[key]["digest"]) for key in surfaces),
+    ]
