@@ -33,7 +33,7 @@ PARTS = ("body", "counter_body", "boundary", "law", "control")
 
 
 def dataset(result: ContactResult, *, document: str | None = None) -> xarray.Dataset:
-    """``result`` as an ``xarray.Dataset`` with dimensions x, y (m) and spot, units and labels on every variable.
+    """Dataset of ``result`` with dimensions x, y (m) and spot, units and labels on every variable.
 
     Scalars are 0-d variables; bodies, boundary, law, control, certificate, status, provenance, citation keys and the
     text of the problem ``document`` are attributes.
@@ -43,30 +43,11 @@ def dataset(result: ContactResult, *, document: str | None = None) -> xarray.Dat
     InputError
         If the problem holds a type that files do not know.
     """
-    import xarray
-
-    problem = result.problem
     arrays: dict[str, RealArray] = {}
-    owners = {"control": result} | dict.fromkeys(PARTS[:4], problem)
+    owners = {"control": result} | dict.fromkeys(PARTS[:4], result.problem)
     parts = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
-    variables: dict[str, Any] = {"heights": _field(problem.surface.heights, "m", "heights of the surface")}
-    if isinstance(problem.counter_surface, Surface):
-        heights = problem.counter_surface.heights
-        variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
-    for item in FIELDS:
-        variables[item.attribute] = _field(getattr(result, item.attribute), item.unit, item.label)
-    variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
-    variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
-    for item in ALL_SCALARS:
-        variables[item.attribute] = ((), getattr(result, item.attribute), _labels(item.unit, item.label))
-    variables |= {name: _field(values, "Pa", "hardness") for name, values in arrays.items()}
-    x, y = problem.grid.coordinates()
-    coordinates = {
-        "x": ("x", x[:, 0], _labels("m", "position along x")),
-        "y": ("y", y[0], _labels("m", "position along y")),
-    }
     attributes = _attributes(result) | parts | ({} if document is None else {"document": document})
-    return xarray.Dataset(variables, coordinates, attributes)
+    return _labelled(result, arrays).assign_attrs(attributes)
 
 
 def save(result: ContactResult, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
@@ -101,14 +82,16 @@ def open_dataset(path: str | Path) -> xarray.Dataset:
         raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
     try:
         data = xarray.load_dataset(path, engine="h5netcdf", decode_times=False)
+    except MemoryError:
+        raise
     except Exception as error:  # the readers below raise many types on foreign or damaged bytes
         raise FileFormatError(
             f"result file must be a whole NetCDF-4 file, but {path} is not ({error}). Was the copy interrupted?"
         ) from error
     version = data.attrs.get("asperity_format")
-    if version is None:
+    if not isinstance(version, int | np.integer):
         raise FileFormatError(f"result file must be written by asperity, but {path} is another NetCDF-4 file.")
-    if int(version) > FORMAT_VERSION:
+    if version > FORMAT_VERSION:
         raise FileFormatError(
             f"result file must be of format {FORMAT_VERSION} or older, but {path} is of {version}; update asperity."
         )
@@ -152,6 +135,30 @@ def _result(data: xarray.Dataset) -> ContactResult:
         citation_keys=tuple(attributes["citation_keys"].split()),
         **values,
     )
+
+
+def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dataset:
+    """Fields, scalars, coordinates and the ``arrays`` of the law (Pa), each with unit and label."""
+    import xarray
+
+    problem = result.problem
+    variables: dict[str, Any] = {"heights": _field(problem.surface.heights, "m", "heights of the surface")}
+    if isinstance(problem.counter_surface, Surface):
+        heights = problem.counter_surface.heights
+        variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
+    for item in FIELDS:
+        variables[item.attribute] = _field(getattr(result, item.attribute), item.unit, item.label)
+    variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
+    variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
+    for item in ALL_SCALARS:
+        variables[item.attribute] = ((), getattr(result, item.attribute), _labels(item.unit, item.label))
+    variables |= {name: _field(values, "Pa", "hardness") for name, values in arrays.items()}
+    x, y = problem.grid.coordinates()
+    coordinates = {
+        "x": ("x", x[:, 0], _labels("m", "position along x")),
+        "y": ("y", y[0], _labels("m", "position along y")),
+    }
+    return xarray.Dataset(variables, coordinates)
 
 
 def _attributes(result: ContactResult) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,57 +32,46 @@ def plot_heights(surface: Surface, ax: Axes) -> Axes:
     level = np.nanmean(surface.heights, dtype=np.float64)
     flat = np.nanmax(surface.heights) == np.nanmin(surface.heights)
     heights = np.where(surface.mask, np.nan, 0.0) if flat else surface.heights - level  # not the rounding of the mean
-    return _plot_field(heights, surface.grid, ax, unit="m", label="height", colours=HEIGHT_MAP)
+    return _plot_field(heights, surface.grid, ax, _Look("m", "height", HEIGHT_MAP, from_zero=False))
 
 
 def plot_gap(result: ContactResult, ax: Axes) -> Axes:
     """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are grey."""
     gap = np.where(result.contact, np.nan, result.gap)
-    grid = result.problem.grid
-    return _plot_field(gap, grid, ax, unit="m", label="gap", colours=GAP_MAP, limits=(0.0, None))
+    return _plot_field(gap, result.problem.grid, ax, _Look("m", "gap", GAP_MAP))
 
 
 def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes:
     """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact is grey."""
-    from matplotlib.colors import LogNorm
-
     pressure = np.where(result.contact, result.pressure, np.nan)
-    label = "contact pressure"
-    top = result.max_pressure
-    if not (log and top > 0.0):
-        return _plot_field(pressure, result.problem.grid, ax, unit="Pa", label=label, limits=(0.0, None))
-    in_unit = scale(top, "Pa")
-    norm = LogNorm(in_unit(top) * 10.0**-DECADES, in_unit(top), clip=True)
-    return _plot_field(pressure, result.problem.grid, ax, unit="Pa", label=label, norm=norm)
+    look = _Look("Pa", "contact pressure", PRESSURE_MAP, log=log and bool(result.contact.any()))
+    return _plot_field(pressure, result.problem.grid, ax, look)
 
 
 def plot_contact(result: ContactResult, ax: Axes) -> Axes:
     """Draw where the bodies of ``result`` touch on ``ax``: not, elastically, or at the hardness."""
     from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
 
     kinds = result.contact.astype(float) + result.plastic
     shares = [float(np.mean(kinds == kind)) for kind in range(3)]
     names, colours = ("no contact", "elastic", "plastic"), (NO_CONTACT, BLUE, VERMILLION)
     image = _image(kinds, result.problem.grid, ax, cmap=ListedColormap(colours), vmin=-0.5, vmax=2.5)
     image.set_interpolation("nearest")
-    shown = [kind for kind in range(3) if kind < 2 or shares[kind] > 0.0]
-    handles = [
-        Patch(facecolor=colours[k], edgecolor="0.4", linewidth=0.5, label=f"{names[k]} {percent(shares[k])}")
-        for k in shown
-    ]
-    ax.legend(
-        handles=handles,
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=len(shown),
-        borderaxespad=0.3,
-        handlelength=1.0,
-        handletextpad=0.5,
-        columnspacing=1.2,
-        borderpad=0.2,
-    )
+    _contact_legend(ax, names, colours, shares)
     return ax
+
+
+def _contact_legend(ax: Axes, names: tuple[str, ...], colours: tuple[str, ...], shares: list[float]) -> None:
+    """Legend above the map with the shares of the nominal area; plastic only where there is any."""
+    from matplotlib.patches import Patch
+
+    handles = [
+        Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=f"{name} {percent(share)}")
+        for name, colour, share in zip(names, colours, shares, strict=True)
+        if name != "plastic" or share > 0.0
+    ]
+    spacing = {"handlelength": 1.0, "handletextpad": 0.5, "columnspacing": 1.2, "borderaxespad": 0.3, "borderpad": 0.2}
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(handles), **spacing)
 
 
 def percent(share: float) -> str:
@@ -89,37 +79,41 @@ def percent(share: float) -> str:
     return f"{100.0 * share:.3g} %"
 
 
-def _plot_field(
-    values: RealArray,
-    grid: Grid,
-    ax: Axes,
-    *,
-    unit: str,
-    label: str,
-    colours: str = PRESSURE_MAP,
-    limits: tuple[float | None, float | None] = (None, None),
-    norm: Any = None,
-) -> Axes:
-    """Map of ``values`` (nx, ny) in SI ``unit`` with a colour bar, or their curve along a grid of one row."""
-    in_unit = scale(values, unit)
-    title = f"{label} ({in_unit.symbol})"
-    if 1 in grid.shape:
-        return _plot_curve(in_unit(values).ravel(), grid, ax, title, log=norm is not None)
+@dataclass(frozen=True)
+class _Look:
+    """How a field is shown: SI unit, label, colour map, whether colours start at zero or are logarithmic."""
+
+    unit: str
+    label: str
+    colours: str
+    from_zero: bool = True
+    log: bool = False
+
+
+def _plot_field(values: RealArray, grid: Grid, ax: Axes, look: _Look) -> Axes:
+    """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a grid of one row."""
+    from matplotlib.colors import LogNorm, Normalize
+
+    in_unit = scale(values, look.unit)
+    title = f"{look.label} ({in_unit.symbol})"
     drawn = in_unit(values)
-    low, high = _limits(drawn, limits)
-    image = _image(drawn, grid, ax, cmap=colours, **({"norm": norm} if norm else {"vmin": low, "vmax": high}))
+    if 1 in grid.shape:
+        return _plot_curve(drawn.ravel(), grid, ax, title, log=look.log)
+    low, high = _limits(drawn, from_zero=look.from_zero)
+    norm = LogNorm(high * 10.0**-DECADES, high, clip=True) if look.log else Normalize(low, high)
+    image = _image(drawn, grid, ax, cmap=look.colours, norm=norm)
     _colour_bar(image, grid, ax, title)
     return ax
 
 
-def _limits(drawn: RealArray, limits: tuple[float | None, float | None]) -> tuple[float, float]:
-    """Range of colours; equal or absent values get a range around them."""
+def _limits(drawn: RealArray, *, from_zero: bool) -> tuple[float, float]:
+    """Range of colours; equal or absent values get a range of one unit."""
     finite = drawn[np.isfinite(drawn)]
-    low = limits[0] if limits[0] is not None else float(finite.min(initial=np.inf)) if finite.size else 0.0
-    high = float(finite.max()) if finite.size else 1.0
-    if high <= low:
-        return low - 0.5 * (limits[0] is None), low + 0.5 + 0.5 * (limits[0] is not None)
-    return low, high
+    low = 0.0 if from_zero or not finite.size else float(finite.min())
+    high = float(finite.max(initial=low))
+    if high > low:
+        return low, high
+    return (low, low + 1.0) if from_zero else (low - 0.5, low + 0.5)
 
 
 def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:

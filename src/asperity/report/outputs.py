@@ -17,7 +17,7 @@ MEANINGS = {
     "tolerance": "The relative error at which the solver was told to stop.",
     "iterations": "Steps of the solver.",
     "fft_pairs": "Work in forward and backward transforms, the unit of cost.",
-    "wall_time": "From the prepared problem to the solution, on the machine named below.",
+    "wall_time": "From the prepared problem to the solution.",
     "solver": "The numerical method.",
 }
 """What each entry of a certificate says, in plain words."""
