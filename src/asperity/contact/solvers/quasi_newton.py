@@ -13,7 +13,7 @@ from .feasible import scaled_to_load
 from .optimality import level, relative_error
 from .protocol import ContactQP, FixedMean, SolverState
 
-_STALLS = 4
+_STALLS = 8
 _PAIRS = 20
 
 
@@ -23,8 +23,8 @@ class _Memory:
 
     ``length`` (m) and ``unit`` (Pa) make pressures and gaps of order one; ``load_stiffness`` (m/Pa) multiplies the
     load error; ``plane`` (m) is the current level, known to lie between ``low`` and ``high``; ``last`` holds the
-    previous level and its load error (Pa, sum over the points); ``best`` the smallest error so far, ``stalls`` the
-    steps since.
+    previous level and its load error (Pa, sum over the points); ``runs`` counts the library's runs; ``best`` is the
+    smallest error so far and ``nearest`` the smallest load error, ``stalls`` the steps since either.
     """
 
     length: float
@@ -34,7 +34,9 @@ class _Memory:
     low: float = -math.inf
     high: float = math.inf
     last: tuple[float, float] | None = None
+    runs: int = 0
     best: float = math.inf
+    nearest: float = math.inf
     stalls: int = 0
 
 
@@ -78,14 +80,17 @@ class QuasiNewton:
         memory = state.memory
         assert isinstance(memory, _Memory)
         p, iterations, applications = self._minimised(qp, state, memory)
-        load_error = 0.0
+        nearer = False
         if isinstance(qp.constraint, FixedMean):
             load_error = float(p.sum()) - qp.constraint.mean_pressure * p.size
+            kink = _next_kink(qp, p, memory, rising=load_error < 0.0)
+            applications += int(math.isfinite(kink))
             p = scaled_to_load(p, qp.cap, qp.constraint.mean_pressure)
-            memory = _next_level(memory, load_error)
+            nearer = abs(load_error) < memory.nearest
+            memory = replace(_next_level(memory, load_error, kink), nearest=min(abs(load_error), memory.nearest))
         deflection = qp.operator.apply(p)
         error = relative_error(qp, p, deflection)
-        stalls = 0 if error < memory.best else memory.stalls + 1
+        stalls = 0 if nearer or error < memory.best else memory.stalls + 1
         return SolverState(
             p,
             deflection,
@@ -124,7 +129,7 @@ class QuasiNewton:
                 "maxfun": 10 * self.max_iterations,
                 "maxcor": _PAIRS,
                 "ftol": 0.0,
-                "gtol": 0.1 * self.tolerance,
+                "gtol": 0.1 * self.tolerance * _cap_leverage(qp),
             },
         )
         moved = reference + memory.unit * fit.x.reshape(shape)
@@ -133,21 +138,40 @@ class QuasiNewton:
         return moved, int(fit.nit), int(fit.nfev)
 
 
-def _next_level(memory: _Memory, load_error: float) -> _Memory:
+def _cap_leverage(qp: ContactQP) -> float:
+    """Mean over largest pressure, at most 1: where a cap is far away, even small overlaps weigh in the duality gap."""
+    if qp.elastic or not isinstance(qp.constraint, FixedMean):
+        return 1.0
+    return min(1.0, qp.constraint.mean_pressure / float(np.mean(qp.cap)))
+
+
+def _next_kink(qp: ContactQP, pressure: RealArray, memory: _Memory, *, rising: bool) -> float:
+    """Level (m) up (or down) to which the load stays as it is when every pressure is at a bound; else infinite."""
+    capped = (pressure > 0.0) & (pressure >= qp.cap)
+    candidates = (pressure <= 0.0) if rising else capped
+    if ((pressure > 0.0) & ~capped).any() or not candidates.any():
+        return math.inf
+    r = qp.operator.apply(pressure) - qp.profile + memory.load_stiffness * float(pressure.sum())
+    return float(r[candidates].min() if rising else r[candidates].max())
+
+
+def _next_level(memory: _Memory, load_error: float, kink: float) -> _Memory:
     """Level after a run that ended with ``load_error``: secant of the load curve, kept between safe bounds.
 
-    The load grows with the level by at most 1/load_stiffness, so that the multiplier rule never goes too far: a secant
-    is at least as long.
+    The load grows with the level by at most 1/load_stiffness, so that the multiplier rule, counted from the ``kink``
+    up to which the curve is flat, never goes too far: a secant is at least as long. Every third run halves the
+    bracket, for a secant may keep one end of it.
     """
     plane = memory.plane
     low, high = (memory.low, plane) if load_error > 0.0 else (plane, memory.high)
-    safe = following = plane - memory.load_stiffness * load_error
+    base = kink if math.isfinite(kink) else plane
+    safe = following = base - memory.load_stiffness * load_error
     if memory.last is not None:
         before, error_before = memory.last
         slope = (load_error - error_before) / (plane - before) if plane != before else 0.0
         if slope > 0.0:
             following = plane - load_error / slope
         following = min(following, safe) if load_error > 0.0 else max(following, safe)
-    if not low < following < high:
+    if not low < following < high or (memory.runs % 3 == 2 and math.isfinite(low + high)):
         following = 0.5 * (low + high) if math.isfinite(low + high) else safe
-    return replace(memory, plane=following, low=low, high=high, last=(plane, load_error))
+    return replace(memory, plane=following, low=low, high=high, last=(plane, load_error), runs=memory.runs + 1)
