@@ -1,5 +1,6 @@
 """Contact mechanics of layered rough surfaces."""
 
+from .contact import solvers
 from .contact.advice import Advice, advise, review
 from .contact.boundary import Free, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure
@@ -21,7 +22,18 @@ from .core.errors import (
 )
 from .core.grid import Grid
 from .solids.elastic import Elastic, Rigid, contact_modulus
+from .solids.library import material, materials
 from .solids.strength import Strength
+from .surfaces import generate
+from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
+from .surfaces.characterise.slopes import rms_slope
+from .surfaces.pair import composite
+from .surfaces.prepare.crop import cropped
+from .surfaces.prepare.fill import filled
+from .surfaces.prepare.level import levelled
+from .surfaces.prepare.resample import resampled
+from .surfaces.prepare.window import periodised, tapered
+from .surfaces.read import channels, read
 from .surfaces.surface import Surface
 
 __version__ = "0.1.0"
@@ -55,9 +67,26 @@ __all__ = [
     "UnitError",
     "__version__",
     "advise",
+    "channels",
     "cite",
+    "composite",
     "contact_modulus",
+    "cropped",
+    "filled",
+    "generate",
+    "levelled",
+    "material",
+    "materials",
+    "mean_absolute_height",
+    "peak_to_valley",
+    "periodised",
     "prepare_operator",
+    "read",
+    "resampled",
     "review",
+    "rms_height",
+    "rms_slope",
     "solve",
+    "solvers",
+    "tapered",
 ]
