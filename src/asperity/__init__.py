@@ -21,13 +21,17 @@ from .core.errors import (
     UnitError,
 )
 from .core.grid import Grid
+from .io.export import export_csv, export_vtk
+from .io.results import load, open_dataset, save
+from .plots.figures import save_plots, save_surface_plot
+from .report.write import write_report
 from .solids.elastic import Elastic, Rigid, contact_modulus
 from .solids.library import material, materials
 from .solids.strength import Strength
 from .surfaces import generate
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
-from .surfaces.pair import composite
+from .surfaces.pair import composite, turned_over
 from .surfaces.prepare.crop import cropped
 from .surfaces.prepare.fill import filled
 from .surfaces.prepare.level import levelled
@@ -72,12 +76,16 @@ __all__ = [
     "composite",
     "contact_modulus",
     "cropped",
+    "export_csv",
+    "export_vtk",
     "filled",
     "generate",
     "levelled",
+    "load",
     "material",
     "materials",
     "mean_absolute_height",
+    "open_dataset",
     "peak_to_valley",
     "periodised",
     "prepare_operator",
@@ -86,7 +94,12 @@ __all__ = [
     "review",
     "rms_height",
     "rms_slope",
+    "save",
+    "save_plots",
+    "save_surface_plot",
     "solve",
     "solvers",
     "tapered",
+    "turned_over",
+    "write_report",
 ]

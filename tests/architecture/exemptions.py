@@ -7,7 +7,7 @@ LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "asperity.contact.assemble.assemble": "one line for each field of the result",
         "asperity.contact.solve.solve": "one call per stage, laid out by the formatter; no loop and no nesting",
-        "asperity.contact.solvers.conjugate_gradient.ConjugateGradient.step": (
+        "asperity.contact.solvers.conjugate_gradient._conjugate_step": (
             "one iteration in the order of the paper; its parts share seven arrays"
         ),
         "asperity.surfaces.surface.Surface.__init__": "one check for each way a height map can be unusable",

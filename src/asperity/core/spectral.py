@@ -90,7 +90,9 @@ class RealTransform:
         """Normalised inverse transform of ``spectrum``, which may be overwritten."""
         field: RealArray
         if self._ducc is None:
-            field = np.fft.irfft2(spectrum, s=self.shape, out=cast(Any, out))
+            # axis by axis: numpy 2.4's irfft2 does not write into the array it is given
+            columns = np.fft.ifft(spectrum, axis=0)
+            field = np.fft.irfft(columns, n=self.shape[1], axis=1, out=cast(Any, out))
         else:
             field = self._ducc.c2r(
                 spectrum,

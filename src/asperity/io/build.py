@@ -17,7 +17,7 @@ from ..core.errors import InputError
 from ..solids.elastic import Body, Elastic, Rigid
 from ..solids.library import material
 from ..solids.strength import Strength
-from .build_surface import build_surface, turned_over
+from .build_surface import build_counter_surface, build_surface
 from .schemas.problem import BodyTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
 from .schemas.values import FROM_BODY
 
@@ -47,7 +47,7 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     problem = ContactProblem(
         build_surface(document.surface, folder),
         body,
-        Flat() if document.counter_surface is None else turned_over(document.counter_surface, folder),
+        Flat() if document.counter_surface is None else build_counter_surface(document.counter_surface, folder),
         counter_body,
         boundary,
         build_law(document.law, (body, counter_body)),

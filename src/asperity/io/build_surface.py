@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
-
-import numpy as np
 
 from ..core import units
 from ..core.grid import Grid
 from ..surfaces import generate
-from ..surfaces.pair import composite
+from ..surfaces.pair import turned_over
 from ..surfaces.prepare.crop import cropped
 from ..surfaces.prepare.fill import filled
 from ..surfaces.prepare.level import levelled
@@ -34,16 +31,10 @@ def build_surface(table: _Table, folder: Path) -> Surface:
     return surface
 
 
-def turned_over(table: _Table, folder: Path) -> Surface:
+def build_counter_surface(table: _Table, folder: Path) -> Surface:
     """Counter surface of ``table``, mirrored as it asks so that it lies in the frame of the other surface."""
     surface = build_surface(table, folder)
-    if table.mirror in (None, "none"):
-        return surface
-    zero = Surface(np.zeros(surface.shape), surface.dx, surface.dy, periodic=surface.periodic)
-    mirrored = composite(zero, surface, mirrored=table.mirror)
-    history = (*surface.origin.history, f"turned over: mirrored along {table.mirror}")
-    origin = replace(surface.origin, history=history)
-    return Surface(mirrored.heights, surface.dx, surface.dy, periodic=surface.periodic, origin=origin)
+    return surface if table.mirror in (None, "none") else turned_over(surface, axis=str(table.mirror))
 
 
 def prepared(surface: Surface, step: Step) -> Surface:

@@ -7,7 +7,6 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -178,4 +177,4 @@ def _metadata(info: Mapping[str, Any], prefix: str = "") -> Mapping[str, str]:
             flat.update(_metadata(value, f"{prefix}{key}."))
         else:
             flat[f"{prefix}{key}"] = str(value)
-    return MappingProxyType(flat)
+    return flat

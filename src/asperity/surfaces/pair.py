@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from ..core import require
-from ..core.arrays import RealArray
 from ..core.errors import InputError
 from .surface import Origin, Surface
 
@@ -30,24 +29,32 @@ def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | Non
     InputError
         If the grids differ, the mirror is unknown, or no point is valid in both surfaces.
     """
-    if mirrored is not None:
-        require.one_of(mirrored, ("x", "y"), "mirror of the counter surface")
-    _require_equal_grids(surface, counter_surface)
-    other = counter_surface.heights
-    if mirrored is not None:
-        other = _mirrored(other, "xy".index(mirrored), counter_surface.periodic)
+    other = counter_surface if mirrored is None else turned_over(counter_surface, axis=mirrored)
+    _require_equal_grids(surface, other)
     return Surface(
-        surface.heights + other,
+        surface.heights + other.heights,
         surface.dx,
         surface.dy,
         periodic=surface.periodic and counter_surface.periodic,
-        origin=_joint_origin(surface.origin, counter_surface.origin, mirrored),
+        origin=_joint_origin(surface.origin, other.origin),
     )
 
 
-def _mirrored(heights: RealArray, axis: int, periodic: bool) -> RealArray:
-    flipped = np.flip(heights, axis)
-    return np.roll(flipped, 1, axis) if periodic else flipped
+def turned_over(surface: Surface, *, axis: str = "x") -> Surface:
+    """Map of the upper body, measured looking at it, in the lateral frame of the lower one.
+
+    ``axis`` ``"x"`` replaces x by Lx - x (turned about the y axis), ``"y"`` y by Ly - y. A periodic surface is mirrored
+    about its node 0, any other about its middle.
+
+    Raises
+    ------
+    InputError
+        If the axis is not ``x`` or ``y``.
+    """
+    along = "xy".index(require.one_of(axis, ("x", "y"), "mirror of the counter surface"))
+    flipped = np.flip(surface.heights, along)
+    heights = np.roll(flipped, 1, along) if surface.periodic else flipped
+    return surface.with_heights(heights, f"turned over: mirrored along {axis}")
 
 
 def _require_equal_grids(first: Surface, second: Surface) -> None:
@@ -64,11 +71,11 @@ def _words(surface: Surface) -> str:
     return f"{surface.shape[0]} x {surface.shape[1]} points of {surface.dx:.6g} x {surface.dy:.6g} m"
 
 
-def _joint_origin(first: Origin, second: Origin, mirrored: str | None) -> Origin:
+def _joint_origin(first: Origin, second: Origin) -> Origin:
     history = (
         *(f"surface 1: {step}" for step in first.history),
         *(f"surface 2: {step}" for step in second.history),
-        "composite: sum of surfaces 1 and 2" + (f", surface 2 mirrored along {mirrored}" if mirrored else ""),
+        "composite: sum of surfaces 1 and 2",
     )
     source = " + ".join(origin.source or "unnamed surface" for origin in (first, second))
     return Origin(source=source, history=history)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +24,7 @@ class Origin:
 
     source: str = ""
     channel: str = ""
-    instrument: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    instrument: Mapping[str, str] = field(default_factory=dict)
     history: tuple[str, ...] = ()
 
 

@@ -159,7 +159,7 @@ def test_generated_surface_is_reproducible_and_recorded():
     assert np.abs(one.heights - other.heights).max() > one.heights.std()
     assert one.periodic
     assert "PCG64 seed 7" in one.origin.history[0]
-    assert "hurst=0.8" in one.origin.history[0]
+    assert "Hurst exponent 0.8" in one.origin.history[0]
     assert abs(one.heights.mean()) < 1e-15 * one.heights.std() * one.heights.size
 
 

@@ -40,7 +40,7 @@ def test_mirror_of_the_counter_surface(mirrored, axis):
     one, two = noise(1), noise(2)
     pair = composite(one, two, mirrored=mirrored)
     np.testing.assert_array_equal(pair.heights, one.heights + np.flip(two.heights, axis))
-    assert pair.origin.history[-1].endswith(f"mirrored along {mirrored}")
+    assert f"surface 2: turned over: mirrored along {mirrored}" in pair.origin.history
 
 
 def test_periodic_mirror_is_about_node_zero():

@@ -91,10 +91,14 @@ def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState
 
 
 def levelling_step(qp: ContactQP) -> float:
-    """Step in Pa/m that levels a single pixel: the largest that can make sense. Costs one application."""
+    """Step in Pa/m that levels a single pixel: the largest that can make sense. Costs one application.
+
+    Zero where a pixel does not move under its own pressure (a periodic grid of one point).
+    """
     impulse = np.zeros_like(qp.profile)
     impulse[0, 0] = 1.0
-    return 1.0 / float(qp.operator.apply(impulse)[0, 0])
+    compliance = float(qp.operator.apply(impulse)[0, 0])
+    return 1.0 / compliance if compliance > 0.0 else 0.0
 
 
 def _free_gradient(qp: ContactQP, pressure: RealArray, gradient: RealArray) -> RealArray:

@@ -93,7 +93,9 @@ class ExponentialAutocorrelation:
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         negative = _negative_part(grid, self._eigenvalues(grid))
-        return repr(self) + (f", negative part {negative:.1e} of the spectrum clipped" if negative > 1e-15 else "")
+        beta_x, beta_y = self.decay_lengths
+        text = f"exponential autocorrelation, rms height {self.rms_height:.4g} m, decay lengths {beta_x:.4g} m x {beta_y:.4g} m"
+        return text + (f", negative part {negative:.1e} of the spectrum clipped" if negative > 1e-15 else "")
 
     def _eigenvalues(self, grid: Grid) -> RealArray:
         lag_x, lag_y = (

@@ -140,7 +140,11 @@ class SelfAffine:
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
-        return repr(self)
+        names = {RmsHeight: "rms height {:.4g} m", RmsSlope: "rms slope {:.4g}", PlateauPSD: "plateau {:.4g} m^4"}
+        amplitude = names[type(self.amplitude)].format(self.amplitude.value)
+        waves = f"roll-off {self.rolloff_wavelength:.4g} m, shortest wave {self.shortest_wavelength:.4g} m"
+        longest = "" if math.isinf(self.longest_wavelength) else f", longest wave {self.longest_wavelength:.4g} m"
+        return f"self-affine, Hurst exponent {self.hurst:.4g}, {waves}{longest}, {amplitude}"
 
     def _relative(self, q: RealArray) -> RealArray:
         q_r, q_s = 2.0 * np.pi / self.rolloff_wavelength, 2.0 * np.pi / self.shortest_wavelength

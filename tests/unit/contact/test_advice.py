@@ -1,0 +1,101 @@
+"""Each advice appears on its case, with numbers, and stays away from a sound one."""
+
+import numpy as np
+from contact_cases import elastic, rough, square_grid
+
+import asperity as asp
+
+SMOOTH = asp.generate.gaussian(
+    square_grid(64, 64e-6),
+    asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(0.05), hurst=0.8, rolloff_wavelength=32e-6, shortest_wavelength=12e-6
+    ),
+    seed=1,
+)
+
+
+def criteria(advice):
+    return {a.criterion for a in advice}
+
+
+def before(surface, control=None, **more):
+    problem = asp.ContactProblem(surface, elastic(1e9), **more)
+    return asp.advise(problem, control or asp.MeanPressure(1e6))
+
+
+def after(surface, pressure, **more):
+    body = more.pop("body", elastic(1.0))
+    return asp.review(asp.solve(asp.ContactProblem(surface, body, **more), asp.MeanPressure(pressure)))
+
+
+def test_a_sound_case_gets_no_warning():
+    assert before(SMOOTH) == ()
+    problem = asp.ContactProblem(SMOOTH, elastic(1e9))
+    assert asp.review(asp.solve(problem, asp.MeanPressure(1e7))) == ()
+
+
+def test_steep():
+    steep = asp.Surface(20.0 * SMOOTH.heights, 1e-6, periodic=True)
+    assert criteria(before(steep)) == {"slope"}
+    slope = asp.rms_slope(steep)
+    assert f"rms slope is {slope:.2g}" in before(steep)[0].message
+
+
+def test_rough_down_to_the_pixel():
+    spiky = asp.Surface(1e-3 * np.random.default_rng(0).standard_normal((32, 32)), 1.0, periodic=True)
+    assert "resolution" in criteria(before(spiky))
+
+
+def test_resolution_of_a_sine_is_its_wavelength_in_pixels():
+    for pixels, expected in ((4, True), (16, False)):
+        grid = asp.Grid((64, 64), (1.0, 1.0))
+        wave = asp.generate.sinusoid(grid, amplitude=1e-3, wavelength=float(pixels))
+        assert ("resolution" in criteria(before(wave))) == expected
+
+
+def test_edges_of_a_tilted_map():
+    x, _ = SMOOTH.grid.coordinates()
+    tilted = asp.Surface(SMOOTH.heights + 0.05 * x, 1e-6)
+    found = [a for a in before(tilted) if a.criterion == "periodic edges"]
+    assert len(found) == 1
+    assert "along x" in found[0].message
+    assert "periodic edges" not in criteria(before(tilted, boundary=asp.Free()))
+
+
+def test_load_out_of_range():
+    assert "load" in criteria(before(SMOOTH, asp.MeanPressure(2e8)))
+    assert "load" in criteria(before(SMOOTH, asp.Force(2e8 * SMOOTH.grid.area)))
+    assert "load" not in criteria(before(SMOOTH, asp.Approach(1e-9)))
+
+
+def test_memory(monkeypatch):
+    monkeypatch.setattr("os.sysconf", lambda name: 100)
+    assert "memory" in criteria(before(SMOOTH))
+
+
+def test_few_pixels_and_small_spots():
+    assert "contact pixels" in criteria(after(rough((32, 32), power=1.0), 1e-4))
+    assert "contact pixels" in criteria(after(rough((64, 64), power=0.5), 0.2))
+
+
+def test_near_full_contact():
+    assert "near-full contact" in criteria(after(rough((32, 32), power=3.0), 10.0))
+
+
+def test_border_of_a_free_map():
+    flat = asp.generate.flat(asp.Grid((16, 16), (1.0, 1.0)))
+    assert criteria(after(flat, 0.1, boundary=asp.Free())) == {"contact at the border", "near-full contact"}
+
+
+def test_sphere_in_a_small_period():
+    sphere = asp.generate.sphere(square_grid(64, 1.0), radius=1.0)
+    assert "patch against period" in criteria(after(sphere, 0.1))
+    assert "patch against period" not in criteria(after(sphere, 0.1, boundary=asp.Free()))
+
+
+def test_pressure_above_the_known_hardness():
+    soft = asp.Elastic(1.0, 0.3, asp.Strength(hardness=0.01), name="butter")
+    found = [a for a in after(rough((32, 32)), 0.05, body=soft) if a.criterion == "hardness"]
+    assert len(found) == 1
+    assert "butter" in found[0].message
+    assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))

@@ -1,0 +1,124 @@
+"""What a problem and a control refuse, and how they say it."""
+
+import numpy as np
+import pytest
+from contact_cases import elastic, rough
+
+import asperity as asp
+
+
+@pytest.mark.parametrize("control", [asp.MeanPressure, asp.Force, asp.Approach, asp.MeanGap])
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "10 kPa"])
+def test_controls_must_be_positive(control, bad):
+    with pytest.raises(asp.InputError, match=control.name):
+        control(bad)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "ratio"), [(0, 0.3), (-1e9, 0.3), (np.nan, 0.3), (1e9, 0.5), (1e9, -1.0), (1e9, 0.7)]
+)
+def test_elastic_constants_have_ranges(modulus, ratio):
+    with pytest.raises(asp.InputError, match=r"Young's modulus|Poisson's ratio"):
+        asp.Elastic(modulus, ratio)
+
+
+def test_contact_modulus():
+    steel, rubber = asp.Elastic(210e9, 0.3), asp.Elastic(1e6, 0.49)
+    expected = 1.0 / (0.91 / 210e9 + (1 - 0.49**2) / 1e6)
+    assert asp.contact_modulus(steel, rubber) == pytest.approx(expected, rel=1e-15)
+    assert asp.contact_modulus(asp.Rigid(), steel) == pytest.approx(210e9 / 0.91, rel=1e-15)
+
+
+def test_two_rigid_bodies_are_refused():
+    with pytest.raises(asp.InputError, match="must not both be rigid"):
+        asp.ContactProblem(rough((4, 4)), asp.Rigid())
+
+
+def test_missing_points_are_refused_with_the_remedy():
+    heights = rough((6, 6)).heights.copy()
+    heights[2, 3] = np.nan
+    holed = asp.Surface(heights, 1.0)
+    with pytest.raises(asp.InputError, match=r"1 are missing.*filled"):
+        asp.ContactProblem(holed, elastic(1.0))
+    with pytest.raises(asp.InputError, match="counter_surface"):
+        asp.ContactProblem(rough((6, 6)), elastic(1.0), counter_surface=holed)
+
+
+def test_surfaces_must_share_a_grid():
+    with pytest.raises(asp.InputError, match="equal numbers of points"):
+        asp.ContactProblem(rough((6, 6)), elastic(1.0), counter_surface=rough((6, 8)))
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("surface", np.zeros((4, 4))), ("body", "steel"), ("boundary", "periodic"), ("counter_body", None)],
+)
+def test_wrong_types_are_named(field, value):
+    arguments = {"surface": rough((4, 4)), "body": elastic(1.0), field: value}
+    with pytest.raises(asp.InputError, match=f"{field} of a ContactProblem must be"):
+        asp.ContactProblem(**arguments)
+
+
+def test_hardness_map_must_fit():
+    with pytest.raises(asp.InputError, match=r"shape \(4, 4\)"):
+        asp.ContactProblem(rough((4, 4)), elastic(1.0), law=asp.Hardness(np.ones((3, 4))))
+
+
+def test_position_beyond_full_contact_is_refused():
+    problem = asp.ContactProblem(rough((8, 8)), elastic(1.0))
+    profile = problem.profile()
+    limit = profile.max() - profile.mean()
+    with pytest.raises(asp.NoSolutionError, match="approach must be less than"):
+        asp.solve(problem, asp.Approach(limit))
+    with pytest.raises(asp.NoSolutionError, match="mean gap at first touch"):
+        asp.solve(problem, asp.MeanGap(limit))
+
+
+def test_unconverged_is_an_exception_that_holds_the_result_or_a_flag():
+    problem = asp.ContactProblem(rough((32, 32)), elastic(1.0))
+    hasty = asp.solvers.ConjugateGradient(max_iterations=2)
+    with pytest.raises(asp.ConvergenceError, match=r"Iteration limit.*max_iterations") as caught:
+        asp.solve(problem, asp.MeanPressure(0.05), solver=hasty)
+    assert caught.value.result.certificate.iterations == 2
+    returned = asp.solve(problem, asp.MeanPressure(0.05), solver=hasty, on_failure="return")
+    assert not returned.converged
+    assert returned.status.remedy
+    for control in (asp.Approach(0.5), asp.MeanGap(1.0)):
+        assert not asp.solve(problem, control, solver=hasty, on_failure="return").converged
+    with pytest.raises(asp.InputError, match="on_failure"):
+        asp.solve(problem, asp.MeanPressure(0.05), on_failure="ignore")
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 3)])
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
+def test_tiny_grids(shape, boundary):
+    heights = np.arange(shape[0] * shape[1], dtype=float).reshape(shape)
+    problem = asp.ContactProblem(asp.Surface(heights, 1.0), elastic(1.0), boundary=boundary)
+    result = asp.solve(problem, asp.MeanPressure(0.01))
+    assert result.mean_pressure == pytest.approx(0.01)
+    assert result.pressure.argmax() == heights.argmax()
+
+
+def test_flat_on_flat():
+    flat = asp.generate.flat(asp.Grid((16, 16), (1.0, 1.0)))
+    everywhere = asp.solve(asp.ContactProblem(flat, elastic(1.0)), asp.MeanPressure(0.1))
+    np.testing.assert_allclose(everywhere.pressure, 0.1, rtol=1e-12)
+    punch = asp.solve(asp.ContactProblem(flat, elastic(1.0), boundary=asp.Free()), asp.MeanPressure(0.1))
+    assert punch.pressure[0, 0] > punch.pressure[8, 8] > 0.0
+    assert punch.area_fraction == 1.0
+
+
+def test_prepared_operator_is_reused_and_checked():
+    problem = asp.ContactProblem(rough((16, 16)), elastic(1.0))
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    a, b = (asp.solve(problem, asp.MeanPressure(0.05), operator=o) for o in (operator, None))
+    np.testing.assert_array_equal(a.pressure, b.pressure)
+    other = asp.prepare_operator(problem.compliance, asp.Grid((8, 8), (1.0, 1.0)), problem.boundary)
+    with pytest.raises(asp.InputError, match="operator must be prepared on the grid"):
+        asp.solve(problem, asp.MeanPressure(0.05), operator=other)
+
+
+def test_state_of_another_grid_is_refused():
+    state = asp.solve(asp.ContactProblem(rough((8, 8)), elastic(1.0)), asp.MeanPressure(0.05)).state
+    with pytest.raises(asp.InputError, match="state must have the shape"):
+        asp.solve(asp.ContactProblem(rough((8, 9)), elastic(1.0)), asp.MeanPressure(0.05), state=state)

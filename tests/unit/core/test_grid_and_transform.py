@@ -1,0 +1,98 @@
+"""Orientation, sizes, wavevectors and the transform pair, with both FFT libraries."""
+
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import asperity as asp
+from asperity.core import spectral
+from asperity.core.spectral import RealTransform, fast_length, thread_count
+
+SHAPES = st.tuples(st.integers(1, 17), st.integers(1, 17))
+
+
+def test_orientation():
+    """Axis 0 is x, axis 1 is y: a wave along x has its power at (k, 0)."""
+    grid = asp.Grid((8, 6), (0.5, 2.0))
+    x, y = grid.coordinates()
+    assert (x.shape, y.shape) == ((8, 1), (1, 6))
+    wave = np.cos(2 * np.pi * 3 * x / grid.size[0]) + 0.0 * y
+    power = np.abs(RealTransform(grid.shape).forward(wave))
+    assert np.unravel_index(power.argmax(), power.shape)[1] == 0
+    qx, qy = grid.wavevector()
+    assert qx[3, 0] == pytest.approx(2 * np.pi * 3 / 4.0)
+    assert qy[0, 1] == pytest.approx(2 * np.pi / 12.0)
+    assert grid.wavenumber()[3, 1] == pytest.approx(np.hypot(qx[3, 0], qy[0, 1]))
+
+
+def test_sizes():
+    grid = asp.Grid((8, 6), (0.5, 2.0))
+    assert grid.size == (4.0, 12.0)
+    assert grid.area == 48.0
+    assert grid.pixel_area == 1.0
+    assert grid.n_points == 48
+    x, y = grid.centred_coordinates()
+    assert x[4, 0] == 0.0
+    assert y[0, 3] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("shape", "spacing"),
+    [((0, 4), (1, 1)), ((4, 4), (0, 1)), ((4, 4), (1, -1)), ((4.5, 4), (1, 1)), ((4, 4), (np.nan, 1))],
+)
+def test_bad_grids(shape, spacing):
+    with pytest.raises(asp.InputError, match="grid"):
+        asp.Grid(shape, spacing)
+
+
+@pytest.mark.parametrize("library", ["ducc0", "numpy"])
+@given(shape=SHAPES, seed=st.integers(0, 999))
+def test_transform_pair_is_numpys_with_either_library(library, shape, seed):
+    if library == "ducc0":
+        pytest.importorskip("ducc0", reason="the extra 'fast' is not installed")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(spectral, "fft_library", lambda: library)
+        transform = RealTransform(shape, threads=2)
+        field = np.random.default_rng(seed).standard_normal(shape)
+        spectrum = transform.forward(field)
+        assert spectrum.shape == transform.spectrum_shape
+        np.testing.assert_allclose(spectrum, np.fft.rfft2(field), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(transform.backward(spectrum.copy()), field, rtol=0, atol=1e-13)
+        out, back = np.empty_like(spectrum), np.empty_like(field)
+        transform.forward(field, out)
+        transform.backward(out.copy(), back)
+        np.testing.assert_allclose(back, field, rtol=0, atol=1e-13)
+
+
+def test_numpy_serves_where_ducc_is_missing(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ducc0", None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert spectral.fft_library() == "numpy"
+
+
+@given(st.integers(1, 5000))
+def test_fast_length_has_small_factors_and_is_close(minimum):
+    length = fast_length(minimum)
+    assert minimum <= length <= 1.15 * minimum + 1
+    for prime in (2, 3, 5, 7, 11):
+        while length % prime == 0:
+            length //= prime
+    assert length == 1
+
+
+def test_thread_count(monkeypatch):
+    assert thread_count(3) == 3
+    monkeypatch.setenv("ASPERITY_THREADS", "5")
+    assert thread_count() == 5
+    assert thread_count(2) == 2
+    monkeypatch.delenv("ASPERITY_THREADS")
+    assert thread_count() >= 1
+    for bad in ("zero", "0", "-1", ""):
+        monkeypatch.setenv("ASPERITY_THREADS", bad)
+        with pytest.raises(asp.InputError, match="ASPERITY_THREADS"):
+            thread_count()
+    with pytest.raises(asp.InputError, match="number of threads"):
+        thread_count(0)

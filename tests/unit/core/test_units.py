@@ -1,0 +1,91 @@
+"""Quantities in text: parsed to SI, never guessed, printed with SI prefixes."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asperity import UnitError
+from asperity.core import units
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("50 kPa", "pressure", 50e3),
+        ("5nm", "length", 5e-9),
+        ("5 µm", "length", 5e-6),
+        ("5um", "length", 5e-6),
+        ("-2.5e-3 mm", "length", -2.5e-6),
+        ("1 N/mm^2", "pressure", 1e6),
+        ("1 MPa", "pressure", 1e6),
+        (".5 mN", "force", 5e-4),
+        ("10 deg", "angle", 0.17453292519943295),
+        ("0.025 N/m", "surface tension", 0.025),
+        ("25 mJ/m**2", "surface tension", 0.025),
+        ("0.3", "number", 0.3),
+        ("30 %", "number", 0.3),
+    ],
+)
+def test_parse(text, kind, value):
+    assert units.parse(text, kind, "x") == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "words"),
+    [
+        ("5", "length", "must have a unit"),
+        ("", "length", "number with a unit"),
+        ("nm", "length", "number with a unit"),
+        ("5 kPa", "length", "must be a length"),
+        ("5 nm", "pressure", "must be a pressure"),
+        ("5 bananas", "length", "unknown unit 'bananas'"),
+        ("5 nm nm nm)", "length", "unit"),
+        ("1,5 nm", "length", "unit"),
+        ("nan nm", "length", "number with a unit"),
+    ],
+)
+def test_refused_with_the_name_of_the_input(text, kind, words):
+    with pytest.raises(UnitError, match="layer thickness") as caught:
+        units.parse(text, kind, "layer thickness")
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        ("20 um x 10 um", (20e-6, 10e-6)),
+        ("20um×10um", (20e-6, 10e-6)),
+        ("20 um", (20e-6, 20e-6)),
+        ("1 mm x 500 um", (1e-3, 5e-4)),
+    ],
+)
+def test_parse_size(text, size):
+    assert units.parse_size(text) == pytest.approx(size, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["20 x 10 um", "1 um x 2 um x 3 um", "20 um x", "20 kPa x 1 um"])
+def test_bad_size(text):
+    with pytest.raises(UnitError):
+        units.parse_size(text)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (5e-9, "m", "5 nm"),
+        (5e4, "Pa", "50 kPa"),
+        (0.0, "m", "0 m"),
+        (-3.2e-9, "m", "-3.2 nm"),
+        (1.2e-13, "m**2", "120000 nm²"),
+        (0.25, "1", "0.25"),
+        (float("inf"), "Pa/m", "inf Pa/m"),
+        (float("nan"), "Pa", "nan Pa"),
+    ],
+)
+def test_show(value, unit, text):
+    assert units.show(value, unit) == text
+
+
+@given(st.floats(1e-12, 1e12))
+def test_show_and_parse_are_inverse(value):
+    assert units.parse(units.show(value, "m", digits=17), "length", "x") == pytest.approx(value, rel=1e-12)
