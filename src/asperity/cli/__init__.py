@@ -1,0 +1,1 @@
+"""Layer 6: the command line. It parses options into a problem document, calls the library and prints."""

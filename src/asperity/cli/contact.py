@@ -1,0 +1,118 @@
+"""The commands that solve a contact: ``contact`` and ``demo``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .options import (
+    BodyOptions,
+    FileOptions,
+    FolderOptions,
+    LoadOptions,
+    PreparationOptions,
+    ReadingOptions,
+    SolverOptions,
+)
+
+if TYPE_CHECKING:
+    from ..io.documents import ProblemDocument
+
+
+def contact(
+    reading: ReadingOptions,
+    preparation: PreparationOptions,
+    bodies: BodyOptions,
+    load: LoadOptions,
+    solver: SolverOptions,
+    folder: FolderOptions,
+    files: FileOptions,
+    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    from_: Annotated[
+        Path | None,
+        typer.Option(
+            "--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"
+        ),
+    ] = None,
+) -> None:
+    """Press a rough surface against another body and report contact area, pressure and gap.
+
+    Example: asperity contact scan.di --body DLC --pressure 50kPa --hardness body --out run
+
+    Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
+    130: interrupted by Ctrl-C (nothing is left half-written).
+    """
+    from .perform import Output, perform
+
+    if from_ is None:
+        document, base = _from_options(file, reading, preparation, bodies, (load, solver)), Path()
+    else:
+        _require_no_surface(file, reading, preparation, bodies)
+        document, base = _from_document(from_, bodies, load, solver), from_.parent
+    raise typer.Exit(perform(document, base, Output(folder, files)))
+
+
+def demo(folder: FolderOptions) -> None:
+    """Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."""
+    from importlib import resources
+
+    from ..io.documents import loads
+    from .perform import Output, perform
+    from .show import say
+
+    document = loads(resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8"))
+    code = perform(document, Path(), Output(folder))
+    if folder.out is None:
+        say("Add --out DIR for the report, the result file and the plots.", "dim")
+    raise typer.Exit(code)
+
+
+def _from_options(
+    file: Path | None,
+    reading: ReadingOptions,
+    preparation: PreparationOptions,
+    bodies: BodyOptions,
+    rest: tuple[LoadOptions, SolverOptions],
+) -> ProblemDocument:
+    from ..core.errors import InputError
+    from ..io.documents import checked
+    from .compose import NAMES, composed, overlaid, step_names
+
+    if file is None:
+        raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
+    table = overlaid(composed(file, reading, preparation, bodies), bodies, *rest)
+    return checked(table, "command line", {**NAMES, **step_names(table["surface"]["prepare"])})
+
+
+def _from_document(path: Path, bodies: BodyOptions, load: LoadOptions, solver: SolverOptions) -> ProblemDocument:
+    from dataclasses import replace
+
+    from ..io.documents import checked, read_table
+    from .compose import overlaid
+
+    table: dict[str, Any] = read_table(path)
+    if bodies.materials_file is not None:  # given from where the user stands, not from the document
+        bodies = replace(bodies, materials_file=bodies.materials_file.absolute())
+    if load != LoadOptions() or bodies != BodyOptions() or solver != SolverOptions():
+        table = {"control": {}} | table
+        table = overlaid(table, bodies, load, solver)
+    return checked(table, f"problem document {path}")
+
+
+def _require_no_surface(
+    file: Path | None, reading: ReadingOptions, preparation: PreparationOptions, bodies: BodyOptions
+) -> None:
+    from ..core.errors import InputError
+
+    if (
+        file is not None
+        or reading != ReadingOptions()
+        or preparation != PreparationOptions()
+        or (bodies.counter_surface, bodies.mirror) != (None, None)
+    ):
+        raise InputError(
+            "FILE and the options for reading, preparation and counter surface must be left out together with --from, "
+            "but are given; edit [surface] in the document instead."
+        )

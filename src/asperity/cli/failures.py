@@ -1,0 +1,60 @@
+"""Exit codes, and what the user reads when something goes wrong: one sentence, or with ``--debug`` the traceback."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+OK = 0
+NOT_CONVERGED = 1
+BAD_INPUT = 2
+INTERNAL_ERROR = 3
+INTERRUPTED = 130
+
+
+class Reporting(TyperGroup):
+    """Group of commands that turns every exception into a sentence on stderr and an exit code."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; leave usage errors and deliberate exits to typer."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            _say("Interrupted: the work was stopped and nothing is half-written.")
+            raise typer.Exit(INTERRUPTED) from None
+        except Exception as error:
+            if isinstance(error, typer.Exit | typer.Abort) or hasattr(error, "format_message"):
+                raise
+            code, sentence = diagnosis(error)
+            _say(sentence, traceback=bool(ctx.params.get("debug")))
+            raise typer.Exit(code) from None
+
+
+def diagnosis(error: Exception) -> tuple[int, str]:
+    """Exit code and sentence for ``error``."""
+    from ..core.errors import AsperityError, ConvergenceError, OutputError
+
+    if isinstance(error, ConvergenceError):
+        return NOT_CONVERGED, str(error)
+    if isinstance(error, OutputError):
+        return BAD_INPUT, str(error).replace("overwrite.", "overwrite with --force.")
+    if isinstance(error, AsperityError):
+        return BAD_INPUT, str(error)
+    if isinstance(error, MemoryError):
+        return BAD_INPUT, "Not enough memory: crop the surface or resample it to fewer points."
+    text = " ".join(str(error).split())[:200]
+    sentence = f"Internal error, {type(error).__name__}: {text}" if text else f"Internal error, {type(error).__name__}"
+    return INTERNAL_ERROR, f"{sentence}. Run again as `asperity --debug …` and report the traceback, please."
+
+
+def _say(sentence: str, *, traceback: bool = False) -> None:
+    from .show import error_console
+
+    console = error_console()
+    if traceback:
+        from traceback import format_exc
+
+        console.print(format_exc(), markup=False, highlight=False, soft_wrap=True)
+    console.print(f"asperity: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)

@@ -1,0 +1,59 @@
+"""The program ``asperity``. Heavy imports stay inside the commands, so that ``--help`` is immediate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+from . import contact, info, materials, results
+from .failures import Reporting
+from .groups import grouped
+
+app = typer.Typer(
+    name="asperity",
+    cls=Reporting,
+    help="Contact mechanics of layered rough surfaces.",
+    epilog="Exit codes: 0 done, 1 not converged, 2 bad input, 3 internal error, 130 interrupted.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+COMMANDS: tuple[Callable[..., None], ...] = (
+    contact.contact,
+    contact.demo,
+    info.info,
+    materials.materials,
+    results.plot,
+    results.export,
+    results.cite,
+)
+"""The commands in the order of the help."""
+
+for _command in COMMANDS:
+    app.command()(grouped(_command))
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"asperity {version('asperity')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version.", callback=_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Contact mechanics of layered rough surfaces."""
+
+
+def run() -> None:
+    """Run the program with the arguments of the process; never returns."""
+    app(prog_name="asperity")

@@ -1,0 +1,126 @@
+"""The options of the commands, in groups that commands share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from typer import Option
+
+READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
+LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
+
+
+def _option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
+    return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
+
+
+@dataclass(frozen=True)
+class ReadingOptions:
+    """What a file with heights does not say itself."""
+
+    channel: Annotated[str | None, _option("--channel", "Name or number of the channel.", READING)] = None
+    size: Annotated[
+        str | None, _option("--size", 'Physical size, such as "20 um x 10 um".', READING, "LENGTH [x LENGTH]")
+    ] = None
+    height_unit: Annotated[str | None, _option("--height-unit", "Unit of the heights: nm, um, …", READING, "UNIT")] = (
+        None
+    )
+    z_scale: Annotated[
+        str | None, _option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
+    ] = None
+
+
+@dataclass(frozen=True)
+class PreparationOptions:
+    """Steps between the file and the contact; they apply to the counter surface too."""
+
+    crop: Annotated[str | None, _option("--crop", 'Part to keep: "0um:5um,0um:4um".', PREPARATION, "X0:X1,Y0:Y1")] = (
+        None
+    )
+    level: Annotated[str, _option("--level", "Remove mean, plane or quadratic; or none.", PREPARATION)] = "plane"
+    fill: Annotated[str, _option("--fill", "Fill missing points: harmonic, nearest or mean; or none.", PREPARATION)] = (
+        "harmonic"
+    )
+    resample: Annotated[str | None, _option("--resample", "New number of points.", PREPARATION, "NX[xNY]")] = None
+    taper: Annotated[
+        float | None, _option("--taper", "Taper this fraction of the side at each border.", PREPARATION, "FRACTION")
+    ] = None
+    periodise: Annotated[bool, _option("--periodise", "Remove the jumps between opposite borders.", PREPARATION)] = (
+        False
+    )
+
+
+@dataclass(frozen=True)
+class BodyOptions:
+    """Bodies, counter surface, boundary and interface law."""
+
+    body: Annotated[
+        str | None, _option("--body", 'Material name or "E=140GPa,nu=0.25,H=15GPa".', BODIES, "MATERIAL")
+    ] = None
+    counter: Annotated[
+        str | None, _option("--counter", "Counter body, in the same way; rigid by default.", BODIES, "MATERIAL")
+    ] = None
+    materials_file: Annotated[Path | None, _option("--materials-file", "Your own materials, a TOML file.", BODIES)] = (
+        None
+    )
+    counter_surface: Annotated[
+        Path | None, _option("--counter-surface", "File with the surface of the counter body; flat by default.", BODIES)
+    ] = None
+    mirror: Annotated[
+        str | None,
+        _option("--mirror", "How the counter surface is turned over: x (default), y or none.", BODIES),
+    ] = None
+    hardness: Annotated[
+        str | None,
+        _option("--hardness", 'Limit of the pressure, or "body" for the softer known hardness.', BODIES, "PRESSURE"),
+    ] = None
+    boundary: Annotated[str | None, _option("--boundary", "periodic (default) or free.", BODIES)] = None
+
+
+@dataclass(frozen=True)
+class LoadOptions:
+    """What is prescribed."""
+
+    pressure: Annotated[str | None, _option("--pressure", "Mean pressure: 50kPa.", LOAD, "PRESSURE")] = None
+    load: Annotated[str | None, _option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
+    approach: Annotated[str | None, _option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
+    mean_gap: Annotated[str | None, _option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
+
+
+@dataclass(frozen=True)
+class SolverOptions:
+    """How the problem is solved."""
+
+    solver: Annotated[
+        str | None, _option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
+    ] = None
+    tolerance: Annotated[float | None, _option("--tolerance", "Relative error at which to stop.", SOLVER)] = None
+    max_iterations: Annotated[int | None, _option("--max-iterations", "Iterations after which to give up.", SOLVER)] = (
+        None
+    )
+    threads: Annotated[int | None, _option("--threads", "Threads of the transforms; all cores by default.", SOLVER)] = (
+        None
+    )
+
+
+@dataclass(frozen=True)
+class FolderOptions:
+    """Where the whole run is written."""
+
+    out: Annotated[
+        Path | None, _option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
+    ] = None
+    force: Annotated[bool, _option("--force", "Replace files that exist.", OUTPUT)] = False
+
+
+@dataclass(frozen=True)
+class FileOptions:
+    """Single files."""
+
+    save_document: Annotated[
+        Path | None, _option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
+    ] = None
+    csv: Annotated[Path | None, _option("--csv", "Write the scalars as a CSV file.", OUTPUT)] = None
+    vtk: Annotated[Path | None, _option("--vtk", "Write the fields as a VTK image file (.vti).", OUTPUT)] = None

@@ -1,0 +1,92 @@
+"""The commands on results: ``plot``, ``export`` and ``cite``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Result = Annotated[Path, typer.Argument(help="Result file of `asperity contact --out`.", metavar="RESULT.nc")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+
+
+def plot(
+    file: Result,
+    kind: Annotated[
+        str, typer.Option("--kind", help="all, heights, pressure, pressure_log, contact, gap, section or histogram.")
+    ] = "all",
+    out: Annotated[Path, typer.Option("--out", help="Folder of the pictures, made if missing.")] = Path(),
+    force: Force = False,
+) -> None:
+    """Draw the figures of a result as PNG files."""
+    from ..core import require
+    from ..io.atomic import atomic_file
+    from ..io.results import load
+    from ..plots.figures import PLOTS, render, save_plots
+    from .show import print_files
+
+    require.one_of(kind, ("all", *(item.name for item in PLOTS)), "--kind")
+    result = load(file)
+    if kind == "all":
+        print_files(save_plots(result, out, overwrite=force))
+        return
+    _make(out)
+    path = out / f"{kind}.png"
+    with atomic_file(path, overwrite=force) as partial:
+        partial.write_bytes(render(next(item for item in PLOTS if item.name == kind), result))
+    print_files([path])
+
+
+def export(
+    file: Result,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Scalars as a CSV file.")] = None,
+    vtk: Annotated[Path | None, typer.Option("--vtk", help="Fields as a VTK image file (.vti).")] = None,
+    force: Force = False,
+) -> None:
+    """Write a result for other programs."""
+    from ..core.errors import InputError
+    from ..io.export import export_csv, export_vtk
+    from ..io.results import load
+    from .perform import require_new
+    from .show import print_files
+
+    wanted = [path for path in (csv, vtk) if path is not None]
+    if not wanted:
+        raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
+    for path in wanted:
+        require_new(path, force=force)
+    result = load(file)
+    if csv is not None:
+        export_csv(result, csv, overwrite=force)
+    if vtk is not None:
+        export_vtk(result, vtk, overwrite=force)
+    print_files(wanted)
+
+
+def cite(
+    file: Annotated[Path, typer.Argument(help="Result file (.nc) or problem document (.toml, .json).")],
+) -> None:
+    """Print the papers behind the numbers of a result or a problem."""
+    from ..core.citations import cite as references
+    from .show import say
+
+    if file.suffix.lower() in (".toml", ".json"):
+        from ..io.build import build
+        from ..io.documents import load_document
+
+        case = build(load_document(file), file.parent)
+        say(references(case.problem, case.solver))
+        return
+    from ..io.results import load
+
+    say(references(load(file)))
+
+
+def _make(folder: Path) -> None:
+    from ..core.errors import OutputError
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"folder {folder} cannot be made: {error.strerror}; choose another.") from error

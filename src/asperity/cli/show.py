@@ -1,0 +1,137 @@
+"""What the commands print."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..contact.advice import Advice
+    from ..contact.result import ContactResult
+    from ..solids.elastic import Body
+    from ..surfaces.surface import Surface
+
+
+WIDTH = 120
+"""Width of tables that are not printed on a terminal."""
+
+
+def console() -> Console:
+    """Console for answers; lines that go to a file or another program are not broken at 80 characters."""
+    from rich.console import Console
+
+    return Console(width=None if sys.stdout.isatty() else WIDTH)
+
+
+def error_console() -> Console:
+    """Console for errors and progress."""
+    from rich.console import Console
+
+    return Console(stderr=True)
+
+
+def say(text: str, style: str = "") -> None:
+    """Print ``text`` as it is, whatever brackets it holds and however long it is."""
+    console().print(text, style=style, markup=False, highlight=False, soft_wrap=True)
+
+
+def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...] = ()) -> Table:
+    """Table of text; without ``headings`` the first column names what the others say."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    made = Table(
+        title=Text(title), title_justify="left", title_style="bold", box=box.SIMPLE, show_header=bool(headings)
+    )
+    filled = [tuple(Text(cell) for cell in row) for row in rows]
+    for index in range(len(headings) or max((len(row) for row in filled), default=0)):
+        made.add_column(headings[index] if headings else "", overflow="fold")
+    for row in filled:
+        made.add_row(*row)
+    return made
+
+
+def surface_text(surface: Surface) -> str:
+    """Points, size and pixel of ``surface``."""
+    from ..core.units import show
+
+    (nx, ny), (length_x, length_y) = surface.shape, surface.size
+    size = f"{show(length_x, 'm')} × {show(length_y, 'm')}"
+    return f"{nx} × {ny} points, {size}"
+
+
+def body_text(body: Body) -> str:
+    """Name and elastic constants of ``body``."""
+    from ..core.units import show
+    from ..solids.elastic import Elastic
+
+    if not isinstance(body, Elastic):
+        return "rigid"
+    constants = f"E = {show(body.youngs_modulus, 'Pa')}, ν = {body.poisson_ratio:g}"
+    hardness = body.strength.hardness
+    known = "" if hardness != hardness else f", H = {show(hardness, 'Pa')}"
+    return f"{body.name}: {constants}{known}" if body.name else constants + known
+
+
+def problem_rows(result: ContactResult) -> list[tuple[str, str]]:
+    """What was solved."""
+    from ..contact.laws import Hardness
+    from ..core.units import show
+    from ..surfaces.surface import Surface
+
+    problem, control = result.problem, result.control
+    rows = [("surface", f"{problem.surface.origin.source or 'unnamed'}: {surface_text(problem.surface)}")]
+    if isinstance(problem.counter_surface, Surface):
+        rows.append(("counter surface", problem.counter_surface.origin.source or "unnamed"))
+    rows += [("body", body_text(problem.body)), ("counter body", body_text(problem.counter_body))]
+    rows.append(("contact modulus E*", show(problem.contact_modulus, "Pa")))
+    law = problem.law.name
+    if isinstance(problem.law, Hardness) and isinstance(problem.law.value, float):
+        law += f" {show(problem.law.value, 'Pa')}"
+    rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
+    rows.append(("prescribed", f"{control.name} {show(control.value, control.unit)}"))
+    return rows
+
+
+def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
+    """The scalars of ``result`` and the checks that bound its error."""
+    from ..contact.result import SCALARS
+    from ..core.units import show
+
+    rows = [(q.label, show(getattr(result, q.attribute), q.unit)) for q in SCALARS]
+    checks = result.certificate
+    rows.append(("bound on the relative error of the energy", f"{checks.duality_gap:.1e}"))
+    work = f"{checks.solver}, {checks.iterations} iterations, {show(checks.wall_time, 's', 3)}"
+    rows.append(("solver", work))
+    return rows
+
+
+def print_result(result: ContactResult, title: str) -> None:
+    """Print problem, scalars and status of ``result``."""
+    out = console()
+    out.print(table(title or "Contact", problem_rows(result)))
+    for step in result.problem.surface.origin.history:
+        say(f"  {step}", "dim")
+    out.print(table("Result", scalar_rows(result)))
+    say(result.status.message, "green" if result.converged else "bold red")
+    if result.status.remedy:
+        say(result.status.remedy, "red")
+
+
+def print_advice(findings: Iterable[Advice]) -> None:
+    """Print one line for each finding."""
+    for finding in findings:
+        style = "yellow" if finding.level == "warning" else "cyan"
+        say(f"{finding.level} ({finding.criterion}): {finding.message}", style)
+
+
+def print_files(paths: Iterable[Path]) -> None:
+    """Print where things were written."""
+    for path in paths:
+        say(f"wrote {path}")

@@ -1,0 +1,188 @@
+"""The command ``contact``: what it prints, what it writes, what it refuses."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import BODY, LOAD, SCALE, Runner
+
+from asperity.io.documents import load_document
+from asperity.io.results import load
+
+
+def test_prints_problem_result_and_status(run: Runner, matrix: Path) -> None:
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD)
+    assert result.exit_code == 0, result.stderr
+    for text in ("rough.txt: 32 × 24 points, 8 µm × 6 µm", "mean pressure 1 MPa", "109.9 GPa", "Converged:"):
+        assert text in result.stdout
+    assert "levelled: plane removed" in result.stdout
+    assert result.stderr == ""
+
+
+@pytest.mark.parametrize(
+    ("load", "prescribed"),
+    [
+        (("--pressure", "1MPa"), "mean pressure 1 MPa"),
+        (("--load", "50uN"), "force 50 µN"),
+        (("--approach", "0.5nm"), "approach 500 pm"),
+        (("--mean-gap", "2nm"), "mean gap 2 nm"),
+    ],
+)
+def test_loads(run: Runner, matrix: Path, load: tuple[str, str], prescribed: str) -> None:
+    result = run("contact", matrix, *SCALE, *BODY, *load)
+    assert result.exit_code == 0, result.stderr
+    assert prescribed in result.stdout
+
+
+def test_out_holds_everything_and_the_document_gives_the_same_answer(
+    run: Runner, matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    out = tmp_path / "deep" / "run"
+    result = run("contact", matrix.name, *SCALE, *BODY, *LOAD, "--hardness", "body", "--out", "deep/run")
+    assert result.exit_code == 0, result.stderr
+    assert {path.name for path in out.iterdir()} == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml"}
+    assert [path.name for path in (tmp_path / "deep").iterdir()] == ["run"]
+    assert len(list((out / "plots").glob("*.png"))) >= 5
+    assert "wrote deep/run/report.html" in result.stdout
+    assert load_document(out / "problem.toml").surface.path == "../../rough.txt"  # type: ignore[union-attr]
+
+    again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
+    assert again.exit_code == 0, again.stderr
+    first, second = load(out / "result.nc"), load(tmp_path / "again" / "result.nc")
+    np.testing.assert_array_equal(first.pressure, second.pressure)
+    with (out / "scalars.csv").open(encoding="utf-8") as file:
+        scalars = {row["name"]: row["value"] for row in csv.DictReader(file)}
+    assert float(scalars["area_fraction"]) == first.area_fraction
+
+
+def test_single_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    paths = {name: tmp_path / name for name in ("p.toml", "s.csv", "f.vti")}
+    files = ("--save-document", paths["p.toml"], "--csv", paths["s.csv"], "--vtk", paths["f.vti"])
+    command = ("contact", matrix, *SCALE, *BODY, *LOAD, *files)
+    result = run(*command)
+    assert result.exit_code == 0, result.stderr
+    assert all(path.stat().st_size > 100 for path in paths.values())
+    again = run(*command)
+    assert again.exit_code == 2
+    assert "add --force to replace it" in again.stderr
+    assert run(*command, "--force").exit_code == 0
+
+
+def test_never_overwrites_without_force(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    out.mkdir()
+    (out / "notes.txt").write_text("mine")
+    command = ("contact", matrix, *SCALE, *BODY, *LOAD, "--out", out)
+    result = run(*command)
+    assert result.exit_code == 2
+    assert "output folder must be new or empty" in result.stderr
+    assert "--force" in result.stderr
+    assert [path.name for path in out.iterdir()] == ["notes.txt"]
+    assert run(*command, "--force").exit_code == 0
+    assert (out / "notes.txt").read_text() == "mine"
+    assert (out / "result.nc").exists()
+
+
+def test_empty_folder_is_fine(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    assert run("contact", matrix, *SCALE, *BODY, *LOAD, "--out", tmp_path / "run").exit_code == 0
+
+
+@pytest.mark.parametrize("option", ["--out", "--csv", "--save-document"])
+def test_unwritable_output(run: Runner, matrix: Path, option: str) -> None:
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, option, matrix / "below" / "x")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("asperity: ")
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_not_converged_is_exit_1_with_the_remedy_and_still_written(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, "--max-iterations", 1, "--out", out)
+    assert result.exit_code == 1
+    assert "Iteration limit before the tolerance" in result.stdout
+    assert "Raise max_iterations" in result.stdout
+    assert not load(out / "result.nc").converged
+
+
+def test_preparation_steps_in_order(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    options = ("--crop", "0um:4um,1um:6um", "--level", "quadratic", "--resample", "20x16", "--taper", 0.2)
+    saved = ("--save-document", tmp_path / "p.toml")
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options, *saved, "--periodise")
+    assert result.exit_code == 0, result.stderr
+    steps = [step.step for step in load_document(tmp_path / "p.toml").surface.prepare]
+    assert steps == ["crop", "level", "fill", "resample", "taper", "periodise"]
+    assert "20 × 16 points, 4 µm × 5 µm" in result.stdout
+
+
+def test_missing_points_are_filled_and_counted(run: Runner, tmp_path: Path) -> None:
+    heights = np.random.default_rng(2).normal(size=(16, 16))
+    heights[3, 4] = heights[8, 8:11] = np.nan
+    np.savetxt(tmp_path / "holes.txt", heights)
+    command = ("contact", tmp_path / "holes.txt", "--size", "4um", "--height-unit", "nm", *BODY, *LOAD)
+    result = run(*command)
+    assert result.exit_code == 0, result.stderr
+    assert "filled: 4 points" in result.stdout
+    refused = run(*command, "--fill", "none")
+    assert refused.exit_code == 2
+    assert "4 are missing" in refused.stderr
+
+
+def test_counter_surface_boundary_solver_and_own_material(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('[material."glass"]\nyoungs_modulus = "70 GPa"\npoisson_ratio = 0.2\nhardness = "6 GPa"\n')
+    bodies = (
+        "--body",
+        "glass",
+        "--counter",
+        "DLC",
+        "--materials-file",
+        own,
+        "--counter-surface",
+        matrix,
+        "--mirror",
+        "y",
+    )
+    rest = (
+        "--boundary",
+        "free",
+        "--solver",
+        "steepest_descent",
+        "--tolerance",
+        1e-4,
+        "--threads",
+        1,
+        "--hardness",
+        "6GPa",
+    )
+    result = run("contact", matrix, *SCALE, *bodies, *LOAD, *rest)
+    assert result.exit_code == 0, result.stderr
+    for text in (
+        "glass: E = 70 GPa",
+        "DLC: E = 140 GPa",
+        "free, hardness 6 GPa",
+        "steepest_descent",
+        "counter surface",
+    ):
+        assert text in result.stdout
+
+
+def test_options_replace_parts_of_a_document(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    document = tmp_path / "p.toml"
+    assert run("contact", matrix, *SCALE, *BODY, *LOAD, "--save-document", document).exit_code == 0
+    result = run("contact", "--from", document, "--load", "20uN", "--body", "DLC", "--tolerance", 1e-5)
+    assert result.exit_code == 0, result.stderr
+    assert "force 20 µN" in result.stdout
+    assert "DLC: E = 140 GPa" in result.stdout
+    refused = run("contact", matrix, "--from", document)
+    assert refused.exit_code == 2
+    assert "must be left out together with --from" in refused.stderr
+
+
+def test_advice_is_printed(run: Runner, matrix: Path) -> None:
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD)
+    assert "warning (resolution)" in result.stdout

@@ -1,0 +1,75 @@
+"""The commands ``info`` and ``materials``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import SCALE, Runner
+
+
+def test_info_says_what_is_in_the_file(run: Runner, matrix: Path) -> None:
+    result = run("info", matrix, *SCALE)
+    assert result.exit_code == 0, result.stderr
+    for text in (
+        "channel 0 (read)",
+        "32 × 24 points, 8 µm × 6 µm",
+        "250 nm × 250 nm",
+        "Roughness after plane levelling",
+    ):
+        assert text in result.stdout
+
+
+def test_info_as_json_is_si(run: Runner, tmp_path: Path) -> None:
+    x, y = np.arange(20), np.arange(10)
+    heights = np.where((x[None, :] + y[:, None]) % 2, 1.0, -1.0) + 3.0 * x + 2.0 * y[:, None]
+    heights[4, 7] = np.nan
+    np.savetxt(tmp_path / "map.txt", heights)
+    result = run("info", tmp_path / "map.txt", "--size", "20um x 10um", "--height-unit", "nm", "--json")
+    found = json.loads(result.stdout)
+    assert found["shape"] == [20, 10]
+    assert found["size"] == pytest.approx([20e-6, 10e-6])
+    assert found["missing"] == 1
+    assert found["levelled"] == "plane"
+    assert found["Sq"] == pytest.approx(1e-9, rel=0.02)
+    assert found["Sz"] == pytest.approx(2e-9, rel=0.05)
+    assert found["rms_slope"] == pytest.approx(2e-9 * np.sqrt(2.0) / 1e-6, rel=0.02)
+
+
+def test_info_plot(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    command = ("info", matrix, *SCALE, "--plot", tmp_path / "map.png")
+    assert run(*command).exit_code == 0
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    assert run(*command).exit_code == 2
+    assert run(*command, "--force").exit_code == 0
+
+
+def test_materials_are_listed_with_sources(run: Runner) -> None:
+    result = run("materials")
+    assert result.exit_code == 0
+    for text in ("DLC", "140 GPa", "15 GPa", "Peng 2001", "* assumed"):
+        assert text in result.stdout
+
+
+def test_one_material(run: Runner) -> None:
+    result = run("materials", "dlc")
+    assert result.exit_code == 0
+    assert "Bhushan 1999c" in result.stdout
+    assert "Ni-P" not in result.stdout
+    assert run("materials", "unobtainium").exit_code == 2
+
+
+def test_materials_as_json(run: Runner) -> None:
+    (found,) = json.loads(run("materials", "DLC", "--json").stdout)
+    assert found["youngs_modulus"]["value"] == pytest.approx(140e9)
+    assert found["youngs_modulus"]["source"]
+    assert len(json.loads(run("materials", "--json").stdout)) > 10
+
+
+def test_own_materials(run: Runner, tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('[material."jelly"]\nyoungs_modulus = "1 MPa"\npoisson_ratio = 0.49\n')
+    assert "jelly" in run("materials", "--file", own).stdout
+    assert run("materials", "--file", tmp_path / "none.toml").exit_code == 2

@@ -1,0 +1,42 @@
+"""The progress bar: only on a terminal, on a logarithmic scale."""
+
+from __future__ import annotations
+
+import io
+import math
+
+import pytest
+from rich.console import Console
+from rich.progress import Progress as Bar
+
+from asperity.cli.progress import OnBar, done, shown
+from asperity.core.progress import NoProgress
+
+
+def test_silent_without_a_terminal() -> None:
+    with shown("solving") as progress:
+        assert isinstance(progress, NoProgress)
+
+
+def test_bar_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    with shown("solving") as progress:
+        assert isinstance(progress, OnBar)
+        progress.update(1, 1.0, 1e-6)
+
+
+def test_share_is_logarithmic() -> None:
+    assert done(1.0, 1.0, 1e-6) == 0.0
+    assert done(1e-3, 1.0, 1e-6) == pytest.approx(0.5)
+    assert done(1e-7, 1.0, 1e-6) == 1.0
+    assert done(math.inf, math.inf, 1e-6) == 0.0
+    assert done(math.nan, 1.0, 1e-6) == 0.0
+
+
+def test_bar_follows_the_error() -> None:
+    with Bar(console=Console(file=io.StringIO())) as bar:
+        progress = OnBar(bar, "solving")
+        for iteration, error in enumerate((1.0, 1e-2, 1e-4)):
+            progress.update(iteration, error, 1e-4)
+        assert bar.tasks[0].completed == 1.0
+        assert "iteration 2" in bar.tasks[0].fields["state"]

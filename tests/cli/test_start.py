@@ -1,0 +1,56 @@
+"""Starting up: version, help, and no heavy import before a command runs."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from cli.conftest import Runner
+
+HEAVY = (
+    "scipy",
+    "matplotlib",
+    "pint",
+    "pydantic",
+    "xarray",
+    "SurfaceTopography",
+    "h5netcdf",
+    "h5py",
+    "pandas",
+    "jinja2",
+)
+COMMANDS = ("contact", "demo", "info", "materials", "plot", "export", "cite")
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = (
+        "import sys, json\n"
+        "from asperity.cli.main import app\n"
+        "try: app(['--help'])\n"
+        "except SystemExit as end: assert end.code == 0\n"
+        f"sys.stderr.write(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    assert json.loads(done.stderr) == []
+
+
+def test_module_is_the_program() -> None:
+    done = subprocess.run([sys.executable, "-m", "asperity", "--version"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0
+    assert done.stdout.startswith("asperity ")
+
+
+def test_help_lists_every_command(run: Runner) -> None:
+    result = run("--help")
+    assert result.exit_code == 0
+    assert all(command in result.stdout for command in COMMANDS)
+    assert "130 interrupted" in " ".join(result.stdout.split())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(run: Runner, command: str) -> None:
+    result = run(command, "--help")
+    assert result.exit_code == 0
+    assert "Usage: asperity" in result.stdout or f"Usage: root {command}" in result.stdout
