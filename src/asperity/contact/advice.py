@@ -47,7 +47,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     profile = problem.profile()
     return (
         *_slope(problem, profile),
-        *_resolution(problem, profile),
+        *_resolution(profile),
         *_edges(problem, profile),
         *_load(problem, control),
         *_memory(problem),
@@ -71,24 +71,31 @@ def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
         )
 
 
-def _resolution(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+def _resolution(profile: RealArray) -> Iterator[Advice]:
     """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, against the pixel."""
-    for axis, name in enumerate("xy"):
-        if profile.shape[axis] < 3:
-            continue
-        m2 = _mean_square_slopes(problem, profile)[axis]
-        m4 = float((np.diff(profile, 2, axis=axis) ** 2).mean()) / problem.grid.spacing[axis] ** 4
-        if m4 <= 0.0:
-            continue
-        pixels = 2.0 * math.pi * math.sqrt(m2 / m4) / problem.grid.spacing[axis]
-        if pixels < PIXELS_PER_WAVE:
-            yield Advice(
-                "warning",
-                "resolution",
-                f"Along {name} the shortest effective wavelength 2π√(m2/m4) is {pixels:.1f} pixels (at least "
-                f"{PIXELS_PER_WAVE:g} wanted): asperities are not resolved, so contact area and peak pressure depend on the "
-                "pixel size. Resample to a finer grid or give the surface a short-wavelength cut-off.",
-            )
+    wavelengths = {
+        name: pixels
+        for axis, name in enumerate("xy")
+        if (pixels := _shortest_wavelength(profile, axis)) < PIXELS_PER_WAVE
+    }
+    if wavelengths:
+        found = " and ".join(f"{pixels:.1f} pixels along {name}" for name, pixels in wavelengths.items())
+        yield Advice(
+            "warning",
+            "resolution",
+            f"The shortest effective wavelength 2π√(m2/m4) is {found} (at least {PIXELS_PER_WAVE:g} wanted): asperities "
+            "are not resolved, so contact area and peak pressure depend on the pixel size. Resample to a finer grid or "
+            "give the surface a short-wavelength cut-off.",
+        )
+
+
+def _shortest_wavelength(profile: RealArray, axis: int) -> float:
+    """Effective wavelength along ``axis`` in pixels; infinite where differences vanish or there are too few points."""
+    if profile.shape[axis] < 3:
+        return math.inf
+    m2 = float((np.diff(profile, axis=axis) ** 2).mean())
+    m4 = float((np.diff(profile, 2, axis=axis) ** 2).mean())
+    return 2.0 * math.pi * math.sqrt(m2 / m4) if m4 > 0.0 else math.inf
 
 
 def _edges(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:

@@ -103,10 +103,16 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
     quantity = _registry().Quantity(value, unit)
-    compact = quantity.to_compact() if value != 0.0 else quantity
-    number = compact.magnitude
-    text = f"{number:.0f}" if 10**digits <= abs(number) < 1e7 else f"{number:.{digits}g}"  # squared units step by 1e6
-    return f"{text} {compact.units:~P}"
+    compact = quantity if value == 0.0 else _compact_area(quantity) if unit == "m**2" else quantity.to_compact()
+    return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
+
+
+def _compact_area(quantity: Any) -> Any:
+    """Area in the largest unit in which it is at least 0.1; squared prefixes are a factor of a million apart."""
+    for unit in ("m**2", "mm**2", "um**2"):
+        if abs(quantity.to(unit).magnitude) >= 0.1:
+            return quantity.to(unit)
+    return quantity.to("nm**2")
 
 
 _EXAMPLES = {"length": "5 nm", "pressure": "50 kPa", "force": "1 mN", "area": "1 um**2", "angle": "10 deg"}
