@@ -10,7 +10,7 @@ from typing import Any
 
 from ..core import require
 from ..core.errors import InputError
-from .options import BodyOptions, LoadOptions, PreparationOptions, ReadingOptions, SolverOptions
+from .options import BodyOptions, PreparationOptions, ReadingOptions, SolveOptions
 
 CONTROLS = MappingProxyType(
     {"mean_pressure": "pressure", "force": "load", "approach": "approach", "mean_gap": "mean_gap"}
@@ -63,7 +63,7 @@ def composed(
     return table
 
 
-def overlaid(table: Mapping[str, Any], bodies: BodyOptions, load: LoadOptions, solver: SolverOptions) -> dict[str, Any]:
+def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:
     """``table`` with the bodies, boundary, law, load and solver settings that are given as options."""
     result = dict(table)
     if bodies.body is not None:
@@ -75,15 +75,15 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, load: LoadOptions, s
     if bodies.hardness is not None:
         from_body = bodies.hardness.strip().casefold() in {"body", "from body"}
         result["law"] = {"kind": "hardness", "hardness": "from body" if from_body else bodies.hardness}
-    given = {key: getattr(load, option) for key, option in CONTROLS.items() if getattr(load, option) is not None}
+    given = {key: getattr(solve, option) for key, option in CONTROLS.items() if getattr(solve, option) is not None}
     if len(given) > 1 or (not given and "control" not in table):
         options = [NAMES[f"control.{key}"] for key in given]
         choices = ", ".join(NAMES[f"control.{key}"] for key in CONTROLS)
         raise InputError(f"load must be given by exactly one of {choices}, but is given by {options or 'none'}.")
     if given:
         result["control"] = given
-    settings = {"method": solver.solver, "tolerance": solver.tolerance}
-    settings |= {"max_iterations": solver.max_iterations, "threads": solver.threads}
+    settings = {"method": solve.solver, "tolerance": solve.tolerance}
+    settings |= {"max_iterations": solve.max_iterations, "threads": solve.threads}
     stated = {key: value for key, value in settings.items() if value is not None}
     before = table.get("solver", {})
     if stated and isinstance(before, dict):

@@ -7,35 +7,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .options import (
-    BodyOptions,
-    FileOptions,
-    FolderOptions,
-    LoadOptions,
-    PreparationOptions,
-    ReadingOptions,
-    SolverOptions,
-)
+from .options import BodyOptions, OutputOptions, PreparationOptions, ReadingOptions, SolveOptions, SourceOptions
 
 if TYPE_CHECKING:
     from ..io.documents import ProblemDocument
 
 
 def contact(
+    source: SourceOptions,
     reading: ReadingOptions,
     preparation: PreparationOptions,
     bodies: BodyOptions,
-    load: LoadOptions,
-    solver: SolverOptions,
-    folder: FolderOptions,
-    files: FileOptions,
-    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
-    from_: Annotated[
-        Path | None,
-        typer.Option(
-            "--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"
-        ),
-    ] = None,
+    solve: SolveOptions,
+    output: OutputOptions,
 ) -> None:
     """Press a rough surface against another body and report contact area, pressure and gap.
 
@@ -44,27 +28,32 @@ def contact(
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
     """
-    from .perform import Output, perform
+    from .perform import perform
 
-    if from_ is None:
-        document, base = _from_options(file, reading, preparation, bodies, (load, solver)), Path()
+    if source.from_ is None:
+        document, base = _from_options(source.file, reading, preparation, bodies, solve), Path()
     else:
-        _require_no_surface(file, reading, preparation, bodies)
-        document, base = _from_document(from_, bodies, load, solver), from_.parent
-    raise typer.Exit(perform(document, base, Output(folder, files)))
+        _require_no_surface(source.file, reading, preparation, bodies)
+        document, base = _from_document(source.from_, bodies, solve), source.from_.parent
+    raise typer.Exit(perform(document, base, output))
 
 
-def demo(folder: FolderOptions) -> None:
+def demo(
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for report, result and plots.", metavar="DIR")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+) -> None:
     """Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."""
     from importlib import resources
 
     from ..io.documents import loads
-    from .perform import Output, perform
+    from .perform import perform
     from .show import say
 
     document = loads(resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8"))
-    code = perform(document, Path(), Output(folder))
-    if folder.out is None:
+    code = perform(document, Path(), OutputOptions(out=out, force=force))
+    if out is None:
         say("Add --out DIR for the report, the result file and the plots.", "dim")
     raise typer.Exit(code)
 
@@ -74,7 +63,7 @@ def _from_options(
     reading: ReadingOptions,
     preparation: PreparationOptions,
     bodies: BodyOptions,
-    rest: tuple[LoadOptions, SolverOptions],
+    solve: SolveOptions,
 ) -> ProblemDocument:
     from ..core.errors import InputError
     from ..io.documents import checked
@@ -82,11 +71,11 @@ def _from_options(
 
     if file is None:
         raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
-    table = overlaid(composed(file, reading, preparation, bodies), bodies, *rest)
+    table = overlaid(composed(file, reading, preparation, bodies), bodies, solve)
     return checked(table, "command line", {**NAMES, **step_names(table["surface"]["prepare"])})
 
 
-def _from_document(path: Path, bodies: BodyOptions, load: LoadOptions, solver: SolverOptions) -> ProblemDocument:
+def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> ProblemDocument:
     from dataclasses import replace
 
     from ..io.documents import checked, read_table
@@ -95,9 +84,8 @@ def _from_document(path: Path, bodies: BodyOptions, load: LoadOptions, solver: S
     table: dict[str, Any] = read_table(path)
     if bodies.materials_file is not None:  # given from where the user stands, not from the document
         bodies = replace(bodies, materials_file=bodies.materials_file.absolute())
-    if load != LoadOptions() or bodies != BodyOptions() or solver != SolverOptions():
-        table = {"control": {}} | table
-        table = overlaid(table, bodies, load, solver)
+    if bodies != BodyOptions() or solve != SolveOptions():
+        table = overlaid({"control": {}} | table, bodies, solve)
     return checked(table, f"problem document {path}")
 
 

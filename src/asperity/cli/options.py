@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from typer import Option
+from typer import Argument, Option
 
 READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
 LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
@@ -14,6 +14,17 @@ LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
 
 def _option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
     return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
+
+
+@dataclass(frozen=True)
+class SourceOptions:
+    """Where the problem comes from: a file with heights and options, or a document."""
+
+    file: Annotated[Path | None, Argument(help="File with the heights of the rough surface.")] = None
+    from_: Annotated[
+        Path | None,
+        Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -80,19 +91,13 @@ class BodyOptions:
 
 
 @dataclass(frozen=True)
-class LoadOptions:
-    """What is prescribed."""
+class SolveOptions:
+    """What is prescribed, and how the problem is solved."""
 
     pressure: Annotated[str | None, _option("--pressure", "Mean pressure: 50kPa.", LOAD, "PRESSURE")] = None
     load: Annotated[str | None, _option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
     approach: Annotated[str | None, _option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
     mean_gap: Annotated[str | None, _option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
-
-
-@dataclass(frozen=True)
-class SolverOptions:
-    """How the problem is solved."""
-
     solver: Annotated[
         str | None, _option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
     ] = None
@@ -106,19 +111,13 @@ class SolverOptions:
 
 
 @dataclass(frozen=True)
-class FolderOptions:
-    """Where the whole run is written."""
+class OutputOptions:
+    """Where the whole run, or a part of it, is written."""
 
     out: Annotated[
         Path | None, _option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
     ] = None
     force: Annotated[bool, _option("--force", "Replace files that exist.", OUTPUT)] = False
-
-
-@dataclass(frozen=True)
-class FileOptions:
-    """Single files."""
-
     save_document: Annotated[
         Path | None, _option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
     ] = None

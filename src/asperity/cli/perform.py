@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..core.errors import InputError, OutputError
 from .failures import NOT_CONVERGED, OK
-from .options import FileOptions, FolderOptions
+from .options import OutputOptions
 
 if TYPE_CHECKING:
     from ..contact.advice import Advice
@@ -21,34 +20,21 @@ NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.
 """What a run leaves in its folder."""
 
 
-@dataclass(frozen=True)
-class Output:
-    """What to write."""
-
-    folder: FolderOptions = FolderOptions()
-    files: FileOptions = FileOptions()
-
-    def require_possible(self) -> None:
-        """Refuse files that exist or cannot be written before any work is done."""
-        for path in (self.files.save_document, self.files.csv, self.files.vtk):
-            if path is not None:
-                require_new(path, force=self.folder.force)
-
-
-def perform(document: ProblemDocument, base_folder: Path, output: Output) -> int:
+def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..contact.advice import advise, review
     from ..io.build import build
     from .show import print_advice, print_files, print_result
 
-    output.require_possible()
+    for path in _single_files(output):
+        require_new(path, force=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
-    with _folder(output.folder) as folder:
+    with _folder(output) as folder:
         result = _solved(case)
         findings = (*before, *review(result))
-        if folder is not None and output.folder.out is not None:
-            _write_folder(result, findings, document, base_folder, (folder, output.folder.out))
+        if folder is not None and output.out is not None:
+            _write_folder(result, findings, document, base_folder, (folder, output.out))
     _write_files(result, document, base_folder, output)
     print_result(result, document.title)
     print_advice(findings)
@@ -65,7 +51,7 @@ def require_new(path: Path, *, force: bool) -> None:
 
 
 @contextmanager
-def _folder(options: FolderOptions) -> Iterator[Path | None]:
+def _folder(options: OutputOptions) -> Iterator[Path | None]:
     """Temporary folder that becomes the output folder when all has gone well; None if none is wanted."""
     from ..io.atomic import atomic_folder
 
@@ -118,21 +104,23 @@ def _write_folder(
     write_report(result, folder / "report.html", advice=findings, document=text)
 
 
-def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: Output) -> None:
+def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
     from ..io.documents import relocated, save_document
     from ..io.export import export_csv, export_vtk
 
-    files, force = output.files, output.folder.force
-    if files.save_document is not None:
-        moved = relocated(document, base_folder, files.save_document.parent)
-        save_document(moved, files.save_document, overwrite=force)
-    if files.csv is not None:
-        export_csv(result, files.csv, overwrite=force)
-    if files.vtk is not None:
-        export_vtk(result, files.vtk, overwrite=force)
+    if output.save_document is not None:
+        moved = relocated(document, base_folder, output.save_document.parent)
+        save_document(moved, output.save_document, overwrite=output.force)
+    if output.csv is not None:
+        export_csv(result, output.csv, overwrite=output.force)
+    if output.vtk is not None:
+        export_vtk(result, output.vtk, overwrite=output.force)
 
 
-def _written(output: Output) -> list[Path]:
-    folder, files = output.folder.out, output.files
-    inside = [] if folder is None else [folder / name for name in NAMES_IN_FOLDER]
-    return [*inside, *(path for path in (files.save_document, files.csv, files.vtk) if path is not None)]
+def _single_files(output: OutputOptions) -> list[Path]:
+    return [path for path in (output.save_document, output.csv, output.vtk) if path is not None]
+
+
+def _written(output: OutputOptions) -> list[Path]:
+    inside = [] if output.out is None else [output.out / name for name in NAMES_IN_FOLDER]
+    return [*inside, *_single_files(output)]

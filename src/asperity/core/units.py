@@ -108,9 +108,9 @@ def show(value: float, unit: str, digits: int = 4) -> str:
 
 
 def _compact_area(quantity: Any) -> Any:
-    """Area in the largest unit in which it is at least 0.1; squared prefixes are a factor of a million apart."""
+    """Area in the largest unit in which it is at least 0.01; squared prefixes are a factor of a million apart."""
     for unit in ("m**2", "mm**2", "um**2"):
-        if abs(quantity.to(unit).magnitude) >= 0.1:
+        if abs(quantity.to(unit).magnitude) >= 0.01:
             return quantity.to(unit)
     return quantity.to("nm**2")
 
