@@ -7,13 +7,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..core.errors import InputError, OutputError
+from ..core.errors import OutputError
 from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
 if TYPE_CHECKING:
     from ..contact.advice import Advice
     from ..contact.result import ContactResult
+    from ..io.build import Case
     from ..io.documents import ProblemDocument
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
@@ -62,13 +63,10 @@ def _folder(options: OutputOptions) -> Iterator[Path | None]:
         yield folder
 
 
-def _solved(case: object) -> ContactResult:
+def _solved(case: Case) -> ContactResult:
     from ..contact.solve import solve
-    from ..io.build import Case
     from .progress import shown
 
-    if not isinstance(case, Case):
-        raise InputError(f"case to solve must be a Case, but is {type(case).__name__}.")
     with shown("solving") as progress:
         return solve(
             case.problem,
