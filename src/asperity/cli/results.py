@@ -14,7 +14,10 @@ Force = Annotated[bool, typer.Option("--force", help="Replace files that exist."
 def plot(
     file: Result,
     kind: Annotated[
-        str, typer.Option("--kind", help="all, heights, pressure, pressure_log, contact, gap, section or histogram.")
+        str,
+        typer.Option(
+            "--kind", help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram."
+        ),
     ] = "all",
     out: Annotated[Path, typer.Option("--out", help="Folder of the pictures, made if missing.")] = Path(),
     force: Force = False,

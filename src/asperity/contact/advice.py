@@ -20,6 +20,7 @@ from .result import ContactResult
 
 LARGEST_SLOPE = 0.3
 PIXELS_PER_WAVE = 6.0
+PIXELS_PER_RADIUS = 2.0
 LARGEST_EDGE_JUMP = 3.0
 LARGEST_LOAD_RATIO = 0.1
 NEARLY_FULL = 0.95
@@ -48,6 +49,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     return (
         *_slope(problem, profile),
         *_resolution(profile),
+        *_asperity_radius(problem, profile),
         *_edges(problem, profile),
         *_load(problem, control),
         *_memory(problem),
@@ -86,6 +88,22 @@ def _resolution(profile: RealArray) -> Iterator[Advice]:
             f"The shortest effective wavelength 2π√(m2/m4) is {found} (at least {PIXELS_PER_WAVE:g} wanted): asperities "
             "are not resolved, so contact area and peak pressure depend on the pixel size. Resample to a finer grid or "
             "give the surface a short-wavelength cut-off.",
+        )
+
+
+def _asperity_radius(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+    """Mean summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971) against the pixel."""
+    if min(profile.shape) < 3:
+        return
+    dx, dy = problem.grid.spacing
+    m4 = 0.5 * sum(float((np.diff(profile, 2, axis=axis) ** 2).mean()) / d**4 for axis, d in enumerate((dx, dy)))
+    radius = 0.375 * math.sqrt(math.pi / m4) if m4 > 0.0 else math.inf
+    if radius < PIXELS_PER_RADIUS * max(dx, dy):
+        yield Advice(
+            "warning",
+            "asperity radius",
+            f"The mean asperity radius 3/8 √(π/m4) is {radius / max(dx, dy):.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
+            "wanted): asperities are spikes of single pixels. Check the height unit, refine the grid or smooth the surface.",
         )
 
 

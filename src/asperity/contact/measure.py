@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
+from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.errors import InputError
 from ..core.grid import Grid
 from .operators.protocol import Operator
 
@@ -66,6 +69,31 @@ def contact_spots(contact: BoolArray, *, periodic: bool) -> RealArray:
     else:
         pixels = np.bincount(labels[contact] - 1, minlength=count)
     return np.sort(pixels)[::-1].astype(float)
+
+
+@dataclass(frozen=True, eq=False)
+class Distribution:
+    """Histogram: bin ``edges`` (n + 1) and probability ``density`` (n) per unit of the quantity; integrates to one."""
+
+    edges: RealArray
+    density: RealArray
+
+
+def distribution(values: RealArray, bins: int = 50) -> Distribution:
+    """Probability density of ``values`` (any shape, at least one) from 0 to their maximum in equal ``bins``.
+
+    Serves the gap (``distribution(result.gap[~result.contact])``) and the contact pressure alike.
+
+    Raises
+    ------
+    InputError
+        If there is no value or ``bins`` is not a whole number >= 1.
+    """
+    bins = require.integer(bins, 1, "number of bins")
+    if values.size == 0:
+        raise InputError("values of a distribution must hold at least one number, but are empty.")
+    density, edges = np.histogram(values, bins, range=(0.0, float(values.max()) or 1.0), density=True)
+    return Distribution(edges, density)
 
 
 def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealArray) -> float:

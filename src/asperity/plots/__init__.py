@@ -1,7 +1,7 @@
 """Layer 4: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
 
 from .figures import PLOTS, Plot, render, save_plots, save_surface_plot
-from .histogram import plot_pressure_histogram
+from .histogram import plot_gap_histogram, plot_pressure_histogram
 from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
 from .section import plot_section
 from .style import style
@@ -11,6 +11,7 @@ __all__ = [
     "Plot",
     "plot_contact",
     "plot_gap",
+    "plot_gap_histogram",
     "plot_heights",
     "plot_pressure",
     "plot_pressure_histogram",

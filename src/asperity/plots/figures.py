@@ -14,7 +14,7 @@ from ..core.errors import OutputError
 from ..core.grid import Grid
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
-from .histogram import plot_pressure_histogram
+from .histogram import plot_gap_histogram, plot_pressure_histogram
 from .maps import SLENDER, plot_contact, plot_gap, plot_heights, plot_pressure
 from .section import plot_section
 from .style import DPI, style
@@ -71,6 +71,13 @@ PLOTS = (
         "Distribution of pressure",
         "Probability density of the pressure over the real contact area.",
         plot_pressure_histogram,
+        is_map=False,
+    ),
+    Plot(
+        "gap_histogram",
+        "Distribution of the gap",
+        "Probability density of the gap over the area out of contact.",
+        plot_gap_histogram,
         is_map=False,
     ),
 )

@@ -1,4 +1,4 @@
-"""How the pressure is distributed over the real contact area."""
+"""How pressure and gap are distributed over the area."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..contact.measure import distribution
 from ..contact.result import ContactResult
-from .style import BLACK, SKY, VERMILLION, scale
+from ..core.arrays import RealArray
+from .style import BLACK, SKY, VERMILLION, Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,19 +22,42 @@ def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
     """
     pressure = result.pressure[result.contact]
     in_unit = scale(pressure, "Pa")
-    ax.set(xlabel=f"contact pressure ({in_unit.symbol})", ylabel=f"probability density (1/{in_unit.symbol})")
-    if pressure.size == 0:
-        ax.text(0.5, 0.5, "no contact", transform=ax.transAxes, ha="center", va="center")
+    if not _histogram(pressure, in_unit, ax, "contact pressure", "no contact"):
         return ax
-    bins = int(np.clip(2.0 * pressure.size ** (1.0 / 3.0), 5, 60))  # Rice's rule
-    top = float(in_unit(pressure.max()))
-    ax.hist(in_unit(pressure), bins, range=(0.0, top), density=True, color=SKY, edgecolor="white", linewidth=0.4)
-    mean = float(in_unit(result.mean_real_pressure))
-    ax.axvline(mean, color=BLACK, linestyle="--", label=f"mean {mean:.3g} {in_unit.symbol}")
+    _mark(ax, float(in_unit(result.mean_real_pressure)), f"mean {{:.3g}} {in_unit.symbol}", BLACK, "--")
     cap = result.problem.law.pressure_cap()
     if result.plastic.any() and not isinstance(cap, np.ndarray):
-        hardness = float(in_unit(cap))
-        ax.axvline(hardness, color=VERMILLION, linestyle=":", label=f"hardness {hardness:.3g} {in_unit.symbol}")
-    ax.set_xlim(0.0, 1.04 * top)
+        _mark(ax, float(in_unit(cap)), f"hardness {{:.3g}} {in_unit.symbol}", VERMILLION, ":")
+    return _with_legend(ax)
+
+
+def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the probability density of the gap over the open area of ``result`` on ``ax``, with the mean gap marked."""
+    gap = result.gap[~result.contact]
+    in_unit = scale(gap, "m")
+    if not _histogram(gap, in_unit, ax, "gap", "full contact"):
+        return ax
+    _mark(ax, float(in_unit(result.mean_gap)), f"mean over the whole area {{:.3g}} {in_unit.symbol}", BLACK, "--")
+    return _with_legend(ax)
+
+
+def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: str) -> bool:
+    """Bars of the density of ``values``; False, and the words ``if_none``, where there are none."""
+    ax.set(xlabel=f"{name} ({in_unit.symbol})", ylabel=f"probability density (1/{in_unit.symbol})")
+    if values.size == 0:
+        ax.text(0.5, 0.5, if_none, transform=ax.transAxes, ha="center", va="center")
+        return False
+    bins = int(np.clip(2.0 * values.size ** (1.0 / 3.0), 5, 60))  # Rice's rule
+    bars = distribution(np.asarray(in_unit(values)), bins)
+    ax.stairs(bars.density, bars.edges, fill=True, color=SKY, edgecolor="white", linewidth=0.4)
+    ax.set_xlim(0.0, 1.04 * float(bars.edges[-1]))
+    return True
+
+
+def _mark(ax: Axes, at: float, label: str, color: str, linestyle: str) -> None:
+    ax.axvline(at, color=color, linestyle=linestyle, label=label.format(at))
+
+
+def _with_legend(ax: Axes) -> Axes:
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
     return ax

@@ -46,6 +46,16 @@ def test_rough_down_to_the_pixel():
     assert "resolution" in criteria(before(spiky))
 
 
+def test_asperity_radius_below_the_pixel():
+    """Heights given in the wrong unit: the shape is resolved, but the asperities are needles."""
+    needles = asp.Surface(1e3 * SMOOTH.heights, 1e-6, periodic=True)
+    assert criteria(before(needles)) == {"slope", "asperity radius"}
+    m4 = ((np.diff(SMOOTH.heights, 2, axis=0) ** 2).mean() + (np.diff(SMOOTH.heights, 2, axis=1) ** 2).mean()) / 2e-24
+    radius = 3 / 8 * np.sqrt(np.pi / m4) / 1e3
+    found = next(a for a in before(needles) if a.criterion == "asperity radius")
+    assert f"is {radius / 1e-6:.2g} pixels" in found.message
+
+
 def test_resolution_of_a_sine_is_its_wavelength_in_pixels():
     for pixels, expected in ((4, True), (16, False)):
         grid = asp.Grid((64, 64), (1.0, 1.0))

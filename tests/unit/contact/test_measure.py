@@ -65,6 +65,18 @@ def test_spots_conserve_pixels_and_do_not_care_where_the_map_starts(seed, share,
         np.testing.assert_array_equal(measure.contact_spots(moved, periodic=True), spots)
 
 
+def test_distribution_integrates_to_one_and_holds_the_mean():
+    values = np.random.default_rng(0).random(10000) ** 2
+    found = measure.distribution(values, 200)
+    width = np.diff(found.edges)
+    assert (found.density * width).sum() == pytest.approx(1.0, rel=1e-12)
+    middle = 0.5 * (found.edges[1:] + found.edges[:-1])
+    assert (middle * found.density * width).sum() == pytest.approx(values.mean(), abs=width[0] / 2)
+    for bad in (np.zeros(0), values):
+        with pytest.raises(asp.InputError):
+            measure.distribution(bad, 0 if bad.size else 5)
+
+
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
 def test_stiffness_is_the_exact_derivative_on_a_fixed_contact(boundary):
     """Against the dense matrix: ones . K_CC^-1 . ones over the number of points."""

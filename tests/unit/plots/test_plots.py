@@ -20,7 +20,7 @@ from asperity import plots
 from asperity.core.errors import OutputError
 from asperity.plots.style import scale
 
-NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram")
+NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram", "gap_histogram")
 
 
 @pytest.fixture
@@ -143,12 +143,21 @@ def test_section_goes_through_the_highest_pressure(elastic: asp.ContactResult, a
 
 def test_histogram_is_a_density_with_its_marks(plastic: asp.ContactResult, ax: Axes) -> None:
     drawn(plots.plot_pressure_histogram(plastic, ax))
-    area = sum(bar.get_width() * bar.get_height() for bar in ax.patches)
-    assert area == pytest.approx(1.0)
+    density, edges, _ = ax.patches[0].get_data()
+    assert (density * np.diff(edges)).sum() == pytest.approx(1.0)
     mean, hardness = (line.get_xdata()[0] for line in ax.lines)
     assert mean == pytest.approx(plastic.mean_real_pressure / 1e9)
     assert hardness == pytest.approx(3.0)
     assert ax.get_ylabel() == "probability density (1/GPa)"
+
+
+def test_gap_histogram_covers_the_open_area(plastic: asp.ContactResult, ax: Axes) -> None:
+    drawn(plots.plot_gap_histogram(plastic, ax))
+    density, edges, _ = ax.patches[0].get_data()
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    open_mean = plastic.gap[~plastic.contact].mean()
+    assert (density * np.diff(edges) * middle).sum() == pytest.approx(open_mean * 1e9, abs=np.diff(edges)[0] / 2)
+    assert ax.get_xlabel() == "gap (nm)"
 
 
 def test_every_figure_of_every_contact_is_drawn(result: asp.ContactResult) -> None:
