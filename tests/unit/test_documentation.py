@@ -1,0 +1,66 @@
+"""The examples of README and docs run, on a small generated scan in place of the reader's file."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity as asp
+from asperity.io.documents import loads
+
+ROOT = Path(__file__).parents[2]
+GUIDES = sorted((ROOT / "docs").rglob("*.md"))
+
+
+def blocks(path: Path, language: str) -> list[str]:
+    return re.findall(rf"^[ ]*```{language}\n(.*?)^[ ]*```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+@pytest.fixture
+def scan() -> asp.Surface:
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(100e-9), hurst=0.8, rolloff_wavelength=3e-6, shortest_wavelength=1e-6
+    )
+    return asp.generate.gaussian(asp.Grid((48, 48), (0.1e-6, 0.1e-6)), spectrum, seed=1)
+
+
+def test_the_example_of_the_readme(scan, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (code,) = blocks(ROOT / "README.md", "python")
+    assert 'asp.read("scan.di")' in code
+    exec(compile(code.replace('asp.read("scan.di")', "scan"), "README.md", "exec"), {"scan": scan})  # noqa: S102 - running the page is the test
+    assert asp.load("contact.nc").converged
+    assert "Polonsky" in capsys.readouterr().out
+
+
+def test_the_examples_of_loading_and_unloading(scan):
+    first, second = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
+    names = {"scan": scan, "asp": asp, "np": np}
+    exec(compile(first, "first block", "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["again"].plastic_work <= 1e-6 * names["loaded"].plastic_work
+    assert names["loaded"].plastic_work > 0.0
+    exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["result"].mean_pressure == pytest.approx(500e6)
+
+
+def test_the_problem_document_of_the_guide_is_valid():
+    (text,) = blocks(ROOT / "docs/how-to/problem-document.md", "toml")
+    assert loads(text).title == "Two rough bodies"
+
+
+def test_the_materials_of_the_guide_are_valid(tmp_path):
+    (text,) = blocks(ROOT / "docs/how-to/own-materials.md", "toml")
+    file = tmp_path / "my.toml"
+    file.write_text(text, encoding="utf-8")
+    assert asp.material("coating A", library=file).strength.hardness == 21e9
+    assert asp.material("seal rubber", library=file).youngs_modulus == 5e6
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *GUIDES, ROOT / "CONTRIBUTING.md"], ids=lambda p: p.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
+        if not target.startswith("http"):
+            assert (page.parent / target).exists(), f"{page.name} links to {target}"
