@@ -26,10 +26,15 @@ class Grid:
     spacing: tuple[float, float]
 
     def __post_init__(self) -> None:
-        for count, axis in zip(self.shape, "xy", strict=True):
-            require.integer(count, 1, f"number of grid points along {axis}")
-        for step, axis in zip(self.spacing, "xy", strict=True):
-            require.positive(step, f"grid spacing along {axis} (m)")
+        nx, ny = (
+            require.integer(n, 1, f"number of grid points along {axis}")
+            for n, axis in zip(self.shape, "xy", strict=True)
+        )
+        dx, dy = (
+            require.positive(d, f"grid spacing along {axis} (m)") for d, axis in zip(self.spacing, "xy", strict=True)
+        )
+        object.__setattr__(self, "shape", (nx, ny))
+        object.__setattr__(self, "spacing", (dx, dy))
 
     @property
     def size(self) -> tuple[float, float]:

@@ -39,6 +39,12 @@ def test_sizes():
     assert y[0, 3] == 0.0
 
 
+def test_counts_and_spacings_come_back_in_their_type():
+    grid = asp.Grid((4.0, np.int64(6)), (1, np.float32(0.5)))
+    assert grid == asp.Grid((4, 6), (1.0, 0.5))
+    assert [type(value) for value in (*grid.shape, *grid.spacing)] == [int, int, float, float]
+
+
 @pytest.mark.parametrize(
     ("shape", "spacing"),
     [((0, 4), (1, 1)), ((4, 4), (0, 1)), ((4, 4), (1, -1)), ((4.5, 4), (1, 1)), ((4, 4), (np.nan, 1))],
