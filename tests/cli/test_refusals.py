@@ -62,7 +62,7 @@ def refused(run: Runner, *arguments: object) -> str:
         ((*BODY, *LOAD, "--crop", "0:1,"), "x of --crop must have a unit"),
         ((*BODY, *LOAD, "--crop", "0um:99um,"), "crop along x must lie within"),
         ((*BODY, *LOAD, "--resample", "many"), "--resample must be one or two numbers of points"),
-        ((*BODY, *LOAD, "--taper", "0.9"), "--taper must be at most 0.5 of the side, but is 0.9."),
+        ((*BODY, *LOAD, "--taper", "0.9"), "--taper must be greater than zero and at most 0.5, but is 0.9."),
         ((*BODY, *LOAD, "--mirror", "x"), "--mirror must be given together with --counter-surface"),
         ((*BODY, *LOAD, "--materials-file", "none.toml", "--body", "DLC"), "material file must exist"),
     ],

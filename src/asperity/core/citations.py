@@ -11,11 +11,15 @@ REFERENCES = {
     "Byrd1995": "Byrd, R. H., Lu, P., Nocedal, J., Zhu, C. (1995). A limited memory algorithm for bound constrained optimization. SIAM Journal on Scientific Computing 16, 1190-1208.",
     "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",
     "Cottle1992": "Cottle, R. W., Pang, J.-S., Stone, R. E. (1992). The Linear Complementarity Problem. Academic Press, Boston.",
+    "Dietrich1997": "Dietrich, C. R., Newsam, G. N. (1997). Fast and exact simulation of stationary Gaussian processes through circulant embedding of the covariance matrix. SIAM Journal on Scientific Computing 18, 1088-1107.",
+    "Greenwood1966": "Greenwood, J. A., Williamson, J. B. P. (1966). Contact of nominally flat surfaces. Proceedings of the Royal Society A 295, 300-319.",
+    "Jacobs2017": "Jacobs, T. D. B., Junge, T., Pastewka, L. (2017). Quantitative characterization of surface topography using spectral analysis. Surface Topography: Metrology and Properties 5, 013001.",
     "Johnson1985": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press.",
     "Kalker1977": "Kalker, J. J. (1977). Variational principles of contact elastostatics. IMA Journal of Applied Mathematics 20, 199-219.",
     "Lawson1974": "Lawson, C. L., Hanson, R. J. (1974). Solving Least Squares Problems. Prentice-Hall, Englewood Cliffs.",
     "Liu2000": "Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT) for contact analyses. Wear 243, 101-111.",
     "Love1929": "Love, A. E. H. (1929). The stress produced in a semi-infinite solid by pressure on part of the boundary. Philosophical Transactions of the Royal Society A 228, 377-420.",
+    "Moisan2011": "Moisan, L. (2011). Periodic plus smooth image decomposition. Journal of Mathematical Imaging and Vision 39, 161-179.",
     "Nogi1997": "Nogi, T., Kato, T. (1997). Influence of a hard surface layer on the limit of elastic contact, part I. Journal of Tribology 119, 493-500.",
     "Peng2001": "Peng, W. (2001). Contact mechanics of multilayered rough surfaces in tribology. Dissertation, Ohio State University.",
     "PengBhushan2001": "Peng, W., Bhushan, B. (2001). A numerical three-dimensional model for the contact of layered elastic/plastic solids with rough surfaces by a variational principle. Journal of Tribology 123, 330-342.",
@@ -47,5 +51,11 @@ def reference(key: str) -> str:
 
 
 def cite(*objects: object) -> str:
-    """Text with one full reference a line for everything the ``objects`` (problem, result, …) rest on."""
+    """Text with one full reference a line for everything the ``objects`` (surface, problem, result, …) rest on.
+
+    Raises
+    ------
+    InputError
+        If an object names a paper that is not in the list.
+    """
     return "\n".join(f"[{key}] {reference(key)}" for key in citation_keys(*objects))

@@ -31,19 +31,19 @@ def positive(value: float, what: str, fix: str = "") -> float:
     return number
 
 
-def non_negative(value: float, what: str, fix: str = "") -> float:
-    """Return ``value`` as float if it is finite and >= 0."""
-    number = finite(value, what, fix)
-    if number < 0.0:
-        raise InputError(_sentence(what, "zero or greater", value, fix))
-    return number
-
-
 def between(value: float, low: float, high: float, what: str, fix: str = "") -> float:
     """Return ``value`` as float if ``low < value < high``."""
     number = finite(value, what, fix)
     if not low < number < high:
         raise InputError(_sentence(what, f"greater than {low:g} and less than {high:g}", value, fix))
+    return number
+
+
+def at_most(value: float, high: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if ``0 < value <= high``."""
+    number = finite(value, what, fix)
+    if not 0.0 < number <= high:
+        raise InputError(_sentence(what, f"greater than zero and at most {high:g}", value, fix))
     return number
 
 

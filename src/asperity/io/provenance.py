@@ -34,6 +34,7 @@ def surface_provenance(surface: Surface) -> dict[str, Any]:
         "channel": origin.channel,
         "instrument": {str(key): str(value) for key, value in origin.instrument.items()},
         "history": list(origin.history),
+        "citation_keys": list(origin.citation_keys),
         "digest": array_digest(surface.heights),
     }
 

@@ -189,9 +189,8 @@ def _surface(heights: np.ndarray[Any, Any], text: str) -> Surface:
     described = json.loads(text)
     if array_digest(heights) != described["digest"]:
         raise ValueError("heights: they do not match their digest")
-    origin = Origin(
-        described["source"], described["channel"], described["instrument"], history=tuple(described["history"])
-    )
+    history, keys = tuple(described["history"]), tuple(described["citation_keys"])
+    origin = Origin(described["source"], described["channel"], described["instrument"], history, keys)
     return Surface(heights, described["dx"], described["dy"], periodic=described["periodic"], origin=origin)
 
 

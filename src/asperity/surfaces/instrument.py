@@ -39,7 +39,7 @@ def read_instrument(
     heights = _right_handed(values, info, file) * factor
     nx, ny = heights.shape
     history = f"read: channel {info.name!r} of {file.name}"
-    origin = Origin(source=file.name, channel=info.name, instrument=metadata, history=(history,))
+    origin = Origin(file.name, info.name, metadata, (history,), ("Roettger2022",))
     try:
         return Surface(heights, size[0] / nx, size[1] / ny, periodic=periodic, origin=origin)
     except InputError as exc:

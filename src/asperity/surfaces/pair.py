@@ -12,7 +12,7 @@ from .surface import Origin, Surface
 def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | None = None) -> Surface:
     """Sum h = h1 + h2 of two surfaces, each with heights positive out of its own body.
 
-    Only this sum enters the undeformed gap g = g0 - h of frictionless half-spaces. A map of the upper body is
+    Only this sum enters the undeformed gap g = g0 - h of frictionless half-spaces (Peng 2001, app. D). A map of the upper body is
     measured looking at that body: turning it over about the y axis replaces x by Lx - x (``mirrored="x"``), about
     the x axis y by Ly - y (``mirrored="y"``). Points missing in either surface are missing in the sum, which is
     periodic only if both are; a periodic surface is mirrored about its node 0, any other about its middle.
@@ -78,4 +78,5 @@ def _joint_origin(first: Origin, second: Origin) -> Origin:
         "composite: sum of surfaces 1 and 2",
     )
     source = " + ".join(origin.source or "unnamed surface" for origin in (first, second))
-    return Origin(source=source, history=history)
+    keys = (*first.citation_keys, *second.citation_keys, "Peng2001")
+    return Origin(source=source, history=history, citation_keys=tuple(dict.fromkeys(keys)))

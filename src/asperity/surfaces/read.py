@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-import numpy as np
-
 from ..core.errors import FileFormatError
 from . import instrument, plain
 from .channels import ChannelInfo
@@ -25,7 +23,7 @@ def read(
 
     * Instrument files (some forty formats, read by SurfaceTopography) state size and units themselves. The picture
       that the instrument software shows has its top row at the largest y.
-    * Text matrices (.txt, .dat, .asc, .csv): one line per row of the picture, top row first, separated by blanks,
+    * Text matrices (.txt, .dat, .asc, .csv, .tsv): one line per row of the picture, top row first, separated by blanks,
       tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``.
     * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.
     * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit, 65535 for 16 bit) is
@@ -59,7 +57,7 @@ def read(
         if z_scale is not None:
             raise FileFormatError(f"file {file} is not a picture, so z_scale (--z-scale) must be left out.")
         surface = instrument.read_instrument(file, channel=channel, size=size, height_unit=height_unit)
-    if min(surface.shape) < 2 or not np.isfinite(surface.size).all():
+    if min(surface.shape) < 2:
         raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {surface.shape}.")
     return surface
 

@@ -19,16 +19,23 @@ class Origin:
     """Where a surface comes from.
 
     ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data from the file;
-    ``history`` one sentence for every preparation step, oldest first.
+    ``history`` one sentence for every preparation step, oldest first; ``citation_keys`` the papers behind the reader,
+    the generator and the steps, see ``core.citations``.
     """
 
     source: str = ""
     channel: str = ""
     instrument: Mapping[str, str] = field(default_factory=dict)
     history: tuple[str, ...] = ()
+    citation_keys: tuple[str, ...] = ()
+
+    def continued(self, step: str, citation_keys: tuple[str, ...] = ()) -> Origin:
+        """Origin after a further ``step``, which rests on the papers ``citation_keys``."""
+        keys = tuple(dict.fromkeys((*self.citation_keys, *citation_keys)))
+        return replace(self, history=(*self.history, step), citation_keys=keys)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Surface:
     """Heights on a regular grid, positive out of the solid (the material is below).
 
@@ -54,9 +61,9 @@ class Surface:
     heights: RealArray
     dx: float
     dy: float
-    periodic: bool = False
-    mask: BoolArray = field(default_factory=lambda: np.zeros((0, 0), dtype=bool))
-    origin: Origin = Origin()
+    periodic: bool
+    mask: BoolArray
+    origin: Origin
 
     def __init__(
         self,
@@ -84,7 +91,7 @@ class Surface:
         values[missing] = np.nan
         values.flags.writeable = False
         missing.flags.writeable = False
-        grid = Grid((values.shape[0], values.shape[1]), (float(dx), float(dx if dy is None else dy)))
+        grid = Grid((values.shape[0], values.shape[1]), (dx, dx if dy is None else dy))
         for name, value in (
             ("heights", values),
             ("dx", grid.spacing[0]),
@@ -115,13 +122,14 @@ class Surface:
         """Number of missing points."""
         return int(np.count_nonzero(self.mask))
 
-    def with_heights(
-        self, heights: ArrayLike, step: str, *, mask: ArrayLike | None = None, periodic: bool | None = None
-    ) -> Surface:
-        """Surface on the same pixels with other ``heights`` (m); ``step`` is added to the history.
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind the reader or generator and the preparation."""
+        return self.origin.citation_keys
 
-        ``mask`` defaults to the NaN points of ``heights`` and ``periodic`` to the flag of this surface.
+    def with_heights(self, heights: ArrayLike, step: str) -> Surface:
+        """Surface on the same pixels with other ``heights`` (nx, ny) in m; ``step`` is added to the history.
+
+        NaN marks a missing point; the periodic flag stays.
         """
-        origin = replace(self.origin, history=(*self.origin.history, step))
-        flag = self.periodic if periodic is None else periodic
-        return Surface(heights, self.dx, self.dy, periodic=flag, mask=mask, origin=origin)
+        return Surface(heights, self.dx, self.dy, periodic=self.periodic, origin=self.origin.continued(step))

@@ -14,7 +14,8 @@ from asperity.surfaces.surface import Origin
 def rough(shape: tuple[int, int], seed: int, dtype: type = np.float64, periodic: bool = True) -> asp.Surface:
     noise = np.random.default_rng(seed).standard_normal(shape)
     smooth = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
-    origin = Origin("disk <1> & ü.x3p", "height", {"model": 'NV "7300"'}, ("levelled by a plane", "cropped"))
+    history = ("levelled by a plane", "cropped")
+    origin = Origin("disk <1> & ü.x3p", "height", {"model": 'NV "7300"'}, history, ("Roettger2022",))
     return asp.Surface(np.asarray(smooth).astype(dtype), 1.1e-8, 0.7e-8, periodic=periodic, origin=origin)
 
 

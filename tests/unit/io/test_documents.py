@@ -238,7 +238,7 @@ def test_documents_do_not_change() -> None:
         ),
         (
             {"surface": SMALL["surface"] | {"prepare": [{"step": "taper", "width": 0.7}]}},
-            "must be at most 0.5 of the side",
+            "must be greater than zero and at most 0.5",
         ),
         ({"law": {"kind": "hardness", "hardness": "5"}}, "law.hardness must have a unit"),
         ({"solver": {"method": "magic"}}, "solver.method must be one of conjugate_gradient"),

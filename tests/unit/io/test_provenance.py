@@ -30,6 +30,7 @@ def test_inputs_are_named_by_origin_and_content(plastic: asp.ContactResult, elas
     assert json.loads(json.dumps(described)) == described
     assert described["surface"]["digest"] == array_digest(plastic.problem.surface.heights)
     assert described["surface"]["history"] == ["levelled by a plane", "cropped"]
+    assert described["surface"]["citation_keys"] == ["Roettger2022"]
     assert described["surface"]["instrument"] == {"model": 'NV "7300"'}
     assert described["counter_surface"]["digest"] != described["surface"]["digest"]
     assert described["citation_keys"] == list(plastic.citation_keys)

@@ -50,6 +50,7 @@ def test_documented_values(name, shared_data):
     assert skewness(plane) == pytest.approx(skew, abs=5.1e-3)
     assert kurtosis(plane) == pytest.approx(kurt, abs=5.1e-3)
     assert surface.origin.source == name
+    assert surface.citation_keys == ("Roettger2022",)
     assert all(isinstance(value, str) for value in surface.origin.instrument.values())
 
 

@@ -12,10 +12,7 @@ from .values import LengthRange, Points, Table
 
 
 def _width(value: float) -> float:
-    require.positive(value, "")
-    if value > 0.5:
-        raise InputError(f" must be at most 0.5 of the side, but is {value!r}.")
-    return value
+    return require.at_most(value, 0.5, "")
 
 
 class Level(Table):

@@ -98,9 +98,7 @@ def _fraction(value: float) -> float:
 
 
 def _hurst(value: float) -> float:
-    if not 0.0 < value <= 1.0:
-        raise InputError(f" must be greater than 0 and at most 1, but is {value!r}.")
-    return value
+    return require.at_most(value, 1.0, "")
 
 
 def _method(name: str) -> str:

@@ -31,7 +31,7 @@ class HalfSpace:
         return ("Boussinesq1885", "Johnson1985", "Love1929")
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
-        """c(q) = 2 / (E' q) in m/Pa (Johnson 1985, ch. 13; handbook of elasticity eq. 3.6), q > 0 in rad/m."""
+        """c(q) = 2 / (E' q) in m/Pa (Johnson 1985, sec. 13.2), q > 0 in rad/m."""
         return 2.0 / (self.modulus * wavenumber)
 
     def mean_mode(self) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -47,6 +48,7 @@ class ExponentialAutocorrelation:
     correlation_length: float
     drop: float = 0.1
     correlation_length_y: float | None = None
+    citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997", "PengBhushan2001")
 
     def __post_init__(self) -> None:
         require.positive(self.rms_height, "rms height (m)")

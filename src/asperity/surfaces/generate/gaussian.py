@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import require
+from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform
@@ -25,7 +26,8 @@ def gaussian(grid: Grid, spectrum: Spectrum, *, seed: int, exact_rms: bool = Fal
     grid
         Nodes of the surface.
     spectrum
-        ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and ``describe``.
+        ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and ``describe``; the
+        surface cites the papers in its ``citation_keys``, if it has any.
     seed
         Whole number >= 0.
     exact_rms
@@ -50,4 +52,5 @@ def gaussian(grid: Grid, spectrum: Spectrum, *, seed: int, exact_rms: bool = Fal
         heights *= target / np.sqrt(np.mean(np.square(heights)))
         text += f", rescaled to the rms height {target:g} m"
     dx, dy = grid.spacing
-    return Surface(heights, dx, dy, periodic=True, origin=Origin(source="gaussian", history=(text,)))
+    origin = Origin(source="gaussian", history=(text,), citation_keys=citation_keys(spectrum))
+    return Surface(heights, dx, dy, periodic=True, origin=origin)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import ClassVar, Protocol, TypeAlias
 
 import numpy as np
 
@@ -89,6 +89,7 @@ class SelfAffine:
     rolloff_wavelength: float
     shortest_wavelength: float
     longest_wavelength: float = math.inf
+    citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
     def __post_init__(self) -> None:
         if not isinstance(self.amplitude, (RmsHeight, RmsSlope, PlateauPSD)):
@@ -96,9 +97,7 @@ class SelfAffine:
                 "amplitude of a self-affine spectrum must be an RmsHeight, RmsSlope or PlateauPSD, "
                 f"but is {self.amplitude!r}. Write for example RmsHeight(1e-9)."
             )
-        require.positive(self.hurst, "Hurst exponent")
-        if self.hurst > 1.0:
-            raise InputError(f"Hurst exponent must be greater than 0 and at most 1, but is {self.hurst!r}.")
+        require.at_most(self.hurst, 1.0, "Hurst exponent")
         require.positive(self.shortest_wavelength, "shortest wavelength (m)")
         require.positive(self.rolloff_wavelength, "roll-off wavelength (m)")
         if not self.shortest_wavelength <= self.rolloff_wavelength <= self.longest_wavelength:
@@ -158,10 +157,8 @@ class SelfAffine:
             return self.amplitude.value
         power = 2 if isinstance(self.amplitude, RmsHeight) else 4
         q_r = 2.0 * np.pi / self.rolloff_wavelength
-        low, high = (
-            self.rolloff_wavelength / self.longest_wavelength,
-            self.rolloff_wavelength / self.shortest_wavelength,
-        )
+        low = self.rolloff_wavelength / self.longest_wavelength
+        high = self.rolloff_wavelength / self.shortest_wavelength
         exponent = power - 2.0 - 2.0 * self.hurst
         tail = math.log(high) if exponent == 0.0 else (high**exponent - 1.0) / exponent
         integral = (1.0 - low**power) / power + tail

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ...core import require
 from ...core.errors import InputError
 from ...core.units import show
@@ -30,8 +28,7 @@ def cropped(surface: Surface, *, x: tuple[float, float] | None = None, y: tuple[
         f"cropped: x {show(first_x * surface.dx, 'm')} to {show(last_x * surface.dx, 'm')}, "
         f"y {show(first_y * surface.dy, 'm')} to {show(last_y * surface.dy, 'm')} ({nx} x {ny} points)"
     )
-    origin = replace(surface.origin, history=(*surface.origin.history, step))
-    return Surface(heights, surface.dx, surface.dy, origin=origin)
+    return Surface(heights, surface.dx, surface.dy, origin=surface.origin.continued(step))
 
 
 def _pixels(surface: Surface, limits: tuple[float, float] | None, axis: int) -> tuple[int, int]:

@@ -7,9 +7,8 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.units import show
-from ..characterise.heights import rms_height
 from ..surface import Surface
+from .steps import recorded
 
 _DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 _BLOCK = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
@@ -30,10 +29,7 @@ def levelled(surface: Surface, form: str = "plane") -> Surface:
     degree = _DEGREES[require.one_of(form, _DEGREES, "form to be removed")]
     fit = _fitted(surface, degree, form)
     before = surface.heights.astype(np.float64, copy=False)
-    step = f"levelled: {form} removed"
-    result = surface.with_heights(before - fit, step)
-    text = f"{step} (rms {show(rms_height(surface), 'm', 3)} -> {show(rms_height(result), 'm', 3)})"
-    return surface.with_heights(result.heights, text)
+    return recorded(surface, before - fit, f"levelled: {form} removed", periodic=surface.periodic)
 
 
 def _fitted(surface: Surface, degree: int, form: str) -> RealArray:

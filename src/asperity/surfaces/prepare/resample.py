@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ...core import require
 from ...core.arrays import ComplexArray, RealArray
-from ...core.errors import InputError
 from ...core.spectral import RealTransform
 from ..surface import Surface
+from .steps import require_complete
 
 
 def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
@@ -27,11 +25,7 @@ def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
         If a number of points is not a whole number >= 1 or points are missing.
     """
     nx, ny = (require.integer(n, 1, f"number of points along {axis}") for n, axis in zip(shape, "xy", strict=True))
-    if surface.n_missing:
-        raise InputError(
-            f"surface must have no missing points to be resampled, but {surface.n_missing} are missing. "
-            "Fill them first with filled()."
-        )
+    require_complete(surface, "resampled")
     if (nx, ny) == surface.shape:
         return surface
     heights: RealArray = surface.heights.astype(np.float64, copy=False)
@@ -46,9 +40,8 @@ def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
         )
         heights = _axis_resampled(_axis_resampled(heights, nx).T, ny).T
     step = f"resampled: {surface.shape[0]} x {surface.shape[1]} -> {nx} x {ny} points, {how}"
-    origin = replace(surface.origin, history=(*surface.origin.history, step))
     size_x, size_y = surface.size
-    return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=origin)
+    return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=surface.origin.continued(step))
 
 
 def _fourier_resampled(heights: RealArray, shape: tuple[int, int]) -> RealArray:

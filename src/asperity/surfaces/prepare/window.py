@@ -6,12 +6,11 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform
 from ...core.units import show
-from ..characterise.heights import rms_height
 from ..surface import Surface
+from .steps import recorded, require_complete
 
 
 def tapered(surface: Surface, width: float = 0.1) -> Surface:
@@ -29,15 +28,14 @@ def tapered(surface: Surface, width: float = 0.1) -> Surface:
     InputError
         If the width is out of range or points are missing.
     """
-    require.positive(width, "width of the taper (fraction of the side)")
-    if width > 0.5:
-        raise InputError(f"width of the taper must be at most 0.5 of the side, but is {width!r}.")
-    _require_complete(surface, "tapered")
+    require.at_most(width, 0.5, "width of the taper (fraction of the side)")
+    require_complete(surface, "tapered")
     heights = surface.heights.astype(np.float64, copy=False)
     mean = float(heights.mean())
     weight_x, weight_y = (_tukey(n, width) for n in surface.shape)
     result = mean + weight_x[:, None] * weight_y[None, :] * (heights - mean)
-    return _recorded(surface, result, f"tapered: cosine over {width:g} of the side at each border")
+    step = f"tapered: cosine over {width:g} of the side at each border"
+    return recorded(surface, result, step, periodic=True)
 
 
 def periodised(surface: Surface) -> Surface:
@@ -45,8 +43,8 @@ def periodised(surface: Surface) -> Surface:
 
     The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the map and holds
     the jumps at its borders, so the discrete Laplacian (curvature) of all interior points and the mean height are
-    kept. A periodic surface is returned as it is. Source: Moisan, L. (2011), Periodic plus smooth image
-    decomposition, J. Math. Imaging Vision 39, 161-179, eqs. 11-14, here with the weights 1/dx² and 1/dy².
+    kept. A periodic surface is returned as it is. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx²
+    and 1/dy².
 
     Raises
     ------
@@ -55,11 +53,11 @@ def periodised(surface: Surface) -> Surface:
     """
     if surface.periodic:
         return surface
-    _require_complete(surface, "periodised")
+    require_complete(surface, "periodised")
     heights = surface.heights.astype(np.float64, copy=False)
     smooth = _smooth_component(heights, surface.grid.spacing)
     text = f"periodised: smooth component (rms {show(float(smooth.std()), 'm', 3)}) removed"
-    return _recorded(surface, heights - smooth, text)
+    return recorded(surface, heights - smooth, text, periodic=True, citation_keys=("Moisan2011",))
 
 
 def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealArray:
@@ -85,17 +83,3 @@ def _tukey(count: int, width: float) -> RealArray:
     distance = np.minimum(distance, 1.0 - distance)
     weights: RealArray = np.sin(0.5 * np.pi * np.minimum(distance / width, 1.0)) ** 2
     return weights
-
-
-def _recorded(surface: Surface, heights: RealArray, text: str) -> Surface:
-    result = surface.with_heights(heights, text, periodic=True)
-    change = f"{text} (rms {show(rms_height(surface), 'm', 3)} -> {show(rms_height(result), 'm', 3)})"
-    return surface.with_heights(heights, change, periodic=True)
-
-
-def _require_complete(surface: Surface, word: str) -> None:
-    if surface.n_missing:
-        raise InputError(
-            f"surface must have no missing points to be {word}, but {surface.n_missing} are missing. "
-            "Fill them first with filled()."
-        )
