@@ -28,14 +28,14 @@ def info(
     """
     import json
 
+    from ..io.atomic import require_new_file
     from ..surfaces.channels import chosen
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
-    from .perform import require_new
     from .show import console, print_files, say
 
     if plot is not None:
-        require_new(plot, force=force)
+        require_new_file(plot, overwrite=force)
     surface = _read(file, reading)
     found, flat = channels(file), levelled(surface, "plane")
     if as_json:
@@ -101,7 +101,7 @@ def _record(file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: 
 
 
 def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface, flat: Surface) -> None:
-    from ..core.units import show
+    from ..core.units import percent, show
     from .show import console, surface_text, table
 
     rows = [
@@ -115,7 +115,7 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
     rows += [
         ("map", surface_text(surface)),
         ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
-        ("missing points", f"{surface.n_missing} ({100 * share:.3g} %)"),
+        ("missing points", f"{surface.n_missing} ({percent(share)})"),
     ]
     rows += [(f"instrument: {key}", text) for key, text in surface.origin.instrument.items()]
     out = console()

@@ -101,15 +101,18 @@ def problem_rows(result: ContactResult) -> list[tuple[str, str]]:
 
 def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     """The scalars of ``result`` and the checks that bound its error."""
-    from ..contact.result import SCALARS
     from ..core.units import show
+    from ..io.labels import CERTIFICATE
+    from ..report.outputs import result_rows
 
-    rows = [(q.label, show(getattr(result, q.attribute), q.unit)) for q in SCALARS]
     checks = result.certificate
-    rows.append(("bound on the relative error of the energy", f"{checks.duality_gap:.1e}"))
+    labels = {q.attribute: q.label for q in CERTIFICATE}
     work = f"{checks.solver}, {checks.iterations} iterations, {show(checks.wall_time, 's', 3)}"
-    rows.append(("solver", work))
-    return rows
+    return [
+        *result_rows(result),
+        (labels["duality_gap"], f"{checks.duality_gap:.1e}"),
+        (labels["solver"], work),
+    ]
 
 
 def print_result(result: ContactResult, title: str) -> None:

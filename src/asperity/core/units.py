@@ -107,6 +107,11 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
 
 
+def percent(share: float, digits: int = 3) -> str:
+    """Text of a ``share`` of one in percent, for example ``percent(0.0123)`` → ``"1.23 %"``."""
+    return f"{100.0 * share:.{digits}g} %"
+
+
 def _compact_area(quantity: Any) -> Any:
     """Area in the largest unit in which it is at least 0.01; squared prefixes are a factor of a million apart."""
     for unit in ("m**2", "mm**2", "um**2"):

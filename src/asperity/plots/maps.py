@@ -10,6 +10,7 @@ import numpy as np
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
+from ..core.units import percent
 from ..surfaces.surface import Surface
 from .style import BLUE, GAP_MAP, HEIGHT_MAP, NO_CONTACT, PRESSURE_MAP, VERMILLION, Scale, scale
 
@@ -72,11 +73,6 @@ def _contact_legend(ax: Axes, names: tuple[str, ...], colours: tuple[str, ...], 
     ]
     spacing = {"handlelength": 1.0, "handletextpad": 0.5, "columnspacing": 1.2, "borderaxespad": 0.3, "borderpad": 0.2}
     ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(handles), **spacing)
-
-
-def percent(share: float) -> str:
-    """Text of a ``share`` of one, with three digits."""
-    return f"{100.0 * share:.3g} %"
 
 
 @dataclass(frozen=True)

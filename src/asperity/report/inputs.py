@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.result import ContactResult
 from ..core.units import show
+from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface
 
 Rows: TypeAlias = list[tuple[str, str]]
@@ -30,15 +31,14 @@ def surface_rows(surface: object) -> Rows:
     if not isinstance(surface, Surface):
         return [("shape", "perfectly flat")]
     origin, (nx, ny), (width, height) = surface.origin, surface.shape, surface.size
-    valid = surface.heights[~surface.mask].astype(np.float64)
     rows = [
         ("source", origin.source or "given as an array"),
         ("channel", origin.channel),
         ("size", f"{show(width, 'm')} × {show(height, 'm')}"),
         ("points", f"{nx} × {ny}"),
         ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
-        ("rms height", show(float(valid.std()), "m")),
-        ("peak to valley", show(float(np.ptp(valid)), "m")),
+        ("rms height", show(rms_height(surface), "m")),
+        ("peak to valley", show(peak_to_valley(surface), "m")),
         ("periodic", "yes" if surface.periodic else "no"),
         *((f"step {number}", step) for number, step in enumerate(origin.history, start=1)),
         *((str(key), str(value)) for key, value in origin.instrument.items()),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..contact.result import SCALARS, ContactResult, Quantity
-from ..core.units import show
+from ..core.units import percent, show
 from ..io.labels import CERTIFICATE
 from .inputs import Rows
 
@@ -41,7 +41,7 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
         return "not computed"
     text = show(value, quantity.unit)
     if quantity.attribute.endswith(("fraction", "fraction_corrected")):
-        return f"{text} ({100.0 * value:.3g} %)"
+        return f"{text} ({percent(value)})"
     return text
 
 
@@ -53,7 +53,7 @@ def result_rows(result: ContactResult) -> Rows:
 def headline_rows(result: ContactResult) -> Rows:
     """The scalars that people look for first; the real contact area in percent of the nominal area."""
     chosen = {q.attribute: value_text(q, getattr(result, q.attribute)) for q in SCALARS}
-    chosen["area_fraction_corrected"] = f"{100.0 * result.area_fraction_corrected:.3g} %"
+    chosen["area_fraction_corrected"] = percent(result.area_fraction_corrected)
     return [(label, chosen[name]) for name, label in HEADLINE.items()]
 
 
@@ -66,10 +66,10 @@ def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
 
 def summary(result: ContactResult) -> str:
     """One sentence on the state of the contact."""
-    share = f"{100.0 * result.area_fraction_corrected:.3g} % of the nominal area"
+    share = f"{percent(result.area_fraction_corrected)} of the nominal area"
     if not result.contact.any():
         return "The bodies do not touch."
     if result.is_plastic:
-        plastic = f"{100.0 * result.plastic_area_fraction:.3g} % of the real contact area is at the hardness"
+        plastic = f"{percent(result.plastic_area_fraction)} of the real contact area is at the hardness"
         return f"The bodies touch on {share}. The contact is plastic: {plastic}."
     return f"The bodies touch on {share}. The contact is elastic."
