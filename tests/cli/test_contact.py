@@ -68,7 +68,8 @@ def test_single_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     assert all(path.stat().st_size > 100 for path in paths.values())
     again = run(*command)
     assert again.exit_code == 2
-    assert "add --force to replace it" in again.stderr
+    assert "must not exist yet" in again.stderr
+    assert "--force" in again.stderr
     assert run(*command, "--force").exit_code == 0
 
 

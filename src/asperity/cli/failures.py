@@ -34,12 +34,10 @@ class Reporting(TyperGroup):
 
 def diagnosis(error: Exception) -> tuple[int, str]:
     """Exit code and sentence for ``error``."""
-    from ..core.errors import AsperityError, ConvergenceError, OutputError
+    from ..core.errors import AsperityError, ConvergenceError
 
     if isinstance(error, ConvergenceError):
         return NOT_CONVERGED, str(error)
-    if isinstance(error, OutputError):
-        return BAD_INPUT, str(error).replace("overwrite.", "overwrite with --force.")
     if isinstance(error, AsperityError):
         return BAD_INPUT, str(error)
     if isinstance(error, MemoryError):

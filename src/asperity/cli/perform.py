@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..core.errors import OutputError
 from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
@@ -24,11 +23,12 @@ NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..contact.advice import advise, review
+    from ..io.atomic import require_new_file
     from ..io.build import build
     from .show import print_advice, print_files, print_result
 
     for path in _single_files(output):
-        require_new(path, force=output.force)
+        require_new_file(path, overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with _folder(output) as folder:
@@ -41,14 +41,6 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     print_advice(findings)
     print_files(_written(output))
     return OK if result.converged else NOT_CONVERGED
-
-
-def require_new(path: Path, *, force: bool) -> None:
-    """Refuse to write ``path`` if it exists and ``force`` is not given, or if its folder does not exist."""
-    if path.exists() and not path.is_dir() and not force:
-        raise OutputError(f"output file must not exist yet, but {path} does; add --force to replace it.")
-    if not path.parent.is_dir() or path.is_dir():
-        raise OutputError(f"output must be a file name in an existing folder, but is {path}.")
 
 
 @contextmanager

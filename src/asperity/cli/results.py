@@ -49,16 +49,16 @@ def export(
 ) -> None:
     """Write a result for other programs."""
     from ..core.errors import InputError
+    from ..io.atomic import require_new_file
     from ..io.export import export_csv, export_vtk
     from ..io.results import load
-    from .perform import require_new
     from .show import print_files
 
     wanted = [path for path in (csv, vtk) if path is not None]
     if not wanted:
         raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
     for path in wanted:
-        require_new(path, force=force)
+        require_new_file(path, overwrite=force)
     result = load(file)
     if csv is not None:
         export_csv(result, csv, overwrite=force)

@@ -10,6 +10,9 @@ from pathlib import Path
 
 from ..core.errors import AsperityError, OutputError
 
+OVERWRITE = "overwrite it with overwrite=True (--force)"
+"""The fix where something exists already, in Python and on the command line."""
+
 
 @contextmanager
 def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
@@ -23,19 +26,12 @@ def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
         If ``path`` exists and ``overwrite`` is false, is a folder, lies in no folder, or cannot be written.
     """
     target = Path(path)
-    _require_new_file(target, overwrite=overwrite)
-    partial = _partial(target)
-    try:
+    require_new_file(target, overwrite=overwrite)
+    with _partial(target) as partial:
         partial.touch()
         yield partial
-        _require_new_file(target, overwrite=overwrite)
+        require_new_file(target, overwrite=overwrite)
         partial.replace(target)
-    except AsperityError:
-        raise
-    except OSError as error:
-        raise _cannot_write(target, error) from error
-    finally:
-        _remove(partial)
 
 
 @contextmanager
@@ -52,8 +48,7 @@ def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path
     """
     target = Path(path)
     _require_new_folder(target, overwrite=overwrite)
-    partial = _partial(target)
-    try:
+    with _partial(target) as partial:
         partial.mkdir(parents=True)
         yield partial
         _require_new_folder(target, overwrite=overwrite)
@@ -61,33 +56,46 @@ def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path
             _move_contents(partial, target)
         else:
             partial.replace(target)
+
+
+@contextmanager
+def _partial(target: Path) -> Iterator[Path]:
+    """A name beside ``target`` that is gone at the end, whatever happens; a failure to write is one sentence."""
+    absolute = target.absolute()
+    partial = absolute.with_name(f".{absolute.stem[:100]}.{secrets.token_hex(4)}.partial{absolute.suffix}")
+    try:
+        yield partial
     except AsperityError:
         raise
     except OSError as error:
-        raise _cannot_write(target, error) from error
+        raise OutputError(
+            f"{target} cannot be written: {error.strerror or error}; check rights, path and free space."
+        ) from error
     finally:
         _remove(partial)
 
 
-def _partial(target: Path) -> Path:
-    absolute = target.absolute()
-    return absolute.with_name(f".{absolute.stem[:100]}.{secrets.token_hex(4)}.partial{absolute.suffix}")
+def require_new_file(target: Path, *, overwrite: bool) -> None:
+    """Refuse a ``target`` that cannot be written as a new file.
 
-
-def _require_new_file(target: Path, *, overwrite: bool) -> None:
+    Raises
+    ------
+    OutputError
+        If ``target`` exists and ``overwrite`` is false, is a folder, or lies in no folder.
+    """
     if not target.parent.is_dir():
         raise OutputError(f"output file must lie in an existing folder, but {target.parent} is none; create it first.")
     if target.is_dir():
         raise OutputError(f"output file must not be a folder, but {target} is one; add a file name.")
     if target.exists() and not overwrite:
-        raise OutputError(f"output file must not exist yet, but {target} does; choose another name or overwrite.")
+        raise OutputError(f"output file must not exist yet, but {target} does; choose another name or {OVERWRITE}.")
 
 
 def _require_new_folder(target: Path, *, overwrite: bool) -> None:
     if target.exists() and not target.is_dir():
         raise OutputError(f"output folder must not be a file, but {target} is one; choose another name.")
     if target.is_dir() and not overwrite and any(target.iterdir()):
-        raise OutputError(f"output folder must be new or empty, but {target} is not; choose another or overwrite.")
+        raise OutputError(f"output folder must be new or empty, but {target} is not; choose another or {OVERWRITE}.")
 
 
 def _move_contents(source: Path, target: Path) -> None:
@@ -104,7 +112,3 @@ def _remove(partial: Path) -> None:
         shutil.rmtree(partial, ignore_errors=True)
     with suppress(OSError):
         partial.unlink()
-
-
-def _cannot_write(target: Path, error: OSError) -> OutputError:
-    return OutputError(f"{target} cannot be written: {error.strerror or error}; check rights, path and free space.")
