@@ -1,4 +1,4 @@
-"""Flat punch and cone on a free half-space (Sneddon 1965; handbook of single contacts, section 2)."""
+"""Flat punch and cone on a free half-space (Sneddon 1965)."""
 
 import numpy as np
 import pytest

@@ -34,7 +34,7 @@ def test_westergaard(row):
 
 @pytest.mark.parametrize("row", reference("westergaard")[:5], ids=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_westergaard_stiffness(row):
-    """Handbook eq. 4.2: d(pbar)/d(approach) = p* / (-amplitude ln(pbar/p*)); the open part is known to two pixels."""
+    """From the approach of the reference file: d(pbar)/d(approach) = p* / (-amplitude ln(pbar/p*)); the open part is known to two pixels."""
     result = westergaard(row)
     exact = row["pstar"] / (-row["amplitude"] * np.log(row["pbar_over_pstar"]))
     open_fraction = 1.0 - row["contact_fraction"]

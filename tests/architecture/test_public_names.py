@@ -9,24 +9,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from heavy_imports import HEAVY
 
 import asperity
 
 NAMES_FILE = Path(__file__).with_name("public_names.txt")
 PUBLIC = list(getattr(asperity, "__all__", ()))
 DEFINITIONS = [n for n in PUBLIC if inspect.isfunction(getattr(asperity, n)) or inspect.isclass(getattr(asperity, n))]
-HEAVY = (
-    "scipy",
-    "matplotlib",
-    "pint",
-    "pydantic",
-    "xarray",
-    "SurfaceTopography",
-    "h5netcdf",
-    "h5py",
-    "numba",
-    "pandas",
-)
 
 
 def test_public_names_are_those_of_the_list() -> None:

@@ -8,19 +8,8 @@ import sys
 
 import pytest
 from cli.conftest import Runner
+from heavy_imports import HEAVY
 
-HEAVY = (
-    "scipy",
-    "matplotlib",
-    "pint",
-    "pydantic",
-    "xarray",
-    "SurfaceTopography",
-    "h5netcdf",
-    "h5py",
-    "pandas",
-    "jinja2",
-)
 COMMANDS = ("contact", "demo", "info", "materials", "plot", "export", "cite")
 
 

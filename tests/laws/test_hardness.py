@@ -1,4 +1,6 @@
-"""Hardness-limited contact: bounds, permanent indentation, reload, work, errors (handbook of the solver, section 6)."""
+"""Hardness-limited contact: bounds, permanent indentation, reload, work, errors (Almqvist et al. 2007)."""
+
+import dataclasses
 
 import numpy as np
 import pytest
@@ -82,10 +84,12 @@ def test_plastic_work_is_hardness_times_volume():
 
 
 def test_two_percent_criterion():
-    gentle = asp.solve(posed(1, 1.5), asp.MeanPressure(0.02), solver=TIGHT)
+    """Plastic is what yields on more than 2 % of its real area (Greenwood & Williamson 1966)."""
     harsh = asp.solve(posed(1, 0.3), asp.MeanPressure(0.1), solver=TIGHT)
-    assert gentle.is_plastic == (gentle.plastic_area_fraction > 0.02)
+    assert harsh.plastic_area_fraction == np.count_nonzero(harsh.plastic) / np.count_nonzero(harsh.contact)
     assert harsh.is_plastic
+    assert dataclasses.replace(harsh, plastic_area_fraction=0.0201).is_plastic
+    assert not dataclasses.replace(harsh, plastic_area_fraction=0.0199).is_plastic
 
 
 def test_hardness_map_limits_each_point():

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from contact_cases import TIGHT, elastic, rough
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
@@ -142,8 +142,7 @@ def test_contact_conditions_and_balance(shape, seed, boundary, load, cap_over_lo
 @given(SHAPES, SEEDS, BOUNDARIES, LOADS)
 def test_free_approach_and_gap_controls_find_the_same_state(shape, seed, boundary, load):
     by_load = solved(rough(shape, seed), load, boundary)
-    if by_load.area_fraction == 1.0:
-        return
+    assume(by_load.area_fraction < 1.0)  # at full contact the position does not fix a periodic load
     for control in (asp.Approach(by_load.approach), asp.MeanGap(by_load.mean_gap)):
         other = asp.solve(by_load.problem, control, solver=TIGHT)
         assert other.mean_pressure == pytest.approx(load, rel=1e-4)
