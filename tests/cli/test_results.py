@@ -8,6 +8,7 @@ import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
 
 from asperity.io.results import load
+from asperity.plots import PLOTS
 
 
 @pytest.fixture
@@ -26,6 +27,11 @@ def test_plot_all_and_one(run: Runner, result_file: Path, tmp_path: Path) -> Non
     assert {path.stem for path in (tmp_path / "one").iterdir()} == names
     assert run("plot", result_file, "--out", tmp_path / "all").exit_code == 2
     assert run("plot", result_file, "--out", tmp_path / "all", "--force").exit_code == 0
+
+
+def test_help_names_every_figure(run: Runner) -> None:
+    text = " ".join(run("plot", "--help").stdout.replace("│", " ").split())
+    assert all(item.name in text for item in PLOTS)
 
 
 def test_plot_refusals(run: Runner, result_file: Path, tmp_path: Path) -> None:

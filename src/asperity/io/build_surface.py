@@ -69,6 +69,9 @@ def _generated(table: tables.Shape | tables.Rough) -> Surface:
         return generate.gaussian(grid, _spectrum(table.spectrum), seed=table.seed, exact_rms=table.exact_rms)
     if isinstance(table, tables.Sphere):
         return generate.sphere(grid, radius=_length(table.radius), exact=table.exact)
+    if isinstance(table, tables.EllipticParaboloid):
+        radii = _length(table.radius_x), _length(table.radius_y)
+        return generate.elliptic_paraboloid(grid, radius_x=radii[0], radius_y=radii[1])
     if isinstance(table, tables.Cylinder):
         return generate.cylinder(grid, radius=_length(table.radius), axis=table.axis)
     if isinstance(table, tables.Cone):

@@ -106,6 +106,7 @@ FILES = st.fixed_dictionaries(
 SURFACES = st.one_of(
     FILES,
     generated("sphere", radius=LENGTHS, exact=st.booleans()),
+    generated("elliptic_paraboloid", radius_x=LENGTHS, radius_y=LENGTHS),
     generated("cylinder", radius=LENGTHS, axis=st.sampled_from("xy")),
     generated("cone", slope=POSITIVE),
     generated("flat_punch", radius=LENGTHS, depth=LENGTHS),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -24,6 +25,8 @@ from asperity import (
 )
 from asperity.io.build import build
 from asperity.io.documents import checked
+from asperity.io.schemas.surfaces import Shape
+from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}
 
@@ -40,6 +43,7 @@ def table(**tables: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     "surface",
     [
+        {"kind": "elliptic_paraboloid", "radius_x": "20 um", "radius_y": "5 um"},
         {"kind": "cylinder", "radius": "20 um", "axis": "x"},
         {"kind": "cone", "slope": 0.1},
         {"kind": "flat_punch", "radius": "2 um", "depth": "1 um"},
@@ -69,6 +73,16 @@ def test_every_kind_of_surface(surface: dict[str, Any]) -> None:
     built = build(checked(table(surface=surface | GRID))).problem.surface
     assert built.shape == (16, 12)
     assert built.size == pytest.approx((8e-6, 6e-6))
+    if surface["kind"] == "elliptic_paraboloid":  # two pixels along x, three along y from the top
+        found = built.heights[8 + 2, 6], built.heights[8, 6 + 3]
+        assert found == pytest.approx((-(1e-6**2) / 40e-6, -(1.5e-6**2) / 10e-6))
+
+
+def test_every_generated_shape_has_a_kind() -> None:
+    """What Python can make, a document can ask for."""
+    kinds = {shape.model_fields["kind"].annotation.__args__[0] for shape in get_args(Shape)}  # type: ignore[union-attr]
+    made = {name for name in generate.__all__ if inspect.isfunction(getattr(generate, name))}
+    assert kinds == made - {"gaussian"}
 
 
 @pytest.mark.parametrize(

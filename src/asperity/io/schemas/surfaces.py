@@ -48,6 +48,14 @@ class Sphere(_Generated):
     exact: bool = False
 
 
+class EllipticParaboloid(_Generated):
+    """Paraboloid with principal radii ``radius_x`` and ``radius_y``."""
+
+    kind: Literal["elliptic_paraboloid"]
+    radius_x: Length
+    radius_y: Length
+
+
 class Cylinder(_Generated):
     """Parabolic cylinder along ``axis``."""
 
@@ -132,7 +140,7 @@ class Rough(_Generated):
     spectrum: Annotated[ExponentialSpectrum | SelfAffineSpectrum, Field(discriminator="kind")]
 
 
-Shape: TypeAlias = Sphere | Cylinder | Cone | FlatPunch | Sinusoid | Bisinusoid | FlatSurface
+Shape: TypeAlias = Sphere | EllipticParaboloid | Cylinder | Cone | FlatPunch | Sinusoid | Bisinusoid | FlatSurface
 """A deterministic shape."""
 
 SurfaceTable: TypeAlias = Annotated[FileSurface | Shape | Rough, Field(discriminator="kind")]
