@@ -19,20 +19,17 @@ class Grid:
     Raises
     ------
     InputError
-        If a count is not a whole number >= 1 or a spacing is not positive.
+        If there are not two counts and two spacings, a count is not a whole number >= 1 or a spacing not positive.
     """
 
     shape: tuple[int, int]
     spacing: tuple[float, float]
 
     def __post_init__(self) -> None:
-        nx, ny = (
-            require.integer(n, 1, f"number of grid points along {axis}")
-            for n, axis in zip(self.shape, "xy", strict=True)
-        )
-        dx, dy = (
-            require.positive(d, f"grid spacing along {axis} (m)") for d, axis in zip(self.spacing, "xy", strict=True)
-        )
+        nx, ny = require.two(self.shape, "grid shape", "Write (nx, ny).")
+        dx, dy = require.two(self.spacing, "grid spacing", "Write (dx, dy) in m.")
+        nx, ny = (require.integer(n, 1, f"number of grid points along {a}") for n, a in ((nx, "x"), (ny, "y")))
+        dx, dy = (require.positive(d, f"grid spacing along {a} (m)") for d, a in ((dx, "x"), (dy, "y")))
         object.__setattr__(self, "shape", (nx, ny))
         object.__setattr__(self, "spacing", (dx, dy))
 

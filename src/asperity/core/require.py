@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import RealArray
 from .errors import InputError
+
+T = TypeVar("T")
 
 
 def finite(value: float, what: str, fix: str = "") -> float:
@@ -60,6 +63,22 @@ def one_of(value: str, allowed: Iterable[str], what: str) -> str:
     choices = tuple(allowed)
     if value not in choices:
         raise InputError(_sentence(what, "one of " + ", ".join(choices), value))
+    return value
+
+
+def two(values: tuple[T, T], what: str, fix: str = "") -> tuple[T, T]:
+    """Return ``values`` as a pair if there are two of them."""
+    try:
+        first, second = values
+    except (TypeError, ValueError):
+        raise InputError(_sentence(what, "two values", values, fix)) from None
+    return first, second
+
+
+def instance(value: T, kind: type, what: str, fix: str = "") -> T:
+    """Return ``value`` if it is of the type ``kind``."""
+    if not isinstance(value, kind):
+        raise InputError(_sentence(what, f"of type {kind.__name__}", value, fix))
     return value
 
 

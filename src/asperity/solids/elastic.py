@@ -28,7 +28,7 @@ class Elastic:
     Raises
     ------
     InputError
-        If a value is outside its range.
+        If a value is outside its range, or ``strength`` is no ``Strength``.
     """
 
     youngs_modulus: float
@@ -42,6 +42,7 @@ class Elastic:
         require.between(
             self.poisson_ratio, -1.0, 0.5, "Poisson's ratio", "Use 0.4999 for a nearly incompressible solid."
         )
+        require.instance(self.strength, Strength, "strength of an elastic body", "Write Strength(hardness=...).")
 
     @property
     def plane_strain_modulus(self) -> float:

@@ -49,7 +49,15 @@ def test_counts_and_spacings_come_back_in_their_type():
 
 @pytest.mark.parametrize(
     ("shape", "spacing"),
-    [((0, 4), (1, 1)), ((4, 4), (0, 1)), ((4, 4), (1, -1)), ((4.5, 4), (1, 1)), ((4, 4), (np.nan, 1))],
+    [
+        ((0, 4), (1, 1)),
+        ((4, 4), (0, 1)),
+        ((4, 4), (1, -1)),
+        ((4.5, 4), (1, 1)),
+        ((4, 4), (np.nan, 1)),
+        (5, (1, 1)),
+        ((4, 4), 1.0),
+    ],
 )
 def test_bad_grids(shape, spacing):
     with pytest.raises(asp.InputError, match="grid"):

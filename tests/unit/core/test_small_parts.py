@@ -17,6 +17,8 @@ from asperity.core.digest import array_digest
         (lambda v: require.positive(v, "length of rod"), [0, -1, np.nan, np.inf, "long", None]),
         (lambda v: require.at_most(v, 0.5, "length of rod"), [0, -1e-300, 0.501, np.nan, "x"]),
         (lambda v: require.between(v, 0, 1, "length of rod"), [0, 1, 2, np.nan]),
+        (lambda v: require.two(v, "length of rod"), [5, (), (1, 2, 3)]),
+        (lambda v: require.instance(v, asp.Strength, "length of rod"), [5e9, None]),
         (lambda v: require.integer(v, 2, "length of rod"), [1, 2.5, np.inf, "two"]),
         (lambda v: require.one_of(v, ("a", "b"), "length of rod"), ["c", ""]),
         (lambda v: require.field(v, "length of rod"), [[1.0], np.zeros((2, 0)), [["a"]], np.zeros((2, 2, 2)), [[1j]]]),

@@ -49,6 +49,10 @@ def test_refusals():
     for bad in (0.0, -1.0, np.nan, np.inf):
         with pytest.raises(asp.InputError, match="plane-strain modulus"):
             HalfSpace(bad)
+    with pytest.raises(
+        asp.InputError, match=r"strength of an elastic body must be of type Strength.*Strength\(hardness"
+    ):
+        asp.Elastic(1e9, 0.3, 5e7)
     for key in ("hardness", "yield_stress"):
         with pytest.raises(asp.InputError, match=key.replace("_", " ")):
             asp.Strength(**{key: 0.0})

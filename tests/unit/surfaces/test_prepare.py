@@ -143,6 +143,7 @@ def test_crop_keeps_the_mask_and_drops_the_period():
         ({"y": (0.0, 1.0)}, "along y must lie within"),
         ({"x": (-1e-6, 1e-6)}, "along x must lie within"),
         ({"x": (0.0, float("nan"))}, "end of the crop"),
+        ({"y": 1e-6}, "limits of the crop along y must be two values"),
     ],
 )
 def test_crop_refuses(limits, words):
@@ -208,6 +209,8 @@ def test_resampling_refuses():
         resampled(with_hole(rough(), np.s_[1, 1]), (8, 8))
     with pytest.raises(InputError, match="number of points along y"):
         resampled(rough(), (8, 0))
+    with pytest.raises(InputError, match="shape of a resampled surface must be two values"):
+        resampled(rough(), 8)
 
 
 # filling

@@ -35,8 +35,9 @@ def _pixels(surface: Surface, limits: tuple[float, float] | None, axis: int) -> 
     count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
     if limits is None:
         return 0, count
-    low = require.finite(limits[0], f"start of the crop along {name} (m)")
-    high = require.finite(limits[1], f"end of the crop along {name} (m)")
+    start, end = require.two(limits, f"limits of the crop along {name}", "Write (start, end) in m.")
+    low = require.finite(start, f"start of the crop along {name} (m)")
+    high = require.finite(end, f"end of the crop along {name} (m)")
     first, last = round(low / spacing), round(high / spacing)
     if high <= low or last <= first:
         raise InputError(

@@ -24,7 +24,8 @@ def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
     InputError
         If a number of points is not a whole number >= 1 or points are missing.
     """
-    nx, ny = (require.integer(n, 1, f"number of points along {axis}") for n, axis in zip(shape, "xy", strict=True))
+    pair = require.two(shape, "shape of a resampled surface", "Write (nx, ny).")
+    nx, ny = (require.integer(n, 1, f"number of points along {axis}") for n, axis in zip(pair, "xy", strict=True))
     require_complete(surface, "resampled")
     if (nx, ny) == surface.shape:
         return surface
