@@ -81,7 +81,7 @@ class Case:
 def solved(case: Case, solver: Solver) -> tuple[ContactQP, Solution]:
     """Discrete problem of ``case`` and its solution by ``solver``."""
     problem = case.problem
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=1)
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
     return drive(problem, case.control, solver, operator, None, None)
 
 

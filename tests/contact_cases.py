@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
+from asperity.contact.solvers import ActiveSet
 
-TIGHT = ConjugateGradient(tolerance=1e-11)
+TIGHT = ActiveSet(tolerance=1e-11)
 
 
 def elastic(contact_modulus: float, poisson_ratio: float = 0.3) -> asp.Elastic:

@@ -22,7 +22,7 @@ def tiny(shape: tuple[int, int], seed: int, *, free: bool, capped: bool, load: b
     """Random problem of at most eight points with all kinds of contact."""
     rng = np.random.default_rng(seed)
     grid = Grid(shape, (1e-7, 1.5e-7))
-    operator = (FreeOperator if free else PeriodicOperator)(HalfSpace(MODULUS), grid, threads=1)
+    operator = (FreeOperator if free else PeriodicOperator)(HalfSpace(MODULUS), grid)
     heights = 1e-9 * rng.standard_normal(shape)
     cap = rng.uniform(0.2e9, 1.0e9, shape) if capped else np.inf
     mean = rng.uniform(0.05e9, 0.15e9)

@@ -21,7 +21,7 @@ def problem(seed: int) -> ContactQP:
     shape = int(rng.integers(2, 9)), int(rng.integers(1, 9))
     free, capped = rng.random() < 0.5, int(rng.integers(3))
     operator_class = FreeOperator if free else PeriodicOperator
-    operator = operator_class(HalfSpace(MODULUS), Grid(shape, (1e-7, rng.uniform(0.3e-7, 3e-7))), threads=1)
+    operator = operator_class(HalfSpace(MODULUS), Grid(shape, (1e-7, rng.uniform(0.3e-7, 3e-7))))
     heights = 1e-9 * rng.standard_normal(shape)
     if rng.random() < 0.3:
         heights = np.round(heights, 9)

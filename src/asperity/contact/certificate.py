@@ -65,7 +65,7 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
         load_imbalance=abs(total - target) / target if target > 0.0 else 0.0,
         tolerance=tolerance,
         iterations=solution.state.iterations,
-        fft_pairs=solution.state.applications * qp.operator.pairs_per_application,
+        fft_pairs=solution.state.applications * qp.operator.pairs_per_application + solution.state.extra_pairs,
         wall_time=wall_time,
         solver=solver,
     )

@@ -38,7 +38,7 @@ def drive(
         _require_below_full_contact(posed, top, control.value)
         if not operator.zero_mean_mode:
             qp = replace(posed, constraint=FixedOffset(top - control.value))
-            return qp, run(solver, qp, _start_at_offset(qp, start), progress)
+            return qp, run(solver, qp, start, progress)
         search = LoadSearch(posed, solver, progress, start)
         return search.find(lambda qp, solution: top + contact_level(qp, solution), control.value)
     if isinstance(control, MeanGap):
@@ -75,17 +75,6 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
         return control.value
     mean = control.value if isinstance(control, MeanPressure) else control.value / operator.grid.area
     return float(np.abs(operator.apply(np.full(virgin.shape, mean))).max()) or 1.0
-
-
-def _start_at_offset(qp: ContactQP, start: RealArray | None) -> RealArray:
-    """First guess at a prescribed offset: the last pressure, or the overlap times its best common stiffness."""
-    if start is not None and start.any():
-        return np.asarray(np.clip(start, 0.0, qp.cap))
-    assert isinstance(qp.constraint, FixedOffset)
-    overlap = np.maximum(qp.profile - qp.constraint.offset, 0.0)
-    response = float((overlap * qp.operator.apply(overlap)).sum())
-    factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
-    return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))
 
 
 def _require_below_full_contact(qp: ContactQP, top: float, approach: float) -> None:

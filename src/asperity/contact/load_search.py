@@ -16,7 +16,6 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
 from ..core.progress import Progress
-from .solvers.feasible import scaled_to_load
 from .solvers.optimality import level
 from .solvers.protocol import ContactQP, FixedMean, Solution, Solver, run
 
@@ -45,8 +44,7 @@ def solve_at_load(
             f"but is {mean:.6g} Pa. Lower the load or raise the hardness."
         )
     qp = replace(posed, constraint=FixedMean(mean))
-    guess = np.full(qp.profile.shape, mean) if start is None or not start.any() else np.maximum(start, 0.0)
-    return qp, run(solver, qp, scaled_to_load(guess, qp.cap, mean), progress)
+    return qp, run(solver, qp, start, progress)
 
 
 def contact_level(qp: ContactQP, solution: Solution) -> float:
@@ -102,7 +100,8 @@ class LoadSearch:
         qp, solution = self.solved[-1]
         iterations = sum(earlier.state.iterations for _, earlier in self.solved)
         applications = sum(earlier.state.applications for _, earlier in self.solved)
-        state = replace(solution.state, iterations=iterations, applications=applications)
+        extra = sum(earlier.state.extra_pairs for _, earlier in self.solved)
+        state = replace(solution.state, iterations=iterations, applications=applications, extra_pairs=extra)
         return qp, replace(solution, state=state)
 
     def _bracket(self, miss: Callable[[float], float]) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..core import require
+from ..core.engine import CpuEngine
 from ..core.errors import ConvergenceError, InputError
 from ..core.progress import Progress
 from .assemble import assemble
@@ -74,7 +75,7 @@ def solve(
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     method = solver or default_solver(problem)
-    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=threads)
+    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=CpuEngine(threads))
     if ready.grid != problem.grid:
         raise InputError(f"operator must be prepared on the grid {problem.grid}, but is on {ready.grid}.")
     started = time.perf_counter()

@@ -105,3 +105,52 @@ class RealTransform:
                 allow_overwriting_input=True,
             )
         return field
+
+
+@dataclass(frozen=True)
+class PaddedTransform:
+    """Transform pair between fields (nx, ny), zero beyond, and half spectra of the larger grid ``padded``.
+
+    Pruned: along y only the nx rows that hold data are transformed, and back only the rows that are kept.
+    """
+
+    shape: tuple[int, int]
+    padded: tuple[int, int]
+    threads: int = 1
+
+    @cached_property
+    def _ducc(self) -> Any:
+        return importlib.import_module("ducc0.fft") if fft_library() == "ducc0" else None
+
+    @property
+    def spectrum_shape(self) -> tuple[int, int]:
+        """Shape of the half spectrum."""
+        return self.padded[0], self.padded[1] // 2 + 1
+
+    def forward(self, field: RealArray, out: ComplexArray) -> ComplexArray:
+        """Unnormalised transform of the padded ``field`` into ``out``."""
+        nx, ny = self.shape
+        rows = np.zeros((nx, self.padded[1]), field.dtype)
+        rows[:, :ny] = field
+        out[nx:] = 0.0
+        if self._ducc is None:
+            out[:nx] = np.fft.rfft(rows, axis=1)
+            np.fft.fft(out, axis=0, out=cast(Any, out))
+            return out
+        self._ducc.r2c(rows, axes=(1,), out=out[:nx], nthreads=self.threads)
+        self._ducc.c2c(out, axes=(0,), out=out, nthreads=self.threads)
+        return out
+
+    def backward(self, spectrum: ComplexArray, out: RealArray) -> RealArray:
+        """First (nx, ny) points of the normalised inverse transform of ``spectrum``, which is overwritten."""
+        nx, ny = self.shape
+        if self._ducc is None:
+            np.fft.ifft(spectrum, axis=0, out=cast(Any, spectrum))
+            out[...] = np.fft.irfft(spectrum[:nx], n=self.padded[1], axis=1)[:, :ny]
+            return out
+        self._ducc.c2c(spectrum, axes=(0,), forward=False, inorm=2, out=spectrum, nthreads=self.threads)
+        rows = self._ducc.c2r(
+            spectrum[:nx], axes=(1,), lastsize=self.padded[1], forward=False, inorm=2, nthreads=self.threads
+        )
+        out[...] = rows[:, :ny]
+        return out

@@ -169,7 +169,7 @@ def energy(qp: ContactQP, p: np.ndarray) -> float:
 def periodic_qp(cap: float | np.ndarray, mean: float, seed: int) -> ContactQP:
     grid = Grid((6, 7), (1e-7, 0.8e-7))
     heights = rough(grid.shape, seed).heights
-    return ContactQP(PeriodicOperator(HalfSpace(1e11), grid, threads=1), heights, cap, FixedMean(mean), 1e-9)
+    return ContactQP(PeriodicOperator(HalfSpace(1e11), grid), heights, cap, FixedMean(mean), 1e-9)
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
@@ -222,7 +222,7 @@ def test_lemke_proves_that_there_is_no_solution() -> None:
     grid = Grid((4, 4), (1e-7, 1e-7))
     heights = rough((4, 4)).heights
     beyond = FixedOffset(float(heights.mean()) - 1e-10)
-    qp = ContactQP(PeriodicOperator(HalfSpace(1e11), grid, threads=1), heights, np.inf, beyond, 1e-9)
+    qp = ContactQP(PeriodicOperator(HalfSpace(1e11), grid), heights, np.inf, beyond, 1e-9)
     with pytest.raises(NoSolutionError, match="end on a ray"):
         run(Lemke(), qp, np.zeros((4, 4)))
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from ...core.arrays import RealArray
+from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
-from ...core.spectral import RealTransform, fast_length, thread_count
+from ...core.spectral import RealTransform, fast_length
 from ...solids.compliance.protocol import Compliance
+from .coarse import coarse_grid
 from .convolution import toeplitz_matrix
+from .periodic import spectral_kernel
 
 
 class FreeOperator:
@@ -20,32 +25,52 @@ class FreeOperator:
         Normal compliance of the contact.
     grid
         Grid of pixels that can carry pressure.
-    threads
-        Threads of the transform; see ``core.spectral.thread_count``.
+    engine
+        Machine to compute on; the CPU with its default threads if not given.
     """
 
-    def __init__(self, compliance: Compliance, grid: Grid, *, threads: int | None = None) -> None:
+    zero_mean_mode = False
+
+    def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
         nx, ny = grid.shape
-        padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.grid = grid
-        self.zero_mean_mode = False
-        self.pairs_per_application = padded[0] * padded[1] / grid.n_points
+        self.engine: Engine = engine or CpuEngine()
+        self._compliance = compliance
         self._influence = compliance.influence(grid)
-        self._transform = RealTransform(padded, thread_count(threads))
+        self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
+        self.pairs_per_application = 0.75 * self._padded[0] * self._padded[1] / grid.n_points  # pruned along y
+
+    @cached_property
+    def kernel(self) -> RealArray:
+        """Transform of the influence coefficients (m/Pa) on the padded grid."""
+        (nx, ny), padded = self.grid.shape, self._padded
         wrapped = np.zeros(padded)
         wrapped[:nx, :ny] = self._influence
         wrapped[padded[0] - nx + 1 :, :ny] = self._influence[:0:-1, :]
         wrapped[:, padded[1] - ny + 1 :] = wrapped[:, ny - 1 : 0 : -1]
-        self._kernel = self._transform.forward(wrapped).real.copy()
-        self._padded = np.zeros(padded)
+        return RealTransform(padded).forward(wrapped).real.copy()
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
+        return self.engine.padded_convolution(self.kernel / scale, self.grid.shape, self._padded, dtype)
+
+    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
+        return self.engine.convolution(spectral_kernel(self._compliance, self.grid) / scale, self.grid.shape, dtype)
+
+    @cached_property
+    def coarsened(self) -> FreeOperator:
+        """Operator on the grid of half as many points per side."""
+        return FreeOperator(self._compliance, coarse_grid(self.grid), engine=self.engine)
+
+    @cached_property
+    def _double(self) -> Convolution:
+        return self.convolution("float64")
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m) under ``pressure`` (Pa), zero at infinity."""
-        nx, ny = self.grid.shape
-        self._padded[:nx, :ny] = pressure
-        spectrum = self._transform.forward(self._padded)
-        spectrum *= self._kernel
-        return self._transform.backward(spectrum)[:nx, :ny].copy()
+        field = self.engine.array(pressure, "float64")
+        return self.engine.numpy(self._double.apply(field, self.engine.zeros(self.grid.shape, "float64")))
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa."""

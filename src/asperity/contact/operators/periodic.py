@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from ...core.arrays import RealArray
+from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
-from ...core.spectral import RealTransform, thread_count
 from ...solids.compliance.protocol import Compliance
+from .coarse import coarse_grid
 from .convolution import circulant_matrix
 
 
@@ -20,29 +23,52 @@ class PeriodicOperator:
         Normal compliance of the contact.
     grid
         Periodic cell.
-    threads
-        Threads of the transform; see ``core.spectral.thread_count``.
+    engine
+        Machine to compute on; the CPU with its default threads if not given.
     """
 
-    def __init__(self, compliance: Compliance, grid: Grid, *, threads: int | None = None) -> None:
-        q = grid.wavenumber()
-        q[0, 0] = 1.0
-        kernel = np.array(compliance.spectral(q), dtype=float)
-        kernel[0, 0] = compliance.mean_mode()
+    pairs_per_application = 1.0
+
+    def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
         self.grid = grid
-        self.zero_mean_mode = bool(kernel[0, 0] == 0.0)
-        self.pairs_per_application = 1.0
-        self._kernel = kernel
-        self._transform = RealTransform(grid.shape, thread_count(threads))
+        self.engine: Engine = engine or CpuEngine()
+        self.kernel = spectral_kernel(compliance, grid)
+        self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
+        self._compliance = compliance
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
+        return self.engine.convolution(self.kernel / scale, self.grid.shape, dtype)
+
+    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the compliance over ``scale``."""
+        return self.convolution(dtype, scale)
+
+    @cached_property
+    def coarsened(self) -> PeriodicOperator:
+        """Operator on the grid of half as many points per side."""
+        return PeriodicOperator(self._compliance, coarse_grid(self.grid), engine=self.engine)
+
+    @cached_property
+    def _double(self) -> Convolution:
+        return self.convolution("float64")
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
-        spectrum = self._transform.forward(pressure)
-        spectrum *= self._kernel
-        return self._transform.backward(spectrum)
+        field = self.engine.array(pressure, "float64")
+        return self.engine.numpy(self._double.apply(field, self.engine.zeros(self.grid.shape, "float64")))
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa, built from the response to one loaded point."""
         point = np.zeros(self.grid.shape)
         point[0, 0] = 1.0
         return circulant_matrix(self.apply(point))
+
+
+def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
+    """Compliance (m/Pa) on the half spectrum of ``grid``."""
+    q = grid.wavenumber()
+    q[0, 0] = 1.0
+    kernel = np.array(compliance.spectral(q), dtype=float)
+    kernel[0, 0] = compliance.mean_mode()
+    return kernel

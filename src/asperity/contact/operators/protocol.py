@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from ...core.arrays import RealArray
+from ...core.engine import Convolution, Engine
 from ...core.grid import Grid
 
 
@@ -22,6 +23,24 @@ class Operator(Protocol):
     @property
     def pairs_per_application(self) -> float:
         """Cost of one application in real FFT pairs of the grid."""
+
+    @property
+    def engine(self) -> Engine:
+        """Machine that applies it."""
+
+    @property
+    def kernel(self) -> RealArray:
+        """Compliance (m/Pa) on the half spectrum of the grid or of its padded form; the largest entry sets the scale."""
+
+    @property
+    def coarsened(self) -> Operator:
+        """Operator of the same solid on half as many points per side."""
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared application, divided by ``scale``, on arrays of the engine in the precision ``dtype``."""
+
+    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` approximates the inverse of the operator over ``scale``."""
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa; a new array."""

@@ -1,5 +1,6 @@
 """THE place for new numerical methods: solvers of the contact problem, all behind one protocol."""
 
+from .active_set import ActiveSet
 from .by_name import SOLVERS, solver_by_name
 from .conjugate_gradient import ConjugateGradient
 from .dense import DenseActiveSet
@@ -10,6 +11,7 @@ from .quasi_newton import QuasiNewton
 from .steepest_descent import SteepestDescent
 
 __all__ = [
+    "ActiveSet",
     "SOLVERS",
     "ConjugateGradient",
     "ContactQP",

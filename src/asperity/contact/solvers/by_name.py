@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from ...core import require
+from .active_set import ActiveSet
 from .conjugate_gradient import ConjugateGradient
 from .dense import DenseActiveSet
 from .lemke import Lemke
@@ -22,6 +23,7 @@ SOLVERS: Mapping[str, SolverClass] = MappingProxyType(
     {
         cls.name: cls
         for cls in (
+            ActiveSet,
             ConjugateGradient,
             SteepestDescent,
             QuasiNewton,

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
-from .feasible import scaled_to_load
+from .feasible import feasible_start, scaled_to_load
 from .optimality import energy, relative_error
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
 from .steepest_descent import descend, levelling_step
@@ -46,11 +46,12 @@ class ConjugateGradient:
     name: ClassVar[str] = "conjugate_gradient"
     citation_keys: ClassVar[tuple[str, ...]] = ("Nogi1997", "Polonsky1999")
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, steepest descent first."""
-        deflection = qp.operator.apply(start)
-        memory = _Memory(np.zeros_like(start), 1.0, conjugate=False, pixel_step=levelling_step(qp))
-        return SolverState(start, deflection, relative_error(qp, start, deflection), applications=2, memory=memory)
+        begin = feasible_start(qp, start)
+        deflection = qp.operator.apply(begin)
+        memory = _Memory(np.zeros_like(begin), 1.0, conjugate=False, pixel_step=levelling_step(qp))
+        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=2, memory=memory)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One constrained conjugate-gradient step, or one of steepest descent where that would raise the energy."""

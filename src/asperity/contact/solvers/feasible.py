@@ -5,8 +5,24 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.arrays import RealArray
+from .protocol import ContactQP, FixedMean
 
 _SWEEPS = 100
+
+
+def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
+    """Feasible pressure (Pa) near ``start``; without one, a uniform pressure or a rough guess from the overlap."""
+    given = start is not None and bool(start.any())
+    if isinstance(qp.constraint, FixedMean):
+        mean = qp.constraint.mean_pressure
+        guess = np.maximum(start, 0.0) if start is not None and given else np.full(qp.profile.shape, mean)
+        return scaled_to_load(guess, qp.cap, mean)
+    if start is not None and given:
+        return np.asarray(np.clip(start, 0.0, qp.cap))
+    overlap = np.maximum(qp.profile - qp.constraint.offset, 0.0)
+    response = float((overlap * qp.operator.apply(overlap)).sum())
+    factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
+    return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))
 
 
 def scaled_to_load(pressure: RealArray, cap: float | RealArray, mean: float) -> RealArray:

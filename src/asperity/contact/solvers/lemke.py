@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError, NoSolutionError
 from .dense_form import DenseQP, answered, dense_form, solve_on
+from .feasible import feasible_start
 from .optimality import relative_error
 from .protocol import ContactQP, SolverState
 
@@ -43,7 +44,7 @@ class Lemke:
     name: ClassVar[str] = "lemke"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cottle1992",)
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``.
 
         Raises
@@ -51,13 +52,14 @@ class Lemke:
         InputError
             If the grid has more than ``LARGEST`` points.
         """
-        if start.size > LARGEST:
+        if qp.profile.size > LARGEST:
             raise InputError(
-                f"grid of Lemke's method must have at most {LARGEST} points, but has {start.size}. "
+                f"grid of Lemke's method must have at most {LARGEST} points, but has {qp.profile.size}. "
                 "Use DenseActiveSet() or, on large grids, ConjugateGradient()."
             )
-        deflection = qp.operator.apply(start)
-        return SolverState(start, deflection, relative_error(qp, start, deflection), applications=1)
+        begin = feasible_start(qp, start)
+        deflection = qp.operator.apply(begin)
+        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """The whole solve.

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, violation
+from .feasible import feasible_start
 from .optimality import relative_error
 from .protocol import ContactQP, SolverState
 
@@ -35,10 +36,11 @@ class NonNegativeLeastSquares:
     name: ClassVar[str] = "nnls"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bemporad2015", "Lawson1974")
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""
-        deflection = qp.operator.apply(start)
-        return SolverState(start, deflection, relative_error(qp, start, deflection), applications=1)
+        begin = feasible_start(qp, start)
+        deflection = qp.operator.apply(begin)
+        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """The whole solve.

@@ -66,7 +66,8 @@ class SolverState:
     """One iterate, everything needed to continue from it.
 
     ``pressure`` feasible pressure (Pa); ``deflection`` K·pressure (m); ``error`` its relative optimality error (see
-    ``optimality.relative_error``); ``iterations`` and operator ``applications`` so far; ``exhausted`` when the method
+    ``optimality.relative_error``); ``iterations`` and operator ``applications`` so far, and ``extra_pairs``, FFT pairs of the
+    size of the grid that went into other work (preconditioner, coarser grids); ``exhausted`` when the method
     cannot improve the iterate; ``memory`` what the method carries from step to step.
     """
 
@@ -75,6 +76,7 @@ class SolverState:
     error: float
     iterations: int = 0
     applications: int = 0
+    extra_pairs: float = 0.0
     exhausted: bool = False
     memory: object = None
 
@@ -98,8 +100,8 @@ class Solver(Protocol):
     def max_iterations(self) -> int:
         """Number of steps after which to give up."""
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
-        """State at the feasible pressure ``start``; does not change ``start``."""
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
+        """State at the pressure ``start`` (Pa), made feasible, or at a first guess of the method; ``start`` is not changed."""
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step)."""
@@ -118,8 +120,8 @@ PATIENCE = 500
 """Iterations without a new smallest error after which a method counts as stagnated."""
 
 
-def run(solver: Solver, qp: ContactQP, start: RealArray, progress: Progress | None = None) -> Solution:
-    """Iterate ``solver`` from the feasible pressure ``start`` (Pa) until it converges, stagnates or gives up."""
+def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress: Progress | None = None) -> Solution:
+    """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, until it converges, stagnates or gives up."""
     report = progress or NoProgress()
     state = solver.init(qp, start)
     errors = [state.error]

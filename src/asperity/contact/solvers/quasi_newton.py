@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.arrays import RealArray
-from .feasible import scaled_to_load
+from .feasible import feasible_start, scaled_to_load
 from .optimality import level, relative_error
 from .protocol import ContactQP, FixedMean, SolverState
 
@@ -61,19 +61,20 @@ class QuasiNewton:
     name: ClassVar[str] = "quasi_newton"
     citation_keys: ClassVar[tuple[str, ...]] = ("Byrd1995", "PengBhushan2001")
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""
-        deflection = qp.operator.apply(start)
-        impulse = np.zeros_like(start)
+        begin = feasible_start(qp, start)
+        deflection = qp.operator.apply(begin)
+        impulse = np.zeros_like(begin)
         impulse[0, 0] = 1.0
         pixel = float(qp.operator.apply(impulse)[0, 0])
         stiffness, plane = 0.0, -getattr(qp.constraint, "offset", 0.0)
         if isinstance(qp.constraint, FixedMean):
             stiffness = pixel / math.sqrt(start.size)  # as stiff as the longest wave
-            plane = level(qp, start, deflection - qp.profile) + stiffness * float(start.sum())
+            plane = level(qp, begin, deflection - qp.profile) + stiffness * float(start.sum())
         memory = _Memory(qp.height_scale, qp.height_scale / pixel, stiffness, plane)
-        error = relative_error(qp, start, deflection)
-        return SolverState(start, deflection, error, applications=2, memory=replace(memory, best=error))
+        error = relative_error(qp, begin, deflection)
+        return SolverState(begin, deflection, error, applications=2, memory=replace(memory, best=error))
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One run of L-BFGS-B, and the next level."""

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.arrays import RealArray
-from .feasible import scaled_to_load
+from .feasible import feasible_start, scaled_to_load
 from .optimality import relative_error
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
 
@@ -44,11 +44,12 @@ class SteepestDescent:
     name: ClassVar[str] = "steepest_descent"
     citation_keys: ClassVar[tuple[str, ...]] = ("Stanley1997",)
 
-    def init(self, qp: ContactQP, start: RealArray) -> SolverState:
+    def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""
-        deflection = qp.operator.apply(start)
+        begin = feasible_start(qp, start)
+        deflection = qp.operator.apply(begin)
         memory = _Memory(levelling_step(qp))
-        return SolverState(start, deflection, relative_error(qp, start, deflection), applications=2, memory=memory)
+        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=2, memory=memory)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One step along the projected gradient."""

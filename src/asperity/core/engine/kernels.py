@@ -1,0 +1,228 @@
+"""Fused, compiled passes over flat arrays. Each works on a range of fixed blocks and releases the interpreter lock.
+
+Sums are kept per block and added up in a fixed order by the caller, so results do not depend on the number of threads.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+BLOCK = 1 << 14
+"""Elements per block."""
+
+_compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+
+
+@_compiled
+def scale_spectrum(first, last, spectrum, factor):  # type: ignore[no-untyped-def]
+    """spectrum *= factor."""
+    for i in range(first * BLOCK, min(last * BLOCK, spectrum.size)):
+        spectrum[i] *= factor[i]
+
+
+@_compiled
+def divide_spectrum(first, last, spectrum, divisor):  # type: ignore[no-untyped-def]
+    """spectrum /= divisor."""
+    for i in range(first * BLOCK, min(last * BLOCK, spectrum.size)):
+        spectrum[i] *= 1.0 / divisor[i]
+
+
+@_compiled
+def assess(first, last, p, u, h, cap, capped, sums):  # type: ignore[no-untyped-def]
+    """Per block: sum p, sum p·r, sum p·h, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level."""
+    for b in range(first, last):
+        total = 0.0
+        pr = 0.0
+        ph = 0.0
+        weight = 0.0
+        weighted = 0.0
+        lowest = np.inf
+        highest_capped = -np.inf
+        lowest_open = np.inf
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            pi = np.float64(p[i])
+            ri = np.float64(u[i]) - h[i]
+            lowest = min(lowest, ri)
+            if pi > 0.0:
+                total += pi
+                pr += pi * ri
+                ph += pi * h[i]
+                if capped and pi >= cap[i % cap.size]:
+                    highest_capped = max(highest_capped, ri)
+                else:
+                    weight += pi
+                    weighted += pi * ri
+            else:
+                lowest_open = min(lowest_open, ri)
+        sums[b, 0] = total
+        sums[b, 1] = pr
+        sums[b, 2] = ph
+        sums[b, 3] = weight
+        sums[b, 4] = weighted
+        sums[b, 5] = lowest
+        sums[b, 6] = highest_capped
+        sums[b, 7] = lowest_open
+
+
+@_compiled
+def violation(first, last, p, u, h, cap, capped, level, sums):  # type: ignore[no-untyped-def]
+    """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap."""
+    for b in range(first, last):
+        above = 0.0
+        below = 0.0
+        deepest = 0.0
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            gap = np.float64(u[i]) - h[i] - level
+            pi = np.float64(p[i])
+            if gap > 0.0:
+                above += gap * pi
+            elif capped:
+                room = cap[i % cap.size] - pi
+                below -= gap * room
+                if room > 0.0:
+                    deepest = max(deepest, -gap)
+            else:
+                deepest = max(deepest, -gap)
+        sums[b, 0] = above
+        sums[b, 1] = below
+        sums[b, 2] = deepest
+
+
+@_compiled
+def count_face(first, last, p, u, h, cap, capped, level, counts):  # type: ignore[no-untyped-def]
+    """Per block: number of points of the working set, and of those entering it from a bound."""
+    for b in range(first, last):
+        members = 0
+        entering = 0
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            below = p[i] <= 0.0
+            at_cap = capped and p[i] >= cap[i % cap.size]
+            if below:
+                if np.float64(u[i]) - h[i] < level:
+                    members += 1
+                    entering += 1
+            elif at_cap:
+                if np.float64(u[i]) - h[i] > level:
+                    members += 1
+                    entering += 1
+            else:
+                members += 1
+        counts[b, 0] = members
+        counts[b, 1] = entering
+
+
+@_compiled
+def fill_face(first, last, p, u, h, cap, capped, level, scale, starts, index, residual):  # type: ignore[no-untyped-def]
+    """Indices of the working set in order, and (level - r) / scale there."""
+    for b in range(first, last):
+        k = starts[b]
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            below = p[i] <= 0.0
+            at_cap = capped and p[i] >= cap[i % cap.size]
+            gap = np.float64(u[i]) - h[i] - level
+            inside = gap < 0.0 if below else (gap > 0.0 if at_cap else True)
+            if inside:
+                index[k] = i
+                residual[k] = -gap / scale
+                k += 1
+
+
+@_compiled
+def scatter(first, last, index, values, field):  # type: ignore[no-untyped-def]
+    """field[index] = values."""
+    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+        field[index[k]] = values[k]
+
+
+@_compiled
+def clear(first, last, index, field):  # type: ignore[no-untyped-def]
+    """field[index] = 0."""
+    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+        field[index[k]] = 0.0
+
+
+@_compiled
+def gather(first, last, index, field, other, values, sums):  # type: ignore[no-untyped-def]
+    """values = field[index]; per block: sum values, sum values·other."""
+    for b in range(first, last):
+        total = 0.0
+        product = 0.0
+        for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
+            value = field[index[k]]
+            values[k] = value
+            total += value
+            product += np.float64(value) * other[k]
+        sums[b, 0] = total
+        sums[b, 1] = product
+
+
+@_compiled
+def direct(first, last, index, z, mean, ratio, t, field):  # type: ignore[no-untyped-def]
+    """t = (z - mean) + ratio t, and field[index] = t."""
+    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+        value = (z[k] - mean) + ratio * t[k]
+        t[k] = value
+        field[index[k]] = value
+
+
+@_compiled
+def advance(first, last, index, length, t, kt, mean, d, r, field):  # type: ignore[no-untyped-def]
+    """d += length t; r -= length (kt - mean); field[index] = r."""
+    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+        d[k] += length * t[k]
+        value = r[k] - length * (kt[k] - mean)
+        r[k] = value
+        field[index[k]] = value
+
+
+@_compiled
+def step_pressure(first, last, index, p, d, scale, cap, capped, out, sums):  # type: ignore[no-untyped-def]
+    """out[index] = p[index] + scale d clipped to [0, cap]; per block: sum of the change, number of points clipped."""
+    for b in range(first, last):
+        change = 0.0
+        clipped = 0
+        for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
+            i = index[k]
+            before = np.float64(p[i])
+            value = before + scale * np.float64(d[k])
+            if value < 0.0:
+                value = 0.0
+                clipped += 1
+            elif capped and value > cap[i % cap.size]:
+                value = cap[i % cap.size]
+                clipped += 1
+            out[i] = value
+            change += value - before
+        sums[b, 0] = change
+        sums[b, 1] = clipped
+
+
+@_compiled
+def multiply(first, last, field, factor):  # type: ignore[no-untyped-def]
+    """field *= factor."""
+    for i in range(first * BLOCK, min(last * BLOCK, field.size)):
+        field[i] *= factor
+
+
+@_compiled
+def blend(first, last, a, b, weight):  # type: ignore[no-untyped-def]
+    """b = a + weight (b - a)."""
+    for i in range(first * BLOCK, min(last * BLOCK, a.size)):
+        b[i] = a[i] + weight * (b[i] - a[i])
+
+
+@_compiled
+def segment(first, last, p, q, u, v, h, sums):  # type: ignore[no-untyped-def]
+    """Per block along q - p: slope sum (u - h)(q - p) and curvature sum (v - u)(q - p)."""
+    for b in range(first, last):
+        slope = 0.0
+        curvature = 0.0
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            step = np.float64(q[i]) - p[i]
+            slope += step * (np.float64(u[i]) - h[i])
+            curvature += step * (np.float64(v[i]) - u[i])
+        sums[b, 0] = slope
+        sums[b, 1] = curvature
