@@ -23,12 +23,11 @@ NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..contact.advice import advise, review
-    from ..io.atomic import require_new_file
+    from ..io.atomic import require_new_files
     from ..io.build import build
     from .show import print_advice, print_files, print_result
 
-    for path in _single_files(output):
-        require_new_file(path, overwrite=output.force)
+    require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with _folder(output) as folder:
