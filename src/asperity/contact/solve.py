@@ -73,15 +73,17 @@ def solve(
         If state or operator do not belong to the grid of the problem.
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
+    if not isinstance(control, Control):
+        kinds = "MeanPressure, Force, Approach or MeanGap"
+        raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     method = solver or default_solver(problem)
     ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=threads)
-    if ready.grid != problem.grid:
-        raise InputError(f"operator must be prepared on the grid {problem.grid}, but is on {ready.grid}.")
+    _require_same_problem(ready, problem)
     started = time.perf_counter()
     qp, solution = drive(problem, control, method, ready, state, progress)
     seconds = time.perf_counter() - started
     certificate = certify(qp, solution, solver=method.name, tolerance=method.tolerance, wall_time=seconds)
-    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys, "Yastrebov2017"}))
+    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys}))
     result = assemble(
         problem,
         control,
@@ -95,3 +97,14 @@ def solve(
     if on_failure == "raise" and not solution.status.converged:
         raise ConvergenceError(f"{solution.status.message} {solution.status.remedy}", result)
     return result
+
+
+def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:
+    """An operator of another grid, solid or boundary would give a wrong answer without a word."""
+    for what, found, wanted in (
+        ("grid", operator.grid, problem.grid),
+        ("compliance", operator.compliance, problem.compliance),
+        ("boundary", operator.boundary, problem.boundary),
+    ):
+        if found != wanted:
+            raise InputError(f"operator must be prepared for the {what} {wanted} of the problem, but is for {found}.")

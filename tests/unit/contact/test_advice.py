@@ -109,3 +109,4 @@ def test_pressure_above_the_known_hardness():
     assert len(found) == 1
     assert "butter" in found[0].message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
+    assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))

@@ -1,8 +1,9 @@
 """Pressure to displacement on a grid: prepared once, applied many times."""
 
+from ...core.errors import InputError
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
-from ..boundary import Boundary, Periodic
+from ..boundary import Boundary, Free, Periodic
 from .free import FreeOperator
 from .periodic import PeriodicOperator
 from .protocol import Operator
@@ -11,7 +12,26 @@ __all__ = ["FreeOperator", "Operator", "PeriodicOperator", "prepare_operator"]
 
 
 def prepare_operator(compliance: Compliance, grid: Grid, boundary: Boundary, *, threads: int | None = None) -> Operator:
-    """Operator of ``compliance`` on ``grid`` with ``boundary``; hold on to it to reuse it in further solves."""
+    """Pressure-displacement operator, to be held by the caller and reused in further solves of the same problem.
+
+    Parameters
+    ----------
+    compliance
+        Solid, usually ``problem.compliance``.
+    grid
+        Grid of pressure and displacement, ``problem.grid``.
+    boundary
+        ``Periodic()`` or ``Free()``, ``problem.boundary``.
+    threads
+        Threads of the transforms; default from ASPERITY_THREADS or the machine.
+
+    Raises
+    ------
+    InputError
+        If the boundary is neither.
+    """
     if isinstance(boundary, Periodic):
         return PeriodicOperator(compliance, grid, threads=threads)
-    return FreeOperator(compliance, grid, threads=threads)
+    if isinstance(boundary, Free):
+        return FreeOperator(compliance, grid, threads=threads)
+    raise InputError(f"boundary of an operator must be Periodic() or Free(), but is {boundary!r}.")

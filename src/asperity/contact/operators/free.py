@@ -8,6 +8,7 @@ from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ...solids.compliance.protocol import Compliance
+from ..boundary import Boundary, Free
 from .convolution import toeplitz_matrix
 
 
@@ -28,6 +29,8 @@ class FreeOperator:
         nx, ny = grid.shape
         padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.grid = grid
+        self.compliance = compliance
+        self.boundary: Boundary = Free()
         self.zero_mean_mode = False
         self.pairs_per_application = padded[0] * padded[1] / grid.n_points
         self._influence = compliance.influence(grid)
@@ -37,13 +40,14 @@ class FreeOperator:
         wrapped[padded[0] - nx + 1 :, :ny] = self._influence[:0:-1, :]
         wrapped[:, padded[1] - ny + 1 :] = wrapped[:, ny - 1 : 0 : -1]
         self._kernel = self._transform.forward(wrapped).real.copy()
-        self._padded = np.zeros(padded)
+        self._padded_shape = padded
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m) under ``pressure`` (Pa), zero at infinity."""
         nx, ny = self.grid.shape
-        self._padded[:nx, :ny] = pressure
-        spectrum = self._transform.forward(self._padded)
+        padded = np.zeros(self._padded_shape)
+        padded[:nx, :ny] = pressure
+        spectrum = self._transform.forward(padded)
         spectrum *= self._kernel
         return self._transform.backward(spectrum)[:nx, :ny].copy()
 

@@ -8,6 +8,7 @@ from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, thread_count
 from ...solids.compliance.protocol import Compliance
+from ..boundary import Boundary, Periodic
 from .convolution import circulant_matrix
 
 
@@ -30,6 +31,8 @@ class PeriodicOperator:
         kernel = np.array(compliance.spectral(q), dtype=float)
         kernel[0, 0] = compliance.mean_mode()
         self.grid = grid
+        self.compliance = compliance
+        self.boundary: Boundary = Periodic()
         self.zero_mean_mode = bool(kernel[0, 0] == 0.0)
         self.pairs_per_application = 1.0
         self._kernel = kernel

@@ -12,7 +12,7 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError, NoSolutionError
 from .dense_form import DenseQP, answered, dense_form, solve_on
 from .optimality import relative_error
-from .protocol import ContactQP, SolverState
+from .protocol import ContactQP, SolverState, require_settings
 
 IntArray: TypeAlias = NDArray[np.integer[Any]]
 
@@ -42,6 +42,9 @@ class Lemke:
     max_iterations: int = 20000
     name: ClassVar[str] = "lemke"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cottle1992",)
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray) -> SolverState:
         """State at ``start``.

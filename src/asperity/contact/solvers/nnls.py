@@ -10,7 +10,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, violation
 from .optimality import relative_error
-from .protocol import ContactQP, SolverState
+from .protocol import ContactQP, SolverState, require_settings
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,9 @@ class NonNegativeLeastSquares:
     max_iterations: int = 100
     name: ClassVar[str] = "nnls"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bemporad2015", "Lawson1974")
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray) -> SolverState:
         """State at ``start``."""

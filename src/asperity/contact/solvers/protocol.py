@@ -7,6 +7,7 @@ from typing import Protocol, TypeAlias
 
 import numpy as np
 
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.progress import NoProgress, Progress
 from ...core.status import Outcome, Status
@@ -103,6 +104,12 @@ class Solver(Protocol):
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step)."""
+
+
+def require_settings(solver: Solver) -> None:
+    """Check tolerance (> 0) and iteration limit (whole, >= 1) of ``solver``; an InputError names the wrong one."""
+    require.positive(solver.tolerance, f"tolerance of the solver {solver.name}")
+    require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
 
 
 @dataclass(frozen=True, eq=False)
