@@ -90,7 +90,7 @@ def _write_folder(
     save(result, folder / "result.nc", document=text)
     export_csv(result, folder / "scalars.csv")
     save_plots(result, folder / "plots")
-    write_report(result, folder / "report.html", advice=findings, document=text)
+    write_report(result, folder / "report.html", advice=findings, document=text, title=document.title)
 
 
 def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:

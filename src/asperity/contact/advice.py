@@ -78,7 +78,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 def review(result: ContactResult) -> tuple[Advice, ...]:
     """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded."""
-    return (*_contact_pixels(result), *_nearly_full(result), *_room(result), *_hardness(result))
+    return (*_contact_pixels(result), *_nearly_full(result), *_room(result), *_plastic(result), *_hardness(result))
 
 
 def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
@@ -188,8 +188,8 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "contact pixels",
-            f"Only {pixels} pixels are in contact (at least {FEWEST_CONTACT_PIXELS} wanted): area and peak pressure are set "
-            "by the pixel size. Raise the load or refine the grid.",
+            f"The contact has {pixels} pixel{'s' if pixels > 1 else ''} (at least {FEWEST_CONTACT_PIXELS} wanted): area "
+            "and peak pressure are set by the pixel size. Raise the load or refine the grid.",
         )
         return
     correction = 1.0 - result.area_fraction_corrected / result.area_fraction if pixels else 0.0
@@ -234,6 +234,17 @@ def _room(result: ContactResult) -> Iterator[Advice]:
                 f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
                 "feels its periodic images. Use the free boundary or a larger grid.",
             )
+
+
+def _plastic(result: ContactResult) -> Iterator[Advice]:
+    if result.plastic_area_fraction > NEARLY_FULL and result.area_fraction > NEARLY_FULL:
+        yield Advice(
+            "warning",
+            "yield everywhere",
+            f"The pressure is at the hardness on {100 * result.plastic_area_fraction:.0f} % of a contact that covers "
+            f"{100 * result.area_fraction:.0f} % of the nominal area: pressure no longer tells position or load apart. "
+            "Check load, position and hardness.",
+        )
 
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:

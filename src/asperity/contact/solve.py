@@ -76,6 +76,8 @@ def solve(
     if not isinstance(control, Control):
         kinds = "MeanPressure, Force, Approach or MeanGap"
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
+    if solver is not None and not hasattr(solver, "step"):
+        raise InputError(f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name.")
     method = solver or default_solver(problem)
     ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=threads)
     _require_same_problem(ready, problem)

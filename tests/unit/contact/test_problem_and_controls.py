@@ -127,6 +127,26 @@ def test_prepared_operator_is_reused_and_checked():
         asp.prepare_operator(problem.compliance, problem.grid, "periodic")
 
 
+def test_a_position_that_no_load_reaches_is_flagged():
+    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over small values."""
+    sphere = asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3)
+    law = asp.Hardness(200e6)
+    problem = asp.ContactProblem(sphere, asp.Elastic(135e9, 0.3), boundary=asp.Free(), law=law)
+    reached = asp.solve(problem, asp.MeanGap(1e-9))
+    assert reached.mean_gap == pytest.approx(1e-9, rel=1e-4)
+    missed = asp.solve(problem, asp.MeanGap(1e-12), on_failure="return")
+    assert not missed.converged
+    assert "No load reaches the prescribed position" in missed.status.message
+    with pytest.raises(asp.ConvergenceError, match="Prescribe a load"):
+        asp.solve(problem, asp.MeanGap(1e-12))
+
+
+def test_solver_by_its_name_only_is_refused_with_the_way_out():
+    problem = asp.ContactProblem(rough((4, 4)), elastic(1.0))
+    with pytest.raises(asp.InputError, match="solver_by_name"):
+        asp.solve(problem, asp.MeanPressure(0.1), solver="nnls")
+
+
 def test_control_of_another_type_is_refused():
     flat = asp.ContactProblem(asp.generate.flat(asp.Grid((4, 4), (1.0, 1.0))), elastic(1.0))
     for wrong in (50e3, "50 kPa", None):
@@ -134,7 +154,9 @@ def test_control_of_another_type_is_refused():
             asp.solve(flat, wrong)
 
 
-@pytest.mark.parametrize("settings", [{"tolerance": -1.0}, {"tolerance": np.nan}, {"max_iterations": 0}])
+@pytest.mark.parametrize(
+    "settings", [{"tolerance": -1.0}, {"tolerance": 2.0}, {"tolerance": np.nan}, {"max_iterations": 0}]
+)
 @pytest.mark.parametrize("method", list(asp.solvers.SOLVERS))
 def test_solvers_check_their_settings(method, settings):
     with pytest.raises(asp.InputError, match=f"solver {method} must be"):

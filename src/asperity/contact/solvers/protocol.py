@@ -107,8 +107,8 @@ class Solver(Protocol):
 
 
 def require_settings(solver: Solver) -> None:
-    """Check tolerance (> 0) and iteration limit (whole, >= 1) of ``solver``; an InputError names the wrong one."""
-    require.positive(solver.tolerance, f"tolerance of the solver {solver.name}")
+    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``; InputError names the wrong one."""
+    require.between(solver.tolerance, 0.0, 1.0, f"tolerance of the solver {solver.name}")
     require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
 
 
@@ -143,9 +143,10 @@ def run(solver: Solver, qp: ContactQP, start: RealArray, progress: Progress | No
 
 
 def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:
-    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
     if state.error <= solver.tolerance:
-        return Status(Outcome.CONVERGED, f"Converged: {reached}, tolerance {solver.tolerance:.0e}.")
+        text = f"Converged: relative error {state.error:.2e} by {solver.name}, tolerance {solver.tolerance:.0e}."
+        return Status(Outcome.CONVERGED, text)
+    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
     if stagnated:
         remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
         return Status(Outcome.STAGNATED, f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}.", remedy)
