@@ -65,7 +65,9 @@ def main() -> None:
     for n in options.sizes:
         pair = pair_seconds(n, options.threads)
         problem = asp.ContactProblem(self_affine(n), asp.Elastic(0.91, 0.3))
-        operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, threads=options.threads)
+        operator = asp.prepare_operator(
+            problem.compliance, problem.grid, problem.boundary, engine=asp.CpuEngine(options.threads)
+        )
         solver = asp.solvers.ConjugateGradient(tolerance=options.tolerance)
         for load in LOADS:
             result = asp.solve(

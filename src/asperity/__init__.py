@@ -11,6 +11,7 @@ from .contact.result import ContactResult
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .core.citations import cite
+from .core.engine import CpuEngine
 from .core.errors import (
     AsperityError,
     ConvergenceError,
@@ -49,6 +50,7 @@ __all__ = [
     "ContactProblem",
     "ContactResult",
     "ConvergenceError",
+    "CpuEngine",
     "Elastic",
     "FileFormatError",
     "Flat",

@@ -37,6 +37,8 @@ def refused(run: Runner, *arguments: object) -> str:
             BODY,
             "load must be given by exactly one of --pressure, --load, --approach, --mean-gap, but is given by none.",
         ),
+        ((*BODY, *LOAD, "--load", "1mN"), "but is given by --pressure and --load."),
+        ((*BODY, *LOAD, "--tolerance", "2"), "--tolerance must be greater than 0 and less than 1, but is 2.0."),
         ((*BODY, *LOAD, "--load", "1mN"), "exactly one of"),
         ((*BODY, "--pressure", "6GPa", "--hardness", "body"), "at most the mean hardness 5e+09 Pa"),
         ((*BODY, "--load", "1N", "--hardness", "5GPa"), "hardness times nominal area"),
@@ -53,7 +55,7 @@ def refused(run: Runner, *arguments: object) -> str:
         (("--body", "E=1GPa,nu=0.3", *LOAD, "--hardness", "body"), "hardness must be known for at least one body"),
         ((*BODY, *LOAD, "--boundary", "open"), "--boundary must be 'periodic' or 'free', but is 'open'."),
         ((*BODY, *LOAD, "--solver", "magic"), "--solver must be one of conjugate_gradient"),
-        ((*BODY, *LOAD, "--tolerance", "0"), "--tolerance must be greater than zero"),
+        ((*BODY, *LOAD, "--tolerance", "0"), "--tolerance must be greater than 0"),
         ((*BODY, *LOAD, "--threads", "0"), "--threads must be a whole number of at least 1"),
         ((*BODY, *LOAD, "--level", "cubic"), "--level must be one of mean, plane, quadratic, none"),
         ((*BODY, *LOAD, "--fill", "magic"), "--fill must be one of harmonic, nearest, mean, none"),
@@ -102,6 +104,7 @@ def test_document_problems_at_once(run: Runner, tmp_path: Path) -> None:
         ("infinite.txt", b"1 2 3\n4 inf 6\n7 8 9\n", "infinities"),
         ("all_nan.txt", b"nan nan\nnan nan\n", "every point is missing"),
         ("one.txt", b"5\n", "at least 2 x 2 points"),
+        ("noise_twice_a_square.di", bytes(range(256)) * 8, "no reader recognises its content"),
         ("one.npy", b"\x93NUMPY\x01\x00 truncated", "cannot be read"),
     ],
 )
@@ -151,4 +154,21 @@ def test_neither_file_nor_document(run: Runner) -> None:
 def test_usage_errors_are_exit_2(run: Runner, arguments: tuple[str, ...]) -> None:
     result = run(*arguments)
     assert result.exit_code == 2
-    assert "Usage" in result.stderr
+    assert "--help" in result.stderr
+
+
+def test_picture_must_be_a_png(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    text = refused(run, "info", matrix, *SCALE, "--plot", tmp_path / "map.jpg")
+    assert "--plot must be the name of a PNG file" in text
+    assert not (tmp_path / "map.jpg").exists()
+
+
+def test_two_outputs_of_one_name(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    both = tmp_path / "both.out"
+    text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--csv", both, "--vtk", both)
+    assert "output files must differ" in text
+    assert not both.exists()
+
+
+def test_result_that_is_a_folder(run: Runner, tmp_path: Path) -> None:
+    assert "is a folder or device; give the .nc file in it" in refused(run, "cite", tmp_path)

@@ -79,7 +79,9 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions)
     if len(given) > 1 or (not given and "control" not in table):
         options = [NAMES[f"control.{key}"] for key in given]
         choices = ", ".join(NAMES[f"control.{key}"] for key in CONTROLS)
-        raise InputError(f"load must be given by exactly one of {choices}, but is given by {options or 'none'}.")
+        raise InputError(
+            f"load must be given by exactly one of {choices}, but is given by {' and '.join(options) or 'none'}."
+        )
     if given:
         result["control"] = given
     settings = {"method": solve.solver, "tolerance": solve.tolerance}

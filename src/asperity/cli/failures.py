@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from typing import Any
 
 import typer
@@ -18,15 +19,22 @@ class Reporting(TyperGroup):
     """Group of commands that turns every exception into a sentence on stderr and an exit code."""
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; leave usage errors and deliberate exits to typer."""
+        """Run the command; leave deliberate exits to typer."""
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
             _say("Interrupted: the work was stopped and nothing is half-written.")
             raise typer.Exit(INTERRUPTED) from None
         except Exception as error:
-            if isinstance(error, typer.Exit | typer.Abort) or hasattr(error, "format_message"):
+            if isinstance(error, typer.Exit | typer.Abort) or (
+                not str(error) and hasattr(error, "ctx")
+            ):  # help and exits
                 raise
+            if hasattr(error, "format_message"):
+                usage = getattr(error, "ctx", None)
+                command = usage.command_path if usage is not None else "asperity"
+                _say(f"{error.format_message().rstrip('.')}. See `{command} --help`.")
+                raise typer.Exit(BAD_INPUT) from None
             code, sentence = diagnosis(error)
             _say(sentence, traceback=bool(ctx.params.get("debug")))
             raise typer.Exit(code) from None
@@ -42,6 +50,8 @@ def diagnosis(error: Exception) -> tuple[int, str]:
         return BAD_INPUT, str(error)
     if isinstance(error, MemoryError):
         return BAD_INPUT, "Not enough memory: crop the surface or resample it to fewer points."
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EIO):
+        return BAD_INPUT, f"Output cannot be written: {error.strerror}. Free some space or choose another place."
     text = " ".join(str(error).split())[:200]
     sentence = f"Internal error, {type(error).__name__}: {text}" if text else f"Internal error, {type(error).__name__}"
     return INTERNAL_ERROR, f"{sentence}. Run again as `asperity --debug …` and report the traceback, please."

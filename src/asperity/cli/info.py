@@ -28,12 +28,15 @@ def info(
     """
     import json
 
+    from ..core.errors import InputError
     from ..io.atomic import require_new_file
     from ..surfaces.channels import chosen
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
     from .show import console, print_files, say
 
+    if plot is not None and plot.suffix.lower() != ".png":
+        raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
     if plot is not None:
         require_new_file(plot, overwrite=force)
     surface = _read(file, reading)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import sys
 from collections.abc import Callable
 from typing import Annotated
 
@@ -55,5 +57,11 @@ def options(
 
 
 def run() -> None:
-    """Run the program with the arguments of the process; never returns."""
+    """Run the program with the arguments of the process; never returns.
+
+    Where the encoding of the output lacks a letter such as µ, its code is printed.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     app(prog_name="asperity")

@@ -23,12 +23,11 @@ NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..contact.advice import advise, review
-    from ..io.atomic import require_new_file
+    from ..io.atomic import require_new_files
     from ..io.build import build
     from .show import print_advice, print_files, print_result
 
-    for path in _single_files(output):
-        require_new_file(path, overwrite=output.force)
+    require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with _folder(output) as folder:
@@ -57,6 +56,7 @@ def _folder(options: OutputOptions) -> Iterator[Path | None]:
 
 def _solved(case: Case) -> ContactResult:
     from ..contact.solve import solve
+    from ..core.engine import CpuEngine
     from .progress import shown
 
     with shown("solving") as progress:
@@ -64,7 +64,7 @@ def _solved(case: Case) -> ContactResult:
             case.problem,
             case.control,
             solver=case.solver,
-            threads=case.threads,
+            engine=CpuEngine(case.threads),
             progress=progress,
             on_failure="return",
         )
@@ -91,7 +91,7 @@ def _write_folder(
     save(result, folder / "result.nc", document=text)
     export_csv(result, folder / "scalars.csv")
     save_plots(result, folder / "plots")
-    write_report(result, folder / "report.html", advice=findings, document=text)
+    write_report(result, folder / "report.html", advice=findings, document=text, title=document.title)
 
 
 def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:

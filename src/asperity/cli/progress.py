@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @contextmanager
 def shown(text: str) -> Iterator[Progress]:
     """Progress on a bar with ``text``, silent when stderr is not a terminal."""
-    if not sys.stderr.isatty():
+    if sys.stderr is None or not sys.stderr.isatty():
         yield NoProgress()
         return
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn

@@ -49,7 +49,7 @@ def export(
 ) -> None:
     """Write a result for other programs."""
     from ..core.errors import InputError
-    from ..io.atomic import require_new_file
+    from ..io.atomic import require_new_files
     from ..io.export import export_csv, export_vtk
     from ..io.results import load
     from .show import print_files
@@ -57,8 +57,7 @@ def export(
     wanted = [path for path in (csv, vtk) if path is not None]
     if not wanted:
         raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
-    for path in wanted:
-        require_new_file(path, overwrite=force)
+    require_new_files(wanted, overwrite=force)
     result = load(file)
     if csv is not None:
         export_csv(result, csv, overwrite=force)

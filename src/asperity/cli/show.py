@@ -23,9 +23,10 @@ WIDTH = 120
 
 def console() -> Console:
     """Console for answers; lines that go to a file or another program are not broken at 80 characters."""
-    from rich.console import Console
+    from .answers import Answers
 
-    return Console(width=None if sys.stdout.isatty() else WIDTH)
+    watched = sys.stdout is not None and sys.stdout.isatty()  # None: closed before the start
+    return Answers(width=None if watched else WIDTH)
 
 
 def error_console() -> Console:

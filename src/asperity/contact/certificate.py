@@ -18,7 +18,7 @@ class Certificate:
     ----------
     duality_gap
         Rigorous bound on the relative error of the total complementary energy, G / |V|, with V measured at the
-        level of the solution (then \\|V\\| is the elastic energy for elastic contact). At prescribed offset the bound
+        level of the solution (then |V| is the elastic energy for elastic contact). At prescribed offset the bound
         holds for the problem with the load reached.
     field_error
         The customary error of the field, G / (total load x rms height).

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
 from ..core import require
+from ..core.grid import Grid
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,11 @@ class MeanGap:
 
     def __post_init__(self) -> None:
         require.positive(self.value, "mean gap (m)", "A gap of zero is full contact; use MeanPressure(...) there.")
+
+
+def mean_pressure(control: MeanPressure | Force, grid: Grid) -> float:
+    """Nominal pressure in Pa that ``control`` prescribes on ``grid``."""
+    return control.value if isinstance(control, MeanPressure) else control.value / grid.area
 
 
 Control: TypeAlias = MeanPressure | Force | Approach | MeanGap

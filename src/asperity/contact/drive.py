@@ -9,7 +9,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
 from ..core.progress import Progress
-from .control import Approach, Control, Force, MeanGap, MeanPressure
+from .control import Approach, Control, Force, MeanGap, MeanPressure, mean_pressure
 from .load_search import LoadSearch, Solved, contact_level, mean_gap, solve_at_load
 from .operators import Operator
 from .problem import ContactProblem
@@ -31,8 +31,7 @@ def drive(
     posed = ContactQP(operator, indented(virgin, state), problem.law.pressure_cap(), FixedOffset(0.0), scale)
     start = None if state is None else state.pressure
     if isinstance(control, MeanPressure | Force):
-        mean = control.value if isinstance(control, MeanPressure) else control.value / problem.grid.area
-        return solve_at_load(posed, mean, solver, start, progress)
+        return solve_at_load(posed, mean_pressure(control, problem.grid), solver, start, progress)
     top = float(virgin.max())
     if isinstance(control, Approach):
         _require_below_full_contact(posed, top, control.value)
@@ -41,11 +40,9 @@ def drive(
             return qp, run(solver, qp, start, progress)
         search = LoadSearch(posed, solver, progress, start)
         return search.find(lambda qp, solution: top + contact_level(qp, solution), control.value)
-    if isinstance(control, MeanGap):
-        _require_touching(posed, control.value)
-        search = LoadSearch(posed, solver, progress, start)
-        return search.find(lambda qp, solution: -mean_gap(qp, solution), -control.value)
-    raise InputError(f"control must be MeanPressure, Force, Approach or MeanGap, but is {type(control).__name__}.")
+    _require_touching(posed, control.value)
+    search = LoadSearch(posed, solver, progress, start)
+    return search.find(lambda qp, solution: -mean_gap(qp, solution), -control.value)
 
 
 def indented(virgin: RealArray, state: InterfaceState | None) -> RealArray:
@@ -73,8 +70,8 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
         return rms
     if isinstance(control, Approach | MeanGap):
         return control.value
-    mean = control.value if isinstance(control, MeanPressure) else control.value / operator.grid.area
-    return float(np.abs(operator.apply(np.full(virgin.shape, mean))).max()) or 1.0
+    uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
+    return float(np.abs(operator.apply(uniform)).max()) or 1.0
 
 
 def _require_below_full_contact(qp: ContactQP, top: float, approach: float) -> None:

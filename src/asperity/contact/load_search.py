@@ -16,6 +16,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
 from ..core.progress import Progress
+from ..core.status import Outcome, Status
 from .solvers.optimality import level
 from .solvers.protocol import ContactQP, FixedMean, Solution, Solver, run
 
@@ -25,6 +26,13 @@ Measure: TypeAlias = Callable[[ContactQP, Solution], float]
 _FACTOR = 8.0
 _EXPANSIONS = 60
 _PRECISION = 1e-10
+_TARGET_ERROR = 1e-4
+
+_UNREACHED = (
+    "No load reaches the prescribed position: where nearly every point yields, the position jumps with the load, and "
+    "at a mean pressure equal to the hardness it is undetermined."
+)
+_REMEDY = "Prescribe a load, or a position of less overlap."
 
 
 def solve_at_load(
@@ -76,7 +84,8 @@ class LoadSearch:
     def find(self, measure: Measure, target: float) -> Solved:
         """Solution at which ``measure``, a quantity growing with the load, equals ``target``.
 
-        Without convergence on the way the failed solve is returned, whose status says so.
+        Without convergence on the way the failed solve is returned, whose status says so; likewise where the measure
+        jumps over the target (at the load at which the last point yields) and no load reaches it.
         """
         from scipy.optimize import brentq
 
@@ -87,22 +96,26 @@ class LoadSearch:
                 raise _NotConvergedError
             return measure(*self.solved[-1]) - target
 
+        missed = 0.0
+
         try:
             low, high = self._bracket(miss)
             if low < high:
-                brentq(miss, low, high, xtol=_PRECISION, rtol=_PRECISION)
+                missed = abs(miss(brentq(miss, low, high, xtol=_PRECISION, rtol=_PRECISION)))
         except _NotConvergedError:
             pass
-        return self._with_all_work()
+        allowed = _TARGET_ERROR * abs(target) + 10.0 * self.solver.tolerance * self.posed.height_scale
+        return self._with_all_work(reached=missed <= allowed)
 
-    def _with_all_work(self) -> Solved:
-        """Latest solve, with the iterations and applications of the whole search."""
+    def _with_all_work(self, *, reached: bool) -> Solved:
+        """Latest solve, with the iterations and applications of the whole search, flagged if the target is missed."""
         qp, solution = self.solved[-1]
+        status = solution.status if reached else Status(Outcome.STAGNATED, _UNREACHED, _REMEDY)
         iterations = sum(earlier.state.iterations for _, earlier in self.solved)
         applications = sum(earlier.state.applications for _, earlier in self.solved)
         extra = sum(earlier.state.extra_pairs for _, earlier in self.solved)
         state = replace(solution.state, iterations=iterations, applications=applications, extra_pairs=extra)
-        return qp, replace(solution, state=state)
+        return qp, replace(solution, state=state, status=status)
 
     def _bracket(self, miss: Callable[[float], float]) -> tuple[float, float]:
         """Logarithms of two loads around the target, from the load that flattens one pixel's worth of roughness."""
@@ -120,10 +133,7 @@ class LoadSearch:
             at = ahead
         if sign == 0.0:
             return at, at
-        raise NoSolutionError(
-            "the prescribed position is not reached by any load: at a mean pressure equal to the hardness every point "
-            "yields and the position is undetermined. Prescribe a load, or a position of less overlap."
-        )
+        raise NoSolutionError(f"{_UNREACHED} {_REMEDY}")
 
     def _first_load(self) -> float:
         """Mean pressure (Pa) of the order that moves the surface by a tenth of its rms height."""

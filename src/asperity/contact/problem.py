@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.arrays import RealArray
+from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..solids.compliance.protocol import Compliance
@@ -71,6 +72,7 @@ class ContactProblem:
         _require(self.boundary, Boundary, "boundary", "Periodic() or Free()")
         for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
             _require(body, Body, what, "Elastic(...), a named material or Rigid()")
+        _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
         contact_modulus(self.body, self.counter_body)
         for surface, what in ((self.surface, "surface"), (self.counter_surface, "counter_surface")):
             if isinstance(surface, Surface) and surface.n_missing:
@@ -104,7 +106,9 @@ class ContactProblem:
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the problem rests on."""
-        return (*self.compliance.citation_keys, *self.boundary.citation_keys, *self.law.citation_keys, "Kalker1977")
+        pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
+        parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, self.law)
+        return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 
     def profile(self) -> RealArray:
         """Heights (nx, ny) in m of the composite surface, float64, positive towards the counter body."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..core import require
-from ..core.engine import CpuEngine
+from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError
 from ..core.progress import Progress
 from .assemble import assemble
@@ -38,7 +38,7 @@ def solve(
     keep: Keep = Keep(),
     operator: Operator | None = None,
     progress: Progress | None = None,
-    threads: int | None = None,
+    engine: Engine | None = None,
     on_failure: Literal["raise", "return"] = "raise",
 ) -> ContactResult:
     """Solve a contact problem.
@@ -59,8 +59,8 @@ def solve(
         Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in repeated solves.
     progress
         Receives the error after every iteration.
-    threads
-        Threads of the transforms; default from ASPERITY_THREADS or the machine.
+    engine
+        Machine to compute on, such as ``CpuEngine(threads=2)``; the CPU with ASPERITY_THREADS or all cores by default.
     on_failure
         ``"raise"`` a ConvergenceError holding the result, or ``"return"`` it with its status, when not converged.
 
@@ -74,15 +74,19 @@ def solve(
         If state or operator do not belong to the grid of the problem.
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
+    if not isinstance(control, Control):
+        kinds = "MeanPressure, Force, Approach or MeanGap"
+        raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
+    if solver is not None and not hasattr(solver, "step"):
+        raise InputError(f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name.")
     method = solver or default_solver(problem)
-    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=CpuEngine(threads))
-    if ready.grid != problem.grid:
-        raise InputError(f"operator must be prepared on the grid {problem.grid}, but is on {ready.grid}.")
+    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    _require_same_problem(ready, problem)
     started = time.perf_counter()
     qp, solution = drive(problem, control, method, ready, state, progress)
     seconds = time.perf_counter() - started
     certificate = certify(qp, solution, solver=method.name, tolerance=method.tolerance, wall_time=seconds)
-    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys, "Yastrebov2017"}))
+    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys}))
     result = assemble(
         problem,
         control,
@@ -96,3 +100,14 @@ def solve(
     if on_failure == "raise" and not solution.status.converged:
         raise ConvergenceError(f"{solution.status.message} {solution.status.remedy}", result)
     return result
+
+
+def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:
+    """An operator of another grid, solid or boundary would give a wrong answer without a word."""
+    for what, found, wanted in (
+        ("grid", operator.grid, problem.grid),
+        ("compliance", operator.compliance, problem.compliance),
+        ("boundary", operator.boundary, problem.boundary),
+    ):
+        if found != wanted:
+            raise InputError(f"operator must be prepared for the {what} {wanted} of the problem, but is for {found}.")

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from ..core import require
 from ..core.arrays import RealArray
+from ..core.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,8 +20,25 @@ class InterfaceState:
     permanent_indentation
         (nx, ny), m, >= 0: material removed from the composite profile by plastic flow so far.
     pressure
-        (nx, ny), Pa: last pressure, where the next solve starts from.
+        (nx, ny), Pa, >= 0: last pressure, where the next solve starts from.
+
+    Raises
+    ------
+    InputError
+        If a value is negative or not finite.
     """
 
     permanent_indentation: RealArray
     pressure: RealArray
+
+    def __post_init__(self) -> None:
+        for values, what in (
+            (self.permanent_indentation, "permanent indentation (m)"),
+            (self.pressure, "pressure (Pa)"),
+        ):
+            field = require.field(values, f"{what} of an interface state")
+            if not np.isfinite(field).all() or field.min() < 0.0:
+                raise InputError(
+                    f"{what} of an interface state must be finite and not negative, but its smallest value is "
+                    f"{field.min():g}. Pass the state of an earlier result."
+                )

@@ -7,6 +7,7 @@ from .errors import InputError
 REFERENCES = {
     "Almqvist2007": "Almqvist, A., Sahlin, F., Larsson, R., Glavatskih, S. (2007). On the dry elasto-plastic contact of nominally flat surfaces. Tribology International 40, 574-579.",
     "Bemporad2015": "Bemporad, A., Paggi, M. (2015). Optimization algorithms for the solution of the frictionless normal contact between rough surfaces. International Journal of Solids and Structures 69-70, 94-105.",
+    "Bertsekas1976": "Bertsekas, D. P. (1976). On the Goldstein-Levitin-Polyak gradient projection method. IEEE Transactions on Automatic Control 21, 174-184.",
     "Boussinesq1885": "Boussinesq, J. (1885). Application des potentiels a l'etude de l'equilibre et du mouvement des solides elastiques. Gauthier-Villars, Paris.",
     "Byrd1995": "Byrd, R. H., Lu, P., Nocedal, J., Zhu, C. (1995). A limited memory algorithm for bound constrained optimization. SIAM Journal on Scientific Computing 16, 1190-1208.",
     "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",

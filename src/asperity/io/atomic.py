@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -87,8 +87,24 @@ def require_new_file(target: Path, *, overwrite: bool) -> None:
         raise OutputError(f"output file must lie in an existing folder, but {target.parent} is none; create it first.")
     if target.is_dir():
         raise OutputError(f"output file must not be a folder, but {target} is one; add a file name.")
+    if target.exists() and not target.is_file():
+        raise OutputError(f"output file must be an ordinary file, but {target} is a device; choose another name.")
     if target.exists() and not overwrite:
         raise OutputError(f"output file must not exist yet, but {target} does; choose another name or {OVERWRITE}.")
+
+
+def require_new_files(targets: Sequence[Path], *, overwrite: bool) -> None:
+    """Refuse ``targets`` of which two are the same, or one cannot be written as a new file.
+
+    Raises
+    ------
+    OutputError
+        As said.
+    """
+    for number, target in enumerate(targets):
+        require_new_file(target, overwrite=overwrite)
+        if target.absolute() in [other.absolute() for other in targets[:number]]:
+            raise OutputError(f"output files must differ, but {target} is given twice; choose another name for one.")
 
 
 def _require_new_folder(target: Path, *, overwrite: bool) -> None:

@@ -63,8 +63,14 @@ def read_table(path: str | os.PathLike[str]) -> dict[str, Any]:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise FileFormatError(f"problem document must exist, but {file} does not; check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError(f"problem document must be a text file in UTF-8, but {file} is not: {error}.") from None
+    except IsADirectoryError:
+        raise FileFormatError(
+            f"problem document must be a file, but {file} is a folder; name the file in it."
+        ) from None
+    except UnicodeDecodeError:
+        raise FileFormatError(f"problem document must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
+    except OSError as error:
+        raise FileFormatError(f"problem document {file} must be readable, but is not: {error.strerror}.") from None
     return _parsed(text, _form(file), f"problem document {file}")
 
 

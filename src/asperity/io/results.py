@@ -78,6 +78,8 @@ def open_dataset(path: str | Path) -> xarray.Dataset:
     """
     import xarray
 
+    if Path(path).exists() and not Path(path).is_file():
+        raise FileFormatError(f"result file must be a file, but {path} is a folder or device; give the .nc file in it.")
     if not Path(path).is_file():
         raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
     try:

@@ -28,6 +28,7 @@ def write_report(
     *,
     advice: Sequence[Advice] = (),
     document: str | None = None,
+    title: str = "",
     overwrite: bool = False,
 ) -> None:
     """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
@@ -42,6 +43,8 @@ def write_report(
         Findings of the checks of resolution and regime.
     document
         Text of the problem document that the result came from.
+    title
+        Heading; made from the source of the surface if empty.
     overwrite
         Whether an existing file is replaced.
 
@@ -56,10 +59,10 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(result, advice, document), encoding="utf-8")
+        file.write_text(_html(result, advice, document, title or _title(result)), encoding="utf-8")
 
 
-def _html(result: ContactResult, advice: Sequence[Advice], document: str | None) -> str:
+def _html(result: ContactResult, advice: Sequence[Advice], document: str | None, title: str) -> str:
     import jinja2
 
     text = resources.files(__package__).joinpath("templates", TEMPLATE).read_text(encoding="utf-8")
@@ -68,7 +71,7 @@ def _html(result: ContactResult, advice: Sequence[Advice], document: str | None)
     )
     warnings = [item for item in advice if item.level == "warning"]
     return environment.from_string(text).render(
-        title=_title(result),
+        title=title,
         result=result,
         summary=summary(result),
         headline=headline_rows(result),

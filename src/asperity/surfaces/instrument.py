@@ -54,6 +54,7 @@ def _library(file: Path) -> Iterator[Any]:
             from SurfaceTopography.IO import open_topography
 
             with open_topography(str(file)) as reader:
+                _require_signature(reader, file)
                 yield reader
         except InputError:
             raise
@@ -62,6 +63,18 @@ def _library(file: Path) -> Iterator[Any]:
                 f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
                 f"but cannot be read ({_reason(exc)}). It may be damaged or of an unknown format."
             ) from exc
+
+
+def _require_signature(reader: Any, file: Path) -> None:
+    """Refuse a format without signature unless the name of the file vouches for it.
+
+    The library takes any bytes whose number is twice a square for an SRTM terrain tile (.hgt).
+    """
+    if type(reader).__name__ == "HGTReader" and file.suffix.lower() != ".hgt":
+        raise FileFormatError(
+            f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
+            "but cannot be read (no reader recognises its content). It may be damaged or of an unknown format."
+        )
 
 
 @contextmanager
@@ -91,7 +104,9 @@ def _reason(exc: Exception) -> str:
 def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
     maps = [channel for channel in reader.channels if channel.dim == 2]
     if not maps:
-        raise FileFormatError(f"file {file} must hold a two-dimensional map, but holds none (only line scans).")
+        raise FileFormatError(
+            f"file {file} must hold a two-dimensional map, but holds none. It may be cut short, or hold line scans only."
+        )
     heights = [channel for channel in maps if isinstance(channel.unit, str)] or maps
     preferred = reader.default_channel.index
     default = preferred if preferred in [channel.index for channel in heights] else heights[0].index

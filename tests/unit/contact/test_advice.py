@@ -92,6 +92,11 @@ def test_near_full_contact():
     assert "near-full contact" in criteria(after(rough((32, 32), power=3.0), 10.0))
 
 
+def test_yield_everywhere():
+    assert "yield everywhere" in criteria(after(rough((32, 32)), 0.0999, law=asp.Hardness(0.1)))
+    assert "yield everywhere" not in criteria(after(rough((32, 32)), 0.05, law=asp.Hardness(0.1)))
+
+
 def test_border_of_a_free_map():
     flat = asp.generate.flat(asp.Grid((16, 16), (1.0, 1.0)))
     assert criteria(after(flat, 0.1, boundary=asp.Free())) == {"contact at the border", "near-full contact"}
@@ -109,3 +114,4 @@ def test_pressure_above_the_known_hardness():
     assert len(found) == 1
     assert "butter" in found[0].message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
+    assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))

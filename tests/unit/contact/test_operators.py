@@ -70,5 +70,5 @@ def test_pressure_is_left_alone():
 
 def test_dense_form_of_a_large_grid_is_refused():
     for boundary in (asp.Periodic(), asp.Free()):
-        with pytest.raises(asp.InputError, match="at most 6400 points"):
+        with pytest.raises(asp.InputError, match="at most 4096 points"):
             prepared((100, 100), boundary).matrix()

@@ -91,10 +91,12 @@ def test_unconverged_is_an_exception_that_holds_the_result_or_a_flag():
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 3)])
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
-def test_tiny_grids(shape, boundary):
+@pytest.mark.parametrize("method", list(asp.solvers.SOLVERS))
+@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(1.0)], ids=["elastic", "hardness"])
+def test_tiny_grids(shape, boundary, method, law):
     heights = np.arange(shape[0] * shape[1], dtype=float).reshape(shape)
-    problem = asp.ContactProblem(asp.Surface(heights, 1.0), elastic(1.0), boundary=boundary)
-    result = asp.solve(problem, asp.MeanPressure(0.01))
+    problem = asp.ContactProblem(asp.Surface(heights, 1.0), elastic(1.0), boundary=boundary, law=law)
+    result = asp.solve(problem, asp.MeanPressure(0.01), solver=asp.solvers.solver_by_name(method))
     assert result.mean_pressure == pytest.approx(0.01)
     assert result.pressure.argmax() == heights.argmax()
 
@@ -114,8 +116,71 @@ def test_prepared_operator_is_reused_and_checked():
     a, b = (asp.solve(problem, asp.MeanPressure(0.05), operator=o) for o in (operator, None))
     np.testing.assert_array_equal(a.pressure, b.pressure)
     other = asp.prepare_operator(problem.compliance, asp.Grid((8, 8), (1.0, 1.0)), problem.boundary)
-    with pytest.raises(asp.InputError, match="operator must be prepared on the grid"):
+    with pytest.raises(asp.InputError, match="operator must be prepared for the grid"):
         asp.solve(problem, asp.MeanPressure(0.05), operator=other)
+    stiffer = asp.ContactProblem(rough((16, 16)), elastic(2.0))
+    free = asp.ContactProblem(rough((16, 16)), elastic(1.0), boundary=asp.Free())
+    for wrong, what in ((stiffer, "compliance"), (free, "boundary")):
+        with pytest.raises(asp.InputError, match=f"operator must be prepared for the {what}"):
+            asp.solve(wrong, asp.MeanPressure(0.05), operator=operator)
+    with pytest.raises(asp.InputError, match=r"Periodic\(\) or Free\(\), but is 'periodic'"):
+        asp.prepare_operator(problem.compliance, problem.grid, "periodic")
+
+
+def test_a_position_that_no_load_reaches_is_flagged():
+    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over small values."""
+    sphere = asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3)
+    law = asp.Hardness(200e6)
+    problem = asp.ContactProblem(sphere, asp.Elastic(135e9, 0.3), boundary=asp.Free(), law=law)
+    reached = asp.solve(problem, asp.MeanGap(1e-9))
+    assert reached.mean_gap == pytest.approx(1e-9, rel=1e-4)
+    missed = asp.solve(problem, asp.MeanGap(1e-12), on_failure="return")
+    assert not missed.converged
+    assert "No load reaches the prescribed position" in missed.status.message
+    with pytest.raises(asp.ConvergenceError, match="Prescribe a load"):
+        asp.solve(problem, asp.MeanGap(1e-12))
+
+
+def test_solver_by_its_name_only_is_refused_with_the_way_out():
+    problem = asp.ContactProblem(rough((4, 4)), elastic(1.0))
+    with pytest.raises(asp.InputError, match="solver_by_name"):
+        asp.solve(problem, asp.MeanPressure(0.1), solver="nnls")
+
+
+def test_control_of_another_type_is_refused():
+    flat = asp.ContactProblem(asp.generate.flat(asp.Grid((4, 4), (1.0, 1.0))), elastic(1.0))
+    for wrong in (50e3, "50 kPa", None):
+        with pytest.raises(asp.InputError, match="control must be a MeanPressure, Force"):
+            asp.solve(flat, wrong)
+
+
+@pytest.mark.parametrize(
+    "settings", [{"tolerance": -1.0}, {"tolerance": 2.0}, {"tolerance": np.nan}, {"max_iterations": 0}]
+)
+@pytest.mark.parametrize("method", list(asp.solvers.SOLVERS))
+def test_solvers_check_their_settings(method, settings):
+    with pytest.raises(asp.InputError, match=f"solver {method} must be"):
+        asp.solvers.SOLVERS[method](**settings)
+
+
+@pytest.mark.parametrize("bad", [-1e-9, np.nan, np.inf])
+def test_impossible_state_is_refused(bad):
+    sound, broken = np.zeros((4, 4)), np.full((4, 4), bad)
+    with pytest.raises(asp.InputError, match="permanent indentation"):
+        asp.InterfaceState(broken, sound)
+    with pytest.raises(asp.InputError, match="pressure"):
+        asp.InterfaceState(sound, broken)
+
+
+@pytest.mark.parametrize("bad", ["1 GPa", True])
+def test_hardness_is_a_number(bad):
+    with pytest.raises(asp.InputError, match="hardness"):
+        asp.Hardness(bad)
+
+
+def test_law_of_another_type_is_refused():
+    with pytest.raises(asp.InputError, match="law of a ContactProblem must be"):
+        asp.ContactProblem(rough((4, 4)), elastic(1.0), law="hard wall")
 
 
 def test_state_of_another_grid_is_refused():

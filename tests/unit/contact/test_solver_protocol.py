@@ -254,8 +254,8 @@ def test_solvers_are_found_by_name(name: str) -> None:
     ("arguments", "message"),
     [
         (("newton",), "solver must be one of conjugate_gradient, .*lemke"),
-        (("lemke", 0.0), "tolerance of the solver must be greater than zero"),
-        (("lemke", 1e-5, 0), "iteration limit of the solver must be a whole number of at least 1"),
+        (("lemke", 0.0), "tolerance of the solver lemke must be greater than 0 and less than 1"),
+        (("lemke", 1e-5, 0), "iteration limit of the solver lemke must be a whole number of at least 1"),
     ],
 )
 def test_bad_settings_are_refused(arguments: tuple[object, ...], message: str) -> None:

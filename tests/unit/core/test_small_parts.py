@@ -85,7 +85,7 @@ def test_every_reference_is_named_by_the_code():
     root = Path(asp.__file__).parent
     text = "".join(path.read_text(encoding="utf-8") for path in root.rglob("*.py") if path.name != "citations.py")
     unnamed = {key for key in REFERENCES if f'"{key}"' not in text}
-    assert unnamed <= {"Greenwood1966"}  # the source of result.PLASTIC_FRACTION, so far named in its docstring only
+    assert unnamed == set()
 
 
 @pytest.mark.parametrize(

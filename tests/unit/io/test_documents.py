@@ -135,7 +135,7 @@ SOLVERS = st.fixed_dictionaries(
     {},
     optional={
         "method": st.sampled_from(["conjugate_gradient", "nnls"]),
-        "tolerance": POSITIVE,
+        "tolerance": st.floats(1e-15, 0.99),
         "max_iterations": COUNTS,
         "threads": COUNTS,
     },
@@ -243,7 +243,7 @@ def test_documents_do_not_change() -> None:
         ),
         ({"law": {"kind": "hardness", "hardness": "5"}}, "law.hardness must have a unit"),
         ({"solver": {"method": "magic"}}, "solver.method must be one of conjugate_gradient"),
-        ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than zero"),
+        ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than 0 and less than 1"),
         ({"solver": {"tolerance": float("nan")}}, "solver.tolerance must be a finite number"),
         ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number, but is 1.5."),
         ({"boundary": {"kind": "open"}}, "boundary.kind must be 'periodic' or 'free', but is 'open'."),

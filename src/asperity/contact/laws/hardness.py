@@ -29,9 +29,11 @@ class Hardness:
     value: float | RealArray
     _cap: float | RealArray = field(init=False, repr=False)
     name: ClassVar[str] = "hardness"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Almqvist2007", "Tian1996")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Almqvist2007", "Greenwood1966", "Tian1996")
 
     def __post_init__(self) -> None:
+        if isinstance(self.value, str | bool):
+            raise InputError(f"hardness (Pa) must be a number or an array of numbers, but is {self.value!r}.")
         cap = np.array(self.value, dtype=float)
         if not np.isfinite(cap).all() or cap.min() <= 0.0:
             worst = cap.min() if cap.ndim else float(cap)

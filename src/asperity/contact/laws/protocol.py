@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from ...core.arrays import RealArray
 
 
+@runtime_checkable
 class InterfaceLaw(Protocol):
     """Law of the interface; frictionless and without adhesion it is a bound on the pressure."""
 

@@ -1,9 +1,10 @@
 """Pressure to displacement on a grid: prepared once, applied many times."""
 
 from ...core.engine import Engine
+from ...core.errors import InputError
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
-from ..boundary import Boundary, Periodic
+from ..boundary import Boundary, Free, Periodic
 from .free import FreeOperator
 from .periodic import PeriodicOperator
 from .protocol import Operator
@@ -11,8 +12,29 @@ from .protocol import Operator
 __all__ = ["FreeOperator", "Operator", "PeriodicOperator", "prepare_operator"]
 
 
-def prepare_operator(compliance: Compliance, grid: Grid, boundary: Boundary, *, engine: Engine | None = None) -> Operator:
-    """Operator of ``compliance`` on ``grid`` with ``boundary``; hold on to it to reuse it in further solves."""
+def prepare_operator(
+    compliance: Compliance, grid: Grid, boundary: Boundary, *, engine: Engine | None = None
+) -> Operator:
+    """Pressure-displacement operator, to be held by the caller and reused in further solves of the same problem.
+
+    Parameters
+    ----------
+    compliance
+        Solid, usually ``problem.compliance``.
+    grid
+        Grid of pressure and displacement, ``problem.grid``.
+    boundary
+        ``Periodic()`` or ``Free()``, ``problem.boundary``.
+    engine
+        Machine to compute on; the CPU with ASPERITY_THREADS or all cores by default.
+
+    Raises
+    ------
+    InputError
+        If the boundary is neither.
+    """
     if isinstance(boundary, Periodic):
         return PeriodicOperator(compliance, grid, engine=engine)
-    return FreeOperator(compliance, grid, engine=engine)
+    if isinstance(boundary, Free):
+        return FreeOperator(compliance, grid, engine=engine)
+    raise InputError(f"boundary of an operator must be Periodic() or Free(), but is {boundary!r}.")

@@ -18,7 +18,10 @@ def restricted(field: RealArray) -> RealArray:
     """Means of 2 x 2 points of ``field``; at an odd end the last point counts twice."""
     for axis in (0, 1):
         n = field.shape[axis]
-        pairs = np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis), np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis)
+        pairs = (
+            np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis),
+            np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis),
+        )
         field = 0.5 * (pairs[0] + pairs[1])
     return field
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 
-LARGEST_DENSE = 6400
-"""Largest number of points for a dense matrix (330 MB)."""
+LARGEST_DENSE = 4096
+"""Largest number of points for a dense matrix (134 MB); its factorisations take seconds."""
 
 
 def _offsets(n: int) -> NDArray[np.int_]:

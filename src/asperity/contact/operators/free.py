@@ -11,6 +11,7 @@ from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length
 from ...solids.compliance.protocol import Compliance
+from ..boundary import Boundary, Free
 from .coarse import coarse_grid
 from .convolution import toeplitz_matrix
 from .periodic import spectral_kernel
@@ -34,8 +35,9 @@ class FreeOperator:
     def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
         nx, ny = grid.shape
         self.grid = grid
+        self.compliance = compliance
+        self.boundary: Boundary = Free()
         self.engine: Engine = engine or CpuEngine()
-        self._compliance = compliance
         self._influence = compliance.influence(grid)
         self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.pairs_per_application = 0.75 * self._padded[0] * self._padded[1] / grid.n_points  # pruned along y
@@ -56,12 +58,12 @@ class FreeOperator:
 
     def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
-        return self.engine.convolution(spectral_kernel(self._compliance, self.grid) / scale, self.grid.shape, dtype)
+        return self.engine.convolution(spectral_kernel(self.compliance, self.grid) / scale, self.grid.shape, dtype)
 
     @cached_property
     def coarsened(self) -> FreeOperator:
         """Operator on the grid of half as many points per side."""
-        return FreeOperator(self._compliance, coarse_grid(self.grid), engine=self.engine)
+        return FreeOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
 
     @cached_property
     def _double(self) -> Convolution:

@@ -10,6 +10,7 @@ from ...core.arrays import RealArray
 from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
+from ..boundary import Boundary, Periodic
 from .coarse import coarse_grid
 from .convolution import circulant_matrix
 
@@ -31,10 +32,11 @@ class PeriodicOperator:
 
     def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
         self.grid = grid
+        self.compliance = compliance
+        self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
         self.kernel = spectral_kernel(compliance, grid)
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
-        self._compliance = compliance
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
@@ -47,7 +49,7 @@ class PeriodicOperator:
     @cached_property
     def coarsened(self) -> PeriodicOperator:
         """Operator on the grid of half as many points per side."""
-        return PeriodicOperator(self._compliance, coarse_grid(self.grid), engine=self.engine)
+        return PeriodicOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
 
     @cached_property
     def _double(self) -> Convolution:

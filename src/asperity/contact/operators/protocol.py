@@ -7,6 +7,8 @@ from typing import Protocol
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, Engine
 from ...core.grid import Grid
+from ...solids.compliance.protocol import Compliance
+from ..boundary import Boundary
 
 
 class Operator(Protocol):
@@ -15,6 +17,14 @@ class Operator(Protocol):
     @property
     def grid(self) -> Grid:
         """Grid of pressure and displacement."""
+
+    @property
+    def compliance(self) -> Compliance:
+        """Solid it was prepared for."""
+
+    @property
+    def boundary(self) -> Boundary:
+        """Boundary it was prepared for."""
 
     @property
     def zero_mean_mode(self) -> bool:

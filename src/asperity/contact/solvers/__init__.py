@@ -11,8 +11,8 @@ from .quasi_newton import QuasiNewton
 from .steepest_descent import SteepestDescent
 
 __all__ = [
-    "ActiveSet",
     "SOLVERS",
+    "ActiveSet",
     "ConjugateGradient",
     "ContactQP",
     "DenseActiveSet",

@@ -7,11 +7,12 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, Engine, Face, Totals
 from .feasible import feasible_start, scaled_to_load
 from .nested import nested_start
-from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
+from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 from .steepest_descent import descend, levelling_step
 
 _COARSE_TOLERANCE = 1e-2
@@ -79,6 +80,10 @@ class ActiveSet:
     name: ClassVar[str] = "active_set"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Polonsky1999")
 
+    def __post_init__(self) -> None:
+        require_settings(self)
+        require.one_of(self.precision, ("mixed", "double"), "precision of the solver active_set")
+
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, or at the solution on coarser grids."""
         if start is None or not start.any():
@@ -119,9 +124,7 @@ class ActiveSet:
         if not descended:
             return _gradient_step(qp, memory, spent)
         new = _state(qp, _Memory(work, there, totals, steady))
-        return replace(
-            new, iterations=spent.iterations, applications=spent.applications, extra_pairs=spent.extra_pairs
-        )
+        return replace(new, iterations=spent.iterations, applications=spent.applications, extra_pairs=spent.extra_pairs)
 
     def _reduction(self, memory: _Memory, error: float) -> tuple[float, int]:
         """Relative residual at which to stop a correction, and the largest number of its steps."""

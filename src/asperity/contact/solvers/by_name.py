@@ -47,7 +47,7 @@ def solver_by_name(name: str, tolerance: float | None = None, max_iterations: in
     make = SOLVERS[require.one_of(name, SOLVERS, "solver")]
     settings: dict[str, float] = {}
     if tolerance is not None:
-        settings["tolerance"] = require.positive(tolerance, "tolerance of the solver")
+        settings["tolerance"] = tolerance
     if max_iterations is not None:
-        settings["max_iterations"] = require.integer(max_iterations, 1, "iteration limit of the solver")
+        settings["max_iterations"] = max_iterations
     return make(**settings)

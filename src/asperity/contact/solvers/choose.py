@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ..problem import ContactProblem
-from .conjugate_gradient import ConjugateGradient
+from .active_set import ActiveSet
 from .protocol import Solver
 
 
 def default_solver(problem: ContactProblem) -> Solver:
-    """Method for ``problem``: constrained conjugate gradients, which handle every boundary, control and cap."""
-    return ConjugateGradient()
+    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size."""
+    return ActiveSet()

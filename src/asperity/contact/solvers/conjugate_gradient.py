@@ -10,7 +10,7 @@ import numpy as np
 from ...core.arrays import BoolArray, RealArray
 from .feasible import feasible_start, scaled_to_load
 from .optimality import energy, relative_error
-from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
+from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 from .steepest_descent import descend, levelling_step
 
 _ROUNDING = 1e-13
@@ -45,6 +45,9 @@ class ConjugateGradient:
     max_iterations: int = 5000
     name: ClassVar[str] = "conjugate_gradient"
     citation_keys: ClassVar[tuple[str, ...]] = ("Nogi1997", "Polonsky1999")
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, steepest descent first."""

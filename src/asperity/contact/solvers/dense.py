@@ -11,7 +11,7 @@ from ...core.arrays import BoolArray, RealArray
 from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, magnitude, solve_on, violation
 from .feasible import feasible_start
 from .optimality import relative_error
-from .protocol import ContactQP, SolverState
+from .protocol import ContactQP, SolverState, require_settings
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,9 @@ class DenseActiveSet:
     max_iterations: int = 10000
     name: ClassVar[str] = "dense_active_set"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Tian1996")
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, whose contact set is the first guess."""

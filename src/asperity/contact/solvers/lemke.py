@@ -13,7 +13,7 @@ from ...core.errors import InputError, NoSolutionError
 from .dense_form import DenseQP, answered, dense_form, solve_on
 from .feasible import feasible_start
 from .optimality import relative_error
-from .protocol import ContactQP, SolverState
+from .protocol import ContactQP, SolverState, require_settings
 
 IntArray: TypeAlias = NDArray[np.integer[Any]]
 
@@ -43,6 +43,9 @@ class Lemke:
     max_iterations: int = 20000
     name: ClassVar[str] = "lemke"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cottle1992",)
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``.

@@ -38,7 +38,7 @@ def energy(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:
 def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: float) -> float:
     """Sum of (r - lambda)+ p + (lambda - r)+ (cap - p) in Pa·m; times the pixel area it bounds V(p) - V(p*).
 
-    Infinite if r < lambda anywhere without a cap (handbook: contact solver, section 5).
+    Infinite if r < lambda anywhere without a cap (weak duality of the quadratic programme, Kalker 1977).
     """
     gap = r - at
     above = float((np.maximum(gap, 0.0) * pressure).sum())

@@ -7,6 +7,7 @@ from typing import Protocol, TypeAlias
 
 import numpy as np
 
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.progress import NoProgress, Progress
 from ...core.status import Outcome, Status
@@ -107,6 +108,12 @@ class Solver(Protocol):
         """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step)."""
 
 
+def require_settings(solver: Solver) -> None:
+    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``; InputError names the wrong one."""
+    require.between(solver.tolerance, 0.0, 1.0, f"tolerance of the solver {solver.name}")
+    require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
+
+
 @dataclass(frozen=True, eq=False)
 class Solution:
     """Last state of a solver and how it ended; ``errors`` holds the relative error after every iteration."""
@@ -138,9 +145,10 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
 
 
 def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:
-    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
     if state.error <= solver.tolerance:
-        return Status(Outcome.CONVERGED, f"Converged: {reached}, tolerance {solver.tolerance:.0e}.")
+        text = f"Converged: relative error {state.error:.2e} by {solver.name}, tolerance {solver.tolerance:.0e}."
+        return Status(Outcome.CONVERGED, text)
+    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
     if stagnated:
         remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
         return Status(Outcome.STAGNATED, f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}.", remedy)

@@ -11,7 +11,8 @@ import numpy as np
 from ...core.arrays import RealArray
 from .feasible import feasible_start, scaled_to_load
 from .optimality import level, relative_error
-from .protocol import ContactQP, FixedMean, SolverState
+from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
+from .steepest_descent import levelling_step
 
 _STALLS = 8
 _PAIRS = 20
@@ -61,17 +62,18 @@ class QuasiNewton:
     name: ClassVar[str] = "quasi_newton"
     citation_keys: ClassVar[tuple[str, ...]] = ("Byrd1995", "PengBhushan2001")
 
+    def __post_init__(self) -> None:
+        require_settings(self)
+
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""
         begin = feasible_start(qp, start)
         deflection = qp.operator.apply(begin)
-        impulse = np.zeros_like(begin)
-        impulse[0, 0] = 1.0
-        pixel = float(qp.operator.apply(impulse)[0, 0])
-        stiffness, plane = 0.0, -getattr(qp.constraint, "offset", 0.0)
+        pixel = 1.0 / (levelling_step(qp) or 1.0)
+        stiffness, plane = 0.0, -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else 0.0
         if isinstance(qp.constraint, FixedMean):
-            stiffness = pixel / math.sqrt(start.size)  # as stiff as the longest wave
-            plane = level(qp, begin, deflection - qp.profile) + stiffness * float(start.sum())
+            stiffness = pixel / math.sqrt(begin.size)  # as stiff as the longest wave
+            plane = level(qp, begin, deflection - qp.profile) + stiffness * float(begin.sum())
         memory = _Memory(qp.height_scale, qp.height_scale / pixel, stiffness, plane)
         error = relative_error(qp, begin, deflection)
         return SolverState(begin, deflection, error, applications=2, memory=replace(memory, best=error))

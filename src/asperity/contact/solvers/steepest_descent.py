@@ -10,7 +10,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from .feasible import feasible_start, scaled_to_load
 from .optimality import relative_error
-from .protocol import ContactQP, FixedMean, FixedOffset, SolverState
+from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 
 _SUFFICIENT = 1e-4
 _HALVINGS = 40
@@ -42,7 +42,10 @@ class SteepestDescent:
     tolerance: float = 1e-6
     max_iterations: int = 20000
     name: ClassVar[str] = "steepest_descent"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Stanley1997",)
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bertsekas1976", "Stanley1997")
+
+    def __post_init__(self) -> None:
+        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""

@@ -5,28 +5,34 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from . import kernels
 from .protocol import Convolution, Totals, Violation
 
 _NO_CAP = np.full(1, np.inf)
+
+
+def _compiled() -> Any:
+    """Compiled passes; numba takes a third of a second to import, so only when something is computed."""
+    return import_module(".kernels", __package__)
 
 
 class Blocks:
     """Runs compiled passes on fixed blocks with a given number of threads."""
 
     def __init__(self, threads: int) -> None:
+        self.kernels = _compiled()
         self.threads = threads
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
 
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
-        blocks = -(-size // kernels.BLOCK)
+        blocks = -(-size // self.kernels.BLOCK)
         if self._pool is None or blocks < 2 * self.threads:
             kernel(0, blocks, *arguments)
             return
@@ -37,7 +43,7 @@ class Blocks:
 
     def sums(self, kernel: Callable[..., None], size: int, columns: int, *arguments: Any) -> RealArray:
         """Per-block sums (blocks, columns) that ``kernel`` leaves in its last argument."""
-        partial = np.zeros((-(-size // kernels.BLOCK), columns))
+        partial = np.zeros((-(-size // self.kernels.BLOCK), columns))
         self.run(kernel, size, *arguments, partial)
         return partial
 
@@ -75,36 +81,43 @@ class CpuEngine:
     def totals(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> Totals:
         """Sums over an iterate."""
         arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap))
-        s = self.blocks.sums(kernels.assess, p.size, 8, *arguments)
+        s = self.blocks.sums(self.blocks.kernels.assess, p.size, 8, *arguments)
         added = s[:, :5].sum(axis=0)
         return Totals(*(float(v) for v in added), float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min()))
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
         arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap), level)
-        s = self.blocks.sums(kernels.violation, p.size, 3, *arguments)
+        s = self.blocks.sums(self.blocks.kernels.violation, p.size, 3, *arguments)
         return Violation(float(s[:, 0].sum()), float(s[:, 1].sum()), float(s[:, 2].max()))
 
     def face(
-        self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float, scale: float, field: RealArray
+        self,
+        p: RealArray,
+        u: RealArray,
+        h: RealArray,
+        cap: RealArray | None,
+        level: float,
+        scale: float,
+        field: RealArray,
     ) -> CpuFace:
         """Working set at ``level``."""
         arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap), level)
-        counts = np.zeros((-(-p.size // kernels.BLOCK), 2), dtype=np.int64)
-        self.blocks.run(kernels.count_face, p.size, *arguments, counts)
+        counts = np.zeros((-(-p.size // self.blocks.kernels.BLOCK), 2), dtype=np.int64)
+        self.blocks.run(self.blocks.kernels.count_face, p.size, *arguments, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         index = np.empty(int(starts[-1]), dtype=np.int32 if p.size < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=field.dtype)
-        self.blocks.run(kernels.fill_face, p.size, *arguments, scale, starts, index, residual)
+        self.blocks.run(self.blocks.kernels.fill_face, p.size, *arguments, scale, starts, index, residual)
         return CpuFace(self.blocks, index, residual, field.ravel(), int(counts[:, 1].sum()))
 
     def release(self, face: CpuFace, field: RealArray) -> None:
         """Zero on the face."""
-        self.blocks.run(kernels.clear, face.size, face.index, field.ravel())
+        self.blocks.run(self.blocks.kernels.clear, face.size, face.index, field.ravel())
 
     def rescale(self, p: RealArray, factor: float) -> None:
         """p *= factor."""
-        self.blocks.run(kernels.multiply, p.size, p.ravel(), factor)
+        self.blocks.run(self.blocks.kernels.multiply, p.size, p.ravel(), factor)
 
     def copy(self, source: RealArray, out: RealArray) -> None:
         """out[...] = source."""
@@ -113,12 +126,12 @@ class CpuEngine:
     def segment(self, p: RealArray, q: RealArray, u: RealArray, v: RealArray, h: RealArray) -> tuple[float, float]:
         """Slope and curvature of the energy from p to q."""
         arguments = (p.ravel(), q.ravel(), u.ravel(), v.ravel(), h.ravel())
-        slope, curvature = self.blocks.sums(kernels.segment, p.size, 2, *arguments).sum(axis=0)
+        slope, curvature = self.blocks.sums(self.blocks.kernels.segment, p.size, 2, *arguments).sum(axis=0)
         return float(slope), float(curvature)
 
     def blend(self, a: RealArray, b: RealArray, weight: float) -> None:
         """b = a + weight (b - a)."""
-        self.blocks.run(kernels.blend, a.size, a.ravel(), b.ravel(), weight)
+        self.blocks.run(self.blocks.kernels.blend, a.size, a.ravel(), b.ravel(), weight)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +157,7 @@ class CpuFace:
         """Residual vector, laid out in the field."""
         if centred:
             self.start[...] -= self.start.mean(dtype=np.float64)
-        self.blocks.run(kernels.scatter, self.size, self.index, self.start, self.field)
+        self.blocks.run(self.blocks.kernels.scatter, self.size, self.index, self.start, self.field)
         return self.start
 
     def zeros(self) -> RealArray:
@@ -154,13 +167,13 @@ class CpuFace:
     def gather(self, field: RealArray, other: RealArray) -> tuple[RealArray, tuple[float, float]]:
         """Vector of ``field`` (in scratch memory), its sum and its product with ``other``."""
         arguments = (self.index, field.ravel(), other, self.scratch)
-        total, product = self.blocks.sums(kernels.gather, self.size, 2, *arguments).sum(axis=0)
+        total, product = self.blocks.sums(self.blocks.kernels.gather, self.size, 2, *arguments).sum(axis=0)
         return self.scratch, (float(total), float(product))
 
     def direct(self, z: RealArray, mean: float, ratio: float, t: RealArray) -> RealArray:
         """t = (z - mean) + ratio t in place, laid out in the field."""
         kind = t.dtype.type
-        self.blocks.run(kernels.direct, self.size, self.index, z, kind(mean), kind(ratio), t, self.field)
+        self.blocks.run(self.blocks.kernels.direct, self.size, self.index, z, kind(mean), kind(ratio), t, self.field)
         return t
 
     def advance(
@@ -168,7 +181,9 @@ class CpuFace:
     ) -> tuple[RealArray, RealArray]:
         """d += length t and r -= length (kt - mean) in place, r laid out in the field."""
         kind = t.dtype.type
-        self.blocks.run(kernels.advance, self.size, self.index, kind(length), t, kt, kind(mean), d, r, self.field)
+        self.blocks.run(
+            self.blocks.kernels.advance, self.size, self.index, kind(length), t, kt, kind(mean), d, r, self.field
+        )
         return d, r
 
     def pressure(
@@ -177,14 +192,16 @@ class CpuFace:
         """out = p + scale d, clipped."""
         np.copyto(out, p)
         arguments = (self.index, p.ravel(), d, scale, *_cap(cap), out.ravel())
-        change, clipped = self.blocks.sums(kernels.step_pressure, self.size, 2, *arguments).sum(axis=0)
+        change, clipped = self.blocks.sums(self.blocks.kernels.step_pressure, self.size, 2, *arguments).sum(axis=0)
         return float(change), int(clipped)
 
 
 class _Convolution:
     """Transform, fused product with the kernel, transform back."""
 
-    def __init__(self, blocks: Blocks, transform: RealTransform | PaddedTransform, kernel: RealArray, dtype: str) -> None:
+    def __init__(
+        self, blocks: Blocks, transform: RealTransform | PaddedTransform, kernel: RealArray, dtype: str
+    ) -> None:
         self._blocks = blocks
         self._transform = transform
         self._kernel = np.ascontiguousarray(kernel, dtype=dtype).ravel()
@@ -194,14 +211,14 @@ class _Convolution:
     def apply(self, field: RealArray, out: RealArray) -> RealArray:
         """Convolve ``field`` into ``out``."""
         spectrum = self._transform.forward(field, self._spectrum)
-        self._blocks.run(kernels.scale_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
+        self._blocks.run(self._blocks.kernels.scale_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         return self._transform.backward(spectrum, out)
 
     def solve(self, field: RealArray, out: RealArray) -> RealArray:
         """Divide by the kernel in Fourier space, the mean mode by twice its largest entry."""
         spectrum = self._transform.forward(field, self._spectrum)
         mean = spectrum[0, 0]
-        self._blocks.run(kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
+        self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         spectrum[0, 0] = mean * self._mean_factor
         return self._transform.backward(spectrum, out)
 

@@ -96,7 +96,9 @@ class Engine(Protocol):
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``."""
 
-    def padded_convolution(self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str) -> Convolution:
+    def padded_convolution(
+        self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
+    ) -> Convolution:
         """Free convolution: fields of ``shape`` zero-padded to ``padded``, where ``kernel`` lives."""
 
     def totals(self, p: Any, u: Any, h: Any, cap: Any) -> Totals:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from ...core.errors import InputError
 from .surfaces import FileSurface, SurfaceTable
-from .values import Count, Force, Length, Method, Number, PoissonRatio, Pressure, PressureOrBody, Table, Text
+from .values import Count, Force, Fraction, Length, Method, PoissonRatio, Pressure, PressureOrBody, Table, Text
 
 VERSION = 1
 """Version of the document that this package reads and writes."""
@@ -93,7 +93,7 @@ class SolverTable(Table):
     """How the problem is solved; what is left out is chosen by the package."""
 
     method: Method | None = None
-    tolerance: Number | None = None
+    tolerance: Fraction | None = None
     max_iterations: Count | None = None
     threads: Count | None = None
 

@@ -27,8 +27,8 @@ class HalfSpace:
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
-        """Boussinesq's point force and Love's patch."""
-        return ("Boussinesq1885", "Johnson1985", "Love1929")
+        """Boussinesq's point force; the boundary names the discretisation."""
+        return ("Boussinesq1885", "Johnson1985")
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """c(q) = 2 / (E' q) in m/Pa (Johnson 1985, sec. 13.2), q > 0 in rad/m."""
