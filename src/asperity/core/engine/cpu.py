@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib import import_module
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from .protocol import Convolution, Totals, Violation
+from .protocol import Convolution, Face, Totals, Violation
 
 _NO_CAP = np.full(1, np.inf)
 
@@ -34,10 +35,10 @@ class Blocks:
         """Call ``kernel`` over all blocks of ``size`` elements."""
         blocks = -(-size // self.kernels.BLOCK)
         if self._pool is None or blocks < 2 * self.threads:
-            kernel(0, blocks, *arguments)
+            kernel((0, blocks), *arguments)
             return
         cuts = [blocks * i // self.threads for i in range(self.threads + 1)]
-        jobs = [self._pool.submit(kernel, a, b, *arguments) for a, b in zip(cuts, cuts[1:], strict=False)]
+        jobs = [self._pool.submit(kernel, span, *arguments) for span in pairwise(cuts)]
         for job in jobs:
             job.result()
 
@@ -80,14 +81,16 @@ class CpuEngine:
 
     def totals(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> Totals:
         """Sums over an iterate."""
-        arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap))
+        arguments = (p.ravel(), u.ravel(), h.ravel(), _cap(cap))
         s = self.blocks.sums(self.blocks.kernels.assess, p.size, 8, *arguments)
         added = s[:, :5].sum(axis=0)
-        return Totals(*(float(v) for v in added), float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min()))
+        total, work, height, weight, weighted = (float(v) for v in added)
+        bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
+        return Totals(total, work, height, weight, weighted, *bounds)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
-        arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap), level)
+        arguments = (p.ravel(), u.ravel(), h.ravel(), _cap(cap), level)
         s = self.blocks.sums(self.blocks.kernels.violation, p.size, 3, *arguments)
         return Violation(float(s[:, 0].sum()), float(s[:, 1].sum()), float(s[:, 2].max()))
 
@@ -102,17 +105,18 @@ class CpuEngine:
         field: RealArray,
     ) -> CpuFace:
         """Working set at ``level``."""
-        arguments = (p.ravel(), u.ravel(), h.ravel(), *_cap(cap), level)
+        arguments = (p.ravel(), u.ravel(), h.ravel(), _cap(cap), level)
         counts = np.zeros((-(-p.size // self.blocks.kernels.BLOCK), 2), dtype=np.int64)
         self.blocks.run(self.blocks.kernels.count_face, p.size, *arguments, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         index = np.empty(int(starts[-1]), dtype=np.int32 if p.size < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=field.dtype)
         self.blocks.run(self.blocks.kernels.fill_face, p.size, *arguments, scale, starts, index, residual)
-        return CpuFace(self.blocks, index, residual, field.ravel(), int(counts[:, 1].sum()))
+        return CpuFace(self.blocks, index, residual, field.ravel(), int(counts[:, 1].sum()), np.empty_like(residual))
 
-    def release(self, face: CpuFace, field: RealArray) -> None:
+    def release(self, face: Face, field: RealArray) -> None:
         """Zero on the face."""
+        assert isinstance(face, CpuFace)
         self.blocks.run(self.blocks.kernels.clear, face.size, face.index, field.ravel())
 
     def rescale(self, p: RealArray, factor: float) -> None:
@@ -143,10 +147,7 @@ class CpuFace:
     start: RealArray
     field: RealArray
     entering: int
-    scratch: RealArray = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "scratch", np.empty_like(self.start))
+    scratch: RealArray
 
     @property
     def size(self) -> int:
@@ -191,7 +192,7 @@ class CpuFace:
     ) -> tuple[float, int]:
         """out = p + scale d, clipped."""
         np.copyto(out, p)
-        arguments = (self.index, p.ravel(), d, scale, *_cap(cap), out.ravel())
+        arguments = (self.index, p.ravel(), d, scale, _cap(cap), out.ravel())
         change, clipped = self.blocks.sums(self.blocks.kernels.step_pressure, self.size, 2, *arguments).sum(axis=0)
         return float(change), int(clipped)
 
@@ -223,6 +224,6 @@ class _Convolution:
         return self._transform.backward(spectrum, out)
 
 
-def _cap(cap: RealArray | None) -> tuple[RealArray, bool]:
-    """Flat cap for the kernels and whether there is one; a single value serves all points."""
-    return (_NO_CAP, False) if cap is None else (cap.ravel(), True)
+def _cap(cap: RealArray | None) -> RealArray:
+    """Flat cap for the kernels: one value for all points, infinity for none, or one for each."""
+    return _NO_CAP if cap is None else cap.ravel()

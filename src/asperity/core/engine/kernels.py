@@ -1,4 +1,4 @@
-"""Fused, compiled passes over flat arrays. Each works on a range of fixed blocks and releases the interpreter lock.
+"""Fused, compiled passes over flat arrays. Each works on a span (first, last) of fixed blocks and releases the lock.
 
 Sums are kept per block and added up in a fixed order by the caller, so results do not depend on the number of threads.
 """
@@ -17,23 +17,24 @@ _compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"re
 
 
 @_compiled
-def scale_spectrum(first, last, spectrum, factor):  # type: ignore[no-untyped-def]
+def scale_spectrum(span, spectrum, factor):  # type: ignore[no-untyped-def]
     """spectrum *= factor."""
-    for i in range(first * BLOCK, min(last * BLOCK, spectrum.size)):
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, spectrum.size)):
         spectrum[i] *= factor[i]
 
 
 @_compiled
-def divide_spectrum(first, last, spectrum, divisor):  # type: ignore[no-untyped-def]
+def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
     """spectrum /= divisor."""
-    for i in range(first * BLOCK, min(last * BLOCK, spectrum.size)):
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, spectrum.size)):
         spectrum[i] *= 1.0 / divisor[i]
 
 
 @_compiled
-def assess(first, last, p, u, h, cap, capped, sums):  # type: ignore[no-untyped-def]
+def assess(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
     """Per block: sum p, sum p·r, sum p·h, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level."""
-    for b in range(first, last):
+    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    for b in range(span[0], span[1]):
         total = 0.0
         pr = 0.0
         ph = 0.0
@@ -50,7 +51,7 @@ def assess(first, last, p, u, h, cap, capped, sums):  # type: ignore[no-untyped-
                 total += pi
                 pr += pi * ri
                 ph += pi * h[i]
-                if capped and pi >= cap[i % cap.size]:
+                if pi >= cap[i * each]:
                     highest_capped = max(highest_capped, ri)
                 else:
                     weight += pi
@@ -68,38 +69,37 @@ def assess(first, last, p, u, h, cap, capped, sums):  # type: ignore[no-untyped-
 
 
 @_compiled
-def violation(first, last, p, u, h, cap, capped, level, sums):  # type: ignore[no-untyped-def]
+def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
     """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap."""
-    for b in range(first, last):
+    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    for b in range(span[0], span[1]):
         above = 0.0
         below = 0.0
         deepest = 0.0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             gap = np.float64(u[i]) - h[i] - level
             pi = np.float64(p[i])
+            room = cap[i * each] - pi
             if gap > 0.0:
                 above += gap * pi
-            elif capped:
-                room = cap[i % cap.size] - pi
-                below -= gap * room
-                if room > 0.0:
-                    deepest = max(deepest, -gap)
-            else:
+            elif room > 0.0:
                 deepest = max(deepest, -gap)
+                below -= gap * room
         sums[b, 0] = above
         sums[b, 1] = below
         sums[b, 2] = deepest
 
 
 @_compiled
-def count_face(first, last, p, u, h, cap, capped, level, counts):  # type: ignore[no-untyped-def]
+def count_face(span, p, u, h, cap, level, counts):  # type: ignore[no-untyped-def]
     """Per block: number of points of the working set, and of those entering it from a bound."""
-    for b in range(first, last):
+    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    for b in range(span[0], span[1]):
         members = 0
         entering = 0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             below = p[i] <= 0.0
-            at_cap = capped and p[i] >= cap[i % cap.size]
+            at_cap = p[i] >= cap[i * each]
             if below:
                 if np.float64(u[i]) - h[i] < level:
                     members += 1
@@ -115,13 +115,14 @@ def count_face(first, last, p, u, h, cap, capped, level, counts):  # type: ignor
 
 
 @_compiled
-def fill_face(first, last, p, u, h, cap, capped, level, scale, starts, index, residual):  # type: ignore[no-untyped-def]
+def fill_face(span, p, u, h, cap, level, scale, starts, index, residual):  # type: ignore[no-untyped-def]
     """Indices of the working set in order, and (level - r) / scale there."""
-    for b in range(first, last):
+    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    for b in range(span[0], span[1]):
         k = starts[b]
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             below = p[i] <= 0.0
-            at_cap = capped and p[i] >= cap[i % cap.size]
+            at_cap = p[i] >= cap[i * each]
             gap = np.float64(u[i]) - h[i] - level
             inside = gap < 0.0 if below else (gap > 0.0 if at_cap else True)
             if inside:
@@ -131,23 +132,23 @@ def fill_face(first, last, p, u, h, cap, capped, level, scale, starts, index, re
 
 
 @_compiled
-def scatter(first, last, index, values, field):  # type: ignore[no-untyped-def]
+def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
     """field[index] = values."""
-    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         field[index[k]] = values[k]
 
 
 @_compiled
-def clear(first, last, index, field):  # type: ignore[no-untyped-def]
+def clear(span, index, field):  # type: ignore[no-untyped-def]
     """field[index] = 0."""
-    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         field[index[k]] = 0.0
 
 
 @_compiled
-def gather(first, last, index, field, other, values, sums):  # type: ignore[no-untyped-def]
+def gather(span, index, field, other, values, sums):  # type: ignore[no-untyped-def]
     """values = field[index]; per block: sum values, sum values·other."""
-    for b in range(first, last):
+    for b in range(span[0], span[1]):
         total = 0.0
         product = 0.0
         for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
@@ -160,18 +161,18 @@ def gather(first, last, index, field, other, values, sums):  # type: ignore[no-u
 
 
 @_compiled
-def direct(first, last, index, z, mean, ratio, t, field):  # type: ignore[no-untyped-def]
+def direct(span, index, z, mean, ratio, t, field):  # type: ignore[no-untyped-def]
     """t = (z - mean) + ratio t, and field[index] = t."""
-    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         value = (z[k] - mean) + ratio * t[k]
         t[k] = value
         field[index[k]] = value
 
 
 @_compiled
-def advance(first, last, index, length, t, kt, mean, d, r, field):  # type: ignore[no-untyped-def]
+def advance(span, index, length, t, kt, mean, d, r, field):  # type: ignore[no-untyped-def]
     """d += length t; r -= length (kt - mean); field[index] = r."""
-    for k in range(first * BLOCK, min(last * BLOCK, index.size)):
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         d[k] += length * t[k]
         value = r[k] - length * (kt[k] - mean)
         r[k] = value
@@ -179,9 +180,10 @@ def advance(first, last, index, length, t, kt, mean, d, r, field):  # type: igno
 
 
 @_compiled
-def step_pressure(first, last, index, p, d, scale, cap, capped, out, sums):  # type: ignore[no-untyped-def]
+def step_pressure(span, index, p, d, scale, cap, out, sums):  # type: ignore[no-untyped-def]
     """out[index] = p[index] + scale d clipped to [0, cap]; per block: sum of the change, number of points clipped."""
-    for b in range(first, last):
+    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    for b in range(span[0], span[1]):
         change = 0.0
         clipped = 0
         for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
@@ -191,8 +193,8 @@ def step_pressure(first, last, index, p, d, scale, cap, capped, out, sums):  # t
             if value < 0.0:
                 value = 0.0
                 clipped += 1
-            elif capped and value > cap[i % cap.size]:
-                value = cap[i % cap.size]
+            elif value > cap[i * each]:
+                value = cap[i * each]
                 clipped += 1
             out[i] = value
             change += value - before
@@ -201,23 +203,23 @@ def step_pressure(first, last, index, p, d, scale, cap, capped, out, sums):  # t
 
 
 @_compiled
-def multiply(first, last, field, factor):  # type: ignore[no-untyped-def]
+def multiply(span, field, factor):  # type: ignore[no-untyped-def]
     """field *= factor."""
-    for i in range(first * BLOCK, min(last * BLOCK, field.size)):
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, field.size)):
         field[i] *= factor
 
 
 @_compiled
-def blend(first, last, a, b, weight):  # type: ignore[no-untyped-def]
+def blend(span, a, b, weight):  # type: ignore[no-untyped-def]
     """b = a + weight (b - a)."""
-    for i in range(first * BLOCK, min(last * BLOCK, a.size)):
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, a.size)):
         b[i] = a[i] + weight * (b[i] - a[i])
 
 
 @_compiled
-def segment(first, last, p, q, u, v, h, sums):  # type: ignore[no-untyped-def]
+def segment(span, p, q, u, v, h, sums):  # type: ignore[no-untyped-def]
     """Per block along q - p: slope sum (u - h)(q - p) and curvature sum (v - u)(q - p)."""
-    for b in range(first, last):
+    for b in range(span[0], span[1]):
         slope = 0.0
         curvature = 0.0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
