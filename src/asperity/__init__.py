@@ -11,7 +11,7 @@ from .contact.result import ContactResult
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .core.citations import cite
-from .core.engine import CpuEngine
+from .core.engine import ArrayEngine, CpuEngine
 from .core.errors import (
     AsperityError,
     ConvergenceError,
@@ -46,6 +46,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Advice",
     "Approach",
+    "ArrayEngine",
     "AsperityError",
     "ContactProblem",
     "ContactResult",
