@@ -1,0 +1,370 @@
+"""All engines do the same: pass by pass, and in whole solves."""
+
+from __future__ import annotations
+
+import importlib
+import math
+from dataclasses import dataclass, fields
+from types import SimpleNamespace
+from typing import Any
+
+import array_api_strict
+import numpy as np
+import pytest
+from contact_cases import elastic, rough
+
+import asperity as asp
+from asperity.contact.control import Control
+from asperity.contact.laws import InterfaceLaw
+from asperity.core.arrays import RealArray
+from asperity.core.engine import Engine
+
+REFERENCE = asp.CpuEngine(1)
+OTHERS: dict[str, Engine] = {
+    "cpu with two threads": asp.CpuEngine(2),
+    "numpy": asp.ArrayEngine(np),
+    "array_api_strict": asp.ArrayEngine(array_api_strict),
+    "second device": asp.ArrayEngine(array_api_strict, device=array_api_strict.Device("device1")),
+}
+SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (33, 33)]
+CAPS = ["none", "one", "map"]
+EPS = {"float64": 2.3e-16, "float32": 1.2e-7}
+
+every_engine = pytest.mark.parametrize("engine", OTHERS.values(), ids=list(OTHERS))
+every_shape = pytest.mark.parametrize("shape", SHAPES, ids=str)
+every_cap = pytest.mark.parametrize("cap", CAPS)
+every_type = pytest.mark.parametrize("dtype", list(EPS))
+
+
+@dataclass(frozen=True)
+class Iterate:
+    """Random iterate with points at zero, at the cap and between."""
+
+    p: RealArray
+    u: RealArray
+    h: RealArray
+    cap: RealArray | None
+    level: float
+
+    def on(self, engine: Engine) -> tuple[Any, Any, Any, Any]:
+        cap = None if self.cap is None else engine.array(self.cap, "float64")
+        return engine.array(self.p, "float64"), engine.array(self.u, "float64"), engine.array(self.h, "float64"), cap
+
+
+def iterate(shape: tuple[int, int], cap: str, seed: int = 0) -> Iterate:
+    rng = np.random.default_rng([seed, *shape, CAPS.index(cap)])
+    p = np.maximum(rng.standard_normal(shape), 0.0)
+    u, h = rng.standard_normal((2, *shape))
+    caps = {"none": None, "one": np.ones(1), "map": rng.uniform(0.3, 1.5, p.size)}
+    bound = caps[cap]
+    if bound is not None:
+        p = np.minimum(p, bound if bound.size == 1 else bound.reshape(shape))
+    return Iterate(p, u, h, bound, 0.1)
+
+
+def agree(found: Any, wanted: Any, size: int, dtype: str = "float64") -> None:
+    """Equal to the rounding of ``size`` terms of order one."""
+    np.testing.assert_allclose(found, wanted, rtol=20 * EPS[dtype], atol=20 * EPS[dtype] * size)
+
+
+def values_of(record: object) -> list[float]:
+    return [getattr(record, field.name) for field in fields(record)]  # type: ignore[arg-type]
+
+
+@every_engine
+def test_arrays_go_in_and_out(engine: Engine) -> None:
+    values = np.arange(6.0).reshape(2, 3)
+    for dtype in EPS:
+        back = engine.numpy(engine.array(values, dtype))
+        assert back.dtype == dtype
+        assert np.array_equal(back, values)
+        assert np.array_equal(engine.numpy(engine.zeros((2, 3), dtype)), np.zeros((2, 3)))
+    assert engine.numpy(engine.array(2.5, "float64")).sum() == 2.5
+
+
+@every_engine
+@every_shape
+@every_type
+def test_periodic_convolutions_agree(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+    rng = np.random.default_rng(shape)
+    kernel = rng.uniform(0.5, 2.0, (shape[0], shape[1] // 2 + 1))
+    kernel[:, 0] = 1.0
+    kernel[:, -1] = 1.0  # real fields: these columns are even
+    for mean_mode in (0.0, 1.0):
+        kernel[0, 0] = mean_mode
+        field = rng.standard_normal(shape)
+        for method in ("apply", "solve"):
+            found, wanted = (
+                convolved(e, e.convolution(kernel, shape, dtype), method, field, dtype) for e in (engine, REFERENCE)
+            )
+            assert found.dtype == dtype
+            agree(found, wanted, 3, dtype)
+
+
+@every_engine
+@every_shape
+@every_type
+def test_free_convolutions_agree(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+    padded = 2 * shape[0] + 1, 2 * shape[1]
+    rng = np.random.default_rng(shape)
+    point = np.zeros(padded)
+    point[0, 0], point[1, 0], point[-1, 0] = 2.0, 0.5, 0.5
+    kernel = np.fft.rfft2(point).real
+    field = rng.standard_normal(shape)
+    for method in ("apply", "solve"):
+        found, wanted = (
+            convolved(e, e.padded_convolution(kernel, shape, padded, dtype), method, field, dtype)
+            for e in (engine, REFERENCE)
+        )
+        agree(found, wanted, 3, dtype)
+    direct = 2.0 * field
+    direct[1:] += 0.5 * field[:-1]
+    direct[:-1] += 0.5 * field[1:]
+    applied = convolved(engine, engine.padded_convolution(kernel, shape, padded, dtype), "apply", field, dtype)
+    agree(applied, direct, 3, dtype)
+
+
+def convolved(engine: Engine, convolution: Any, method: str, field: RealArray, dtype: str) -> RealArray:
+    out = engine.zeros((field.shape[0], field.shape[1]), dtype)
+    returned = getattr(convolution, method)(engine.array(field, dtype), out)
+    assert np.array_equal(engine.numpy(returned), engine.numpy(out)), "the result is in the array that was given"
+    return engine.numpy(out)
+
+
+@every_engine
+@every_shape
+@every_cap
+def test_totals_agree(engine: Engine, shape: tuple[int, int], cap: str) -> None:
+    case = iterate(shape, cap)
+    found, wanted = (values_of(e.totals(*case.on(e))) for e in (engine, REFERENCE))
+    agree(found, wanted, case.p.size)
+
+
+@every_engine
+@every_cap
+@pytest.mark.parametrize("everywhere", ["zero", "between", "full"])
+def test_totals_of_empty_selections(engine: Engine, cap: str, everywhere: str) -> None:
+    case = iterate((5, 8), cap)
+    bound = np.full(case.p.shape, 1.0) if case.cap is None else np.broadcast_to(case.cap, case.p.size).reshape(5, 8)
+    p = {"zero": 0.0 * bound, "between": 0.5 * bound, "full": bound.copy()}[everywhere]
+    case = Iterate(p, case.u, case.h, case.cap, case.level)
+    found, wanted = (e.totals(*case.on(e)) for e in (engine, REFERENCE))
+    agree(values_of(found), values_of(wanted), p.size)
+    assert (found.lowest_open == math.inf) == (everywhere != "zero")
+    assert (found.highest_capped == -math.inf) == (everywhere != "full" or cap == "none")
+
+
+@every_engine
+@every_shape
+@every_cap
+def test_violations_agree(engine: Engine, shape: tuple[int, int], cap: str) -> None:
+    case = iterate(shape, cap)
+    found, wanted = (e.violation(*case.on(e), case.level) for e in (engine, REFERENCE))
+    agree(values_of(found), values_of(wanted), case.p.size)
+
+
+@every_engine
+@every_shape
+@every_cap
+@every_type
+@pytest.mark.parametrize("centred", [False, True])
+def test_a_face_is_worked_on_alike(engine: Engine, shape: tuple[int, int], cap: str, dtype: str, centred: bool) -> None:
+    case = iterate(shape, cap)
+    found, wanted = (work_on_face(e, case, dtype, centred) for e in (engine, REFERENCE))
+    assert found.size == wanted.size
+    assert found.entering == wanted.entering
+    assert found.clipped == wanted.clipped
+    for name in ("residual", "gathered", "direction", "advanced", "sums", "out", "change"):
+        agree(getattr(found, name), getattr(wanted, name), case.p.size, dtype)
+    assert not found.released.any()
+
+
+def work_on_face(engine: Engine, case: Iterate, dtype: str, centred: bool) -> SimpleNamespace:
+    """One conjugate gradient step with made-up numbers; what the field holds after each stage."""
+    rng = np.random.default_rng(3)
+    response = engine.array(rng.standard_normal(case.p.shape), dtype)
+    p, u, h, cap = case.on(engine)
+    field = engine.zeros((case.p.shape[0], case.p.shape[1]), dtype)
+    face = engine.face(p, u, h, cap, case.level, 2.5, field)
+    r = face.residual(centred=centred and face.size > 0)
+    seen = SimpleNamespace(size=face.size, entering=face.entering, residual=engine.numpy(field).copy())
+    d, t = face.zeros(), face.zeros()
+    z, first = face.gather(response, r)
+    t = face.direct(z, 0.25, 0.0, t)
+    t = face.direct(face.gather(response, r)[0], 0.25, 0.5, t)
+    seen.direction = engine.numpy(field).copy()
+    kt, second = face.gather(response, t)
+    d, r = face.advance(0.7, t, kt, 0.125, d, r)
+    d, r = face.advance(0.3, t, kt, 0.125, d, r)
+    seen.advanced = engine.numpy(field).copy()
+    third = face.gather(response, d)[1]
+    seen.gathered = face.gather(response, r)[1]
+    out = engine.array(np.full(case.p.shape, np.nan), "float64")
+    seen.change, seen.clipped = face.pressure(p, d, 0.8, cap, out)
+    seen.out = engine.numpy(out)
+    engine.release(face, field)
+    seen.released = engine.numpy(field)
+    seen.sums = [*first, *second, *third]
+    return seen
+
+
+@every_engine
+@every_cap
+def test_members_of_a_face(engine: Engine, cap: str) -> None:
+    case = iterate((12, 7), cap)
+    bound = np.inf if case.cap is None else case.cap if case.cap.size == 1 else case.cap.reshape(12, 7)
+    gap = case.u - case.h - case.level
+    entering = ((case.p <= 0.0) & (gap < 0.0)) | ((case.p > 0.0) & (case.p >= bound) & (gap > 0.0))
+    inside = entering | ((case.p > 0.0) & (case.p < bound))
+    field = engine.zeros((12, 7), "float64")
+    face = engine.face(*case.on(engine), case.level, 2.0, field)
+    face.residual(centred=False)
+    assert (face.size, face.entering) == (inside.sum(), entering.sum())
+    agree(engine.numpy(field), np.where(inside, -gap / 2.0, 0.0), 1)
+
+
+@every_engine
+@every_type
+def test_an_empty_face(engine: Engine, dtype: str) -> None:
+    p, u, h = (engine.array(values, "float64") for values in (np.zeros((3, 4)), np.ones((3, 4)), np.zeros((3, 4))))
+    field = engine.zeros((3, 4), dtype)
+    face = engine.face(p, u, h, None, 0.5, 1.0, field)
+    r = face.residual(centred=False)
+    assert (face.size, face.entering) == (0, 0)
+    _, sums = face.gather(engine.array(np.ones((3, 4)), dtype), r)
+    assert sums == (0.0, 0.0)
+    out = engine.array(np.ones((3, 4)), "float64")
+    assert face.pressure(p, face.zeros(), 1.0, None, out) == (0.0, 0)
+    engine.release(face, field)
+    assert not engine.numpy(field).any()
+    assert not engine.numpy(out).any()
+
+
+@every_engine
+@every_shape
+def test_plain_passes_agree(engine: Engine, shape: tuple[int, int]) -> None:
+    p, q, u, v, h = np.random.default_rng(shape).standard_normal((5, *shape))
+    arrays = [engine.array(values.copy(), "float64") for values in (p, q, u, v, h)]
+    agree(engine.segment(*arrays), [((u - h) * (q - p)).sum(), ((v - u) * (q - p)).sum()], p.size)
+    a, b = arrays[:2]
+    engine.blend(a, b, 0.25)
+    agree(engine.numpy(b), p + 0.25 * (q - p), 1)
+    assert np.array_equal(engine.numpy(a), p)
+    engine.rescale(b, 4.0)
+    agree(engine.numpy(b), 4.0 * p + (q - p), 1)
+    engine.copy(a, b)
+    assert np.array_equal(engine.numpy(b), p)
+
+
+@every_cap
+def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
+    case = iterate((300, 301), cap)  # several blocks for each of three threads
+    one, three = asp.CpuEngine(1), asp.CpuEngine(3)
+    assert values_of(one.totals(*case.on(one))) == values_of(three.totals(*case.on(three)))
+    if cap != "none":
+        first, second = (values_of(e.violation(*case.on(e), case.level)) for e in (one, three))
+        assert first == second
+    first, second = (work_on_face(e, case, "float32", centred=True) for e in (one, three))
+    for name in vars(first):
+        assert np.array_equal(getattr(first, name), getattr(second, name)), name
+
+
+def test_an_engine_has_a_name() -> None:
+    assert asp.ArrayEngine(np).name == "numpy (cpu)"
+    assert asp.ArrayEngine(array_api_strict).name.startswith("array_api_strict (")
+    assert asp.CpuEngine(2).name.endswith("2 threads)")
+
+
+def test_what_is_no_array_library_is_refused() -> None:
+    with pytest.raises(asp.InputError, match="module such as cupy"):
+        asp.ArrayEngine("cupy")
+
+
+def test_libraries_without_transforms_or_writable_arrays_are_refused() -> None:
+    class Frozen:
+        def __array_namespace__(self, api_version: str | None = None) -> Any:
+            return bare
+
+        def __setitem__(self, key: object, value: object) -> None:
+            raise TypeError
+
+    bare = SimpleNamespace(__name__="bare", zeros=lambda n: Frozen())
+    with pytest.raises(asp.InputError, match="Fourier transforms, but is bare"):
+        asp.ArrayEngine(bare)
+    bare.fft = SimpleNamespace()
+    with pytest.raises(asp.InputError, match="writable arrays, but is bare"):
+        asp.ArrayEngine(bare)
+
+
+TOLERANCE = 1e-9
+MODULUS = 100.0
+LOADS: dict[str, Control] = {"load": asp.MeanPressure(8.0), "approach": asp.Approach(2.0)}
+LAWS: dict[str, InterfaceLaw] = {"elastic": asp.HardWall(), "hardness": asp.Hardness(60.0)}
+BOUNDARIES = {"periodic": asp.Periodic(), "free": asp.Free()}
+
+
+@every_engine
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("control", LOADS)
+@pytest.mark.parametrize("precision", ["mixed", "double"])
+def test_solutions_agree(engine: Engine, boundary: str, law: str, control: str, precision: Any) -> None:
+    surface = rough((65, 70), seed=5, spacing=(0.3, 0.25))
+    problem = asp.ContactProblem(surface, elastic(MODULUS), boundary=BOUNDARIES[boundary], law=LAWS[law])
+    solver = asp.solvers.ActiveSet(tolerance=TOLERANCE, precision=precision)
+    assert_solved_alike(problem, LOADS[control], solver, engine)
+
+
+def assert_solved_alike(problem: asp.ContactProblem, control: Control, solver: Any, engine: Engine) -> None:
+    """(p - q)·K (p - q) <= G(p) + G(q), the duality gaps, each at most tolerance x total pressure x rms height.
+
+    That bounds single points by the smallest eigenvalue of K: contact may differ only where the pressure is below it.
+    """
+    found, wanted = (
+        asp.solve(problem, control, solver=solver, engine=e, keep=asp.Keep(stiffness=False))
+        for e in (engine, REFERENCE)
+    )
+    p, q = found.pressure, wanted.pressure
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    bound = 2.0 * solver.tolerance * problem.profile().std() * max(p.sum(), q.sum())
+    assert ((p - q) * operator.apply(p - q)).sum() <= bound
+    eigenvalues = operator.kernel.ravel()[1 if operator.zero_mean_mode else 0 :]
+    assert eigenvalues.min() > 0.0
+    differ = (p > 0.0) != (q > 0.0)
+    assert np.all(np.maximum(p, q)[differ] <= np.sqrt(bound / eigenvalues.min()))
+    assert found.area_fraction == pytest.approx(wanted.area_fraction, abs=differ.mean() + 1e-15)
+    assert np.abs(p - q).max() <= 1e-7 * q.max(), "in truth they follow the same path, to rounding"
+
+
+def gpu() -> Engine:
+    """Engine on the GPU, if there is one."""
+    try:
+        cupy = importlib.import_module("cupy")
+    except ImportError:
+        pytest.skip("needs a GPU: cupy is not installed")
+    try:
+        return asp.ArrayEngine(cupy)
+    except cupy.cuda.runtime.CUDARuntimeError as error:
+        pytest.skip(f"needs a GPU: cupy finds none ({error})")
+
+
+def test_arrays_and_passes_on_a_gpu() -> None:
+    engine = gpu()
+    test_arrays_go_in_and_out(engine)
+    for shape in SHAPES:
+        test_plain_passes_agree(engine, shape)
+        for dtype in EPS:
+            test_periodic_convolutions_agree(engine, shape, dtype)
+            test_free_convolutions_agree(engine, shape, dtype)
+        for cap in CAPS:
+            test_totals_agree(engine, shape, cap)
+            test_violations_agree(engine, shape, cap)
+            for dtype in EPS:
+                test_a_face_is_worked_on_alike(engine, shape, cap, dtype, centred=True)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("control", LOADS)
+def test_solutions_on_a_gpu(boundary: str, law: str, control: str) -> None:
+    test_solutions_agree(gpu(), boundary, law, control, "mixed")
