@@ -253,7 +253,7 @@ def test_solvers_are_found_by_name(name: str) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("newton",), "solver must be one of conjugate_gradient, .*lemke"),
+        (("newton",), "solver must be one of active_set, conjugate_gradient, .*lemke"),
         (("lemke", 0.0), "tolerance of the solver lemke must be greater than 0 and less than 1"),
         (("lemke", 1e-5, 0), "iteration limit of the solver lemke must be a whole number of at least 1"),
     ],

@@ -242,7 +242,7 @@ def test_documents_do_not_change() -> None:
             "must be greater than zero and at most 0.5",
         ),
         ({"law": {"kind": "hardness", "hardness": "5"}}, "law.hardness must have a unit"),
-        ({"solver": {"method": "magic"}}, "solver.method must be one of conjugate_gradient"),
+        ({"solver": {"method": "magic"}}, "solver.method must be one of active_set, conjugate_gradient"),
         ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than 0 and less than 1"),
         ({"solver": {"tolerance": float("nan")}}, "solver.tolerance must be a finite number"),
         ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number, but is 1.5."),

@@ -134,7 +134,7 @@ def test_solver_settings() -> None:
     case = build(checked(table(solver=settings)))
     assert (case.solver.name, case.solver.tolerance, case.solver.max_iterations) == ("steepest_descent", 1e-3, 7)
     assert case.threads == 1
-    assert build(checked(table())).solver.name == "conjugate_gradient"
+    assert build(checked(table())).solver.name == "active_set"
 
 
 def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:
