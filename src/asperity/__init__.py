@@ -6,6 +6,7 @@ from .contact.boundary import Free, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure
 from .contact.laws import Hardness, HardWall
 from .contact.operators import prepare_operator
+from .contact.path import LoadPath, solve_path
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
 from .contact.solve import Keep, solve
@@ -63,6 +64,7 @@ __all__ = [
     "InputError",
     "InterfaceState",
     "Keep",
+    "LoadPath",
     "MeanGap",
     "MeanPressure",
     "NoSolutionError",
@@ -101,6 +103,7 @@ __all__ = [
     "save_plots",
     "save_surface_plot",
     "solve",
+    "solve_path",
     "solvers",
     "tapered",
     "turned_over",

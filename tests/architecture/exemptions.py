@@ -14,6 +14,8 @@ LIMITS: dict[str, dict[str, str]] = {
     },
     "parameters": {
         "asperity.contact.assemble.assemble": "gathers what the separate stages of a solve produced, in one place",
+        "asperity.contact.path.solve_path": "the choices of solve, for a sequence of controls",
+        "asperity.contact.path.steps": "the choices of solve, for a sequence of controls",
         "asperity.contact.solve.solve": "independent keyword-only choices of the user, each with a default",
     },
     "public methods": {},
