@@ -4,7 +4,7 @@
 #   make test       the test suite (with CI=true: all of it, else without the tests marked slow)
 #   make test-all   all of the test suite
 #   make lint       style and types
-#   make bench      speed, as ratios
+#   make bench      speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
 #   make clean      remove the environment and everything that was built
 #
 # PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes.
@@ -44,7 +44,7 @@ lint: $(DEV_OK)
 	$(BIN)/mypy
 
 bench: $(DEV_OK)
-	$(BIN)/python benchmarks/run.py
+	$(BIN)/python benchmarks/run.py $(BENCH)
 
 clean:
 	rm -rf $(VENV) build dist demo-run .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks .coverage

@@ -1,85 +1,93 @@
-"""Cost of the default solver in units of a bare FFT pair of the same grid, both timed in this run.
+"""Our solvers, a bare FFT pair and other packages on the same surfaces in one interleaved run.
 
-Usage: python benchmarks/run.py [--sizes 256 512 1024] [--threads 1]
+Usage: python benchmarks/run.py [--sizes 256 512 1024] [--threads 2] [--repeats 3] [--out folder]
+Ends with an error if the solvers do not agree on contact area and pressure.
 """
 
 from __future__ import annotations
 
 import argparse
-import platform
-import statistics
-import time
-from collections.abc import Callable
+import sys
+from pathlib import Path
 
 import numpy as np
+from figure import draw
+from history import histories
+from measure import Rounds, Row, problem_rows
+from ours import SOLVERS
+from peers import PEERS, installed
+from report import HEADER, line, machine, write
+from surfaces import LOADS, self_affine
+from worker import Worker, start
 
-import asperity as asp
-from asperity.core.spectral import RealTransform, fft_library
+from asperity.core.spectral import thread_count
 
-LOADS = (0.01, 0.05, 0.2)
-"""Mean pressure over contact modulus, at unit rms slope."""
-
-
-def median_seconds(work: Callable[[], object], repeats: int) -> float:
-    """Median wall time of ``work`` after one warm-up."""
-    work()
-    seconds = []
-    for _ in range(repeats):
-        started = time.perf_counter()
-        work()
-        seconds.append(time.perf_counter() - started)
-    return statistics.median(seconds)
+_LARGEST_HISTORY = 1024
 
 
-def pair_seconds(n: int, threads: int) -> float:
-    """Median time of one real transform pair with preallocated outputs."""
-    transform = RealTransform((n, n), threads)
-    field = np.random.default_rng(0).standard_normal((n, n))
-    spectrum, back = transform.forward(field), np.empty_like(field)
-    return median_seconds(lambda: transform.backward(transform.forward(field, spectrum), back), 15)
+def options() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--sizes", type=int, nargs="+", default=[256, 512, 1024], help="points per side")
+    parser.add_argument("--loads", type=float, nargs="+", default=list(LOADS), help="mean pressure over E*")
+    parser.add_argument("--threads", type=int, default=thread_count(), help="threads of every solver (all cores)")
+    parser.add_argument("--repeats", type=int, default=3, help="rounds")
+    parser.add_argument("--patience", type=float, default=20.0, help="do not repeat what took longer (s)")
+    parser.add_argument("--tolerance", type=float, default=1e-6, help="the field's error")
+    parser.add_argument("--peers", nargs="*", choices=PEERS, default=list(PEERS), help="other packages")
+    parser.add_argument("--solvers", nargs="+", choices=list(SOLVERS), default=["asperity"], help="ours")
+    parser.add_argument("--out", type=Path, default=Path(__file__).parent / "results", help="folder of the results")
+    return parser.parse_args()
 
 
-def self_affine(n: int) -> asp.Surface:
-    """Periodic surface of Hurst exponent 0.8, roll-off L/4, cut-off 8 pixels, unit rms slope."""
-    spectrum = asp.generate.SelfAffine(
-        amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=n / 4, shortest_wavelength=8.0
-    )
-    return asp.generate.gaussian(asp.Grid((n, n), (1.0, 1.0)), spectrum, seed=1)
+def workers(solvers: list[str], peers: list[str], threads: int) -> list[Worker]:
+    """One process for each solver there is; the others are named, never left out in silence."""
+    started = [start(kind, threads) for kind in solvers]
+    for peer in peers:
+        if installed(peer):
+            started.append(start(peer, threads))
+        else:
+            print(f"{peer}: not installed (pip install 'asperity[bench]'; see benchmarks/README.md)")
+    return started
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sizes", type=int, nargs="+", default=[256, 512, 1024])
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--tolerance", type=float, default=1e-6)
-    options = parser.parse_args()
+def compare(given: argparse.Namespace, solvers: list[Worker], pair: Worker) -> list[Row]:
+    """All problems, printed as they come."""
+    rounds = Rounds(given.repeats, given.patience, given.tolerance)
+    rows = []
+    print(HEADER)
+    for n in given.sizes:
+        heights = np.array(self_affine(n).heights)
+        for load in given.loads:
+            new = problem_rows(solvers, pair, heights, load, rounds)
+            rows += new
+            print("\n".join(line(row) for row in new), flush=True)
+        print(f"{n:>5}       bare FFT pair {1e3 * new[0].pair_seconds:.2f} ms", flush=True)
+    return rows
 
-    print(
-        f"asperity {asp.__version__}, {fft_library()}, {options.threads} thread(s), numpy {np.__version__}, "
-        f"python {platform.python_version()}, {platform.machine()}"
-    )
-    print("self-affine, H = 0.8, roll-off L/4, cut-off 8 pixels, rms slope 1, periodic; tolerance", options.tolerance)
-    print(
-        f"{'n':>5} {'load':>5} {'area':>7} {'iter':>5} {'pairs':>6} {'time/s':>7} {'pair/ms':>8} {'time/(pairs*pair)':>18}"
-    )
-    for n in options.sizes:
-        pair = pair_seconds(n, options.threads)
-        problem = asp.ContactProblem(self_affine(n), asp.Elastic(0.91, 0.3))
-        operator = asp.prepare_operator(
-            problem.compliance, problem.grid, problem.boundary, engine=asp.CpuEngine(options.threads)
-        )
-        solver = asp.solvers.ConjugateGradient(tolerance=options.tolerance)
-        for load in LOADS:
-            result = asp.solve(
-                problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=asp.Keep(stiffness=False)
-            )
-            work = result.certificate
-            ratio = work.wall_time / (work.fft_pairs * pair)
-            print(
-                f"{n:>5} {load:>5} {result.area_fraction:>7.4f} {work.iterations:>5} {work.fft_pairs:>6.0f} "
-                f"{work.wall_time:>7.2f} {1e3 * pair:>8.2f} {ratio:>18.2f}"
-            )
+
+def main() -> int:
+    given = options()
+    about = machine() | {"tolerance": given.tolerance, "threads": given.threads}
+    print(", ".join(f"{key} {value}" for key, value in about.items()))
+    pair = start("fft pair", given.threads)
+    solvers = workers(given.solvers, given.peers, given.threads)
+    about["solvers"] = {worker.name: f"{worker.version}, {worker.threads} thread(s)" for worker in solvers}
+    print("\n".join(f"{name}: {text}" for name, text in about["solvers"].items()))
+    print(f"fft pair: {pair.version}, {pair.threads} thread(s)")
+    rows = compare(given, solvers, pair)
+    for worker in (pair, *solvers):
+        worker.close()
+    write(given.out, rows, about)
+    n, load = min(max(given.sizes), _LARGEST_HISTORY), given.loads[len(given.loads) // 2]
+    curves = histories(np.array(self_affine(n).heights), load, given.threads)
+    draw(given.out / "bench.png", rows, curves, f"{n}², load {load}, {given.threads} thread(s)")
+    print(f"written: {given.out}/bench.json, bench.csv, bench.png")
+    faults = [row for row in rows if row.fault]
+    for row in faults:
+        print(f"DISAGREES: {row.solver}, {row.n}², load {row.load}: {row.fault}", file=sys.stderr)
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

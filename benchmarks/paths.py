@@ -1,0 +1,95 @@
+"""A load path against cold solves of its steps, and free against periodic boundaries.
+
+Usage: python benchmarks/paths.py [--sizes 512 1024] [--steps 20] [--threads 2]
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from collections.abc import Callable
+
+import numpy as np
+from checks import relative_l2
+from surfaces import BODY, self_affine
+
+import asperity as asp
+from asperity.contact.path import solve_path
+from asperity.core.spectral import thread_count
+
+_LEAST, _MOST = 0.01, 0.2
+_KEEP = asp.Keep(stiffness=False)
+
+
+def timed(work: Callable[[], list[asp.ContactResult]]) -> tuple[float, list[asp.ContactResult]]:
+    """Wall time (s) and results of ``work``."""
+    started = time.perf_counter()
+    results = work()
+    return time.perf_counter() - started, results
+
+
+def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, threads: int) -> str:
+    """Row: path, cold solves, their ratio in time and in FFT pairs, largest difference of the pressures."""
+    controls = [asp.MeanPressure(float(load)) for load in np.linspace(_LEAST, _MOST, steps)]
+    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.CpuEngine(threads)
+
+    def along() -> list[asp.ContactResult]:
+        return list(solve_path(problem, controls, solver=solver, engine=engine, keep=_KEEP).results)
+
+    def cold() -> list[asp.ContactResult]:
+        return [asp.solve(problem, control, solver=solver, engine=engine, keep=_KEEP) for control in controls]
+
+    path_seconds, path = timed(along)
+    cold_seconds, alone = timed(cold)
+    pairs, cold_pairs = (sum(result.certificate.fft_pairs for result in some) for some in (path, alone))
+    apart = max(relative_l2(one.pressure, other.pressure) for one, other in zip(path, alone, strict=True))
+    return (
+        f"{path_seconds:>9.2f} {cold_seconds:>9.2f} {path_seconds / cold_seconds:>6.2f} {pairs:>7.0f} {cold_pairs:>7.0f} "
+        f"{pairs / cold_pairs:>6.2f} {apart:>9.1e}"
+    )
+
+
+def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, threads: int, repeats: int) -> str:
+    """Row: medians of periodic and free solves (alternating), their ratio, FFT pairs of each."""
+    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.CpuEngine(threads)
+    seconds: dict[str, list[float]] = {"periodic": [], "free": []}
+    pairs: dict[str, float] = {}
+    problems = {
+        "periodic": asp.ContactProblem(surface, BODY),
+        "free": asp.ContactProblem(surface, BODY, boundary=asp.Free()),
+    }
+    for _ in range(repeats):
+        for name, problem in problems.items():
+            result = asp.solve(problem, asp.MeanPressure(load), solver=solver, engine=engine, keep=_KEEP)
+            seconds[name].append(result.certificate.wall_time)
+            pairs[name] = result.certificate.fft_pairs
+    periodic, free = (statistics.median(seconds[name]) for name in ("periodic", "free"))
+    return f"{periodic:>9.3f} {free:>9.3f} {free / periodic:>6.2f} {pairs['periodic']:>9.0f} {pairs['free']:>9.0f}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
+    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--load", type=float, default=0.05, help="mean pressure of the comparison of boundaries")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=thread_count())
+    parser.add_argument("--tolerance", type=float, default=1e-6)
+    given = parser.parse_args()
+    print(f"asperity {asp.__version__}, {given.threads} thread(s), tolerance {given.tolerance}")
+    compare_boundaries(self_affine(128), given.load, 1e-4, given.threads, 1)  # compiles
+    print(f"path of {given.steps} loads {_LEAST} to {_MOST}: seconds, FFT pairs (of path and of cold solves), ratios")
+    print("    n    path/s    cold/s  ratio    path    cold  ratio  L2 apart")
+    for n in given.sizes:
+        problem = asp.ContactProblem(self_affine(n), BODY)
+        print(f"{n:>5} {compare_path(problem, given.steps, given.tolerance, given.threads)}", flush=True)
+    print(f"boundaries at load {given.load}: solver seconds, ratio, FFT pairs of the grid")
+    print("    n periodic/s    free/s  ratio  periodic      free")
+    for n in given.sizes:
+        row = compare_boundaries(self_affine(n), given.load, given.tolerance, given.threads, given.repeats)
+        print(f"{n:>5} {row}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,78 @@
+"""Where a solve spends its time: transforms, each compiled pass, and what is left.
+
+Usage: python benchmarks/where_time_goes.py [--sizes 1024] [--load 0.05] [--threads 2]
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from surfaces import BODY, self_affine
+
+import asperity as asp
+from asperity.core.engine.cpu import Blocks
+from asperity.core.spectral import RealTransform, thread_count
+
+
+@contextmanager
+def watched(spent: dict[str, list[float]]) -> Iterator[None]:
+    """Add the duration of every transform and compiled pass to ``spent`` by its name."""
+    originals = [
+        (RealTransform, "forward", lambda transform, *_: f"transform {transform.shape[0]}"),
+        (RealTransform, "backward", lambda transform, *_: f"transform {transform.shape[0]}"),
+        (Blocks, "run", lambda _, kernel, size, *__: f"pass {kernel.__name__}"),
+    ]
+    saved = [(owner, name, getattr(owner, name)) for owner, name, _ in originals]
+    for owner, name, label in originals:
+        setattr(owner, name, _timed(getattr(owner, name), label, spent))
+    try:
+        yield
+    finally:
+        for owner, name, method in saved:
+            setattr(owner, name, method)
+
+
+def _timed(method: Callable[..., Any], label: Callable[..., str], spent: dict[str, list[float]]) -> Callable[..., Any]:
+    def wrapper(*arguments: Any) -> Any:
+        started = time.perf_counter()
+        answer = method(*arguments)
+        spent[label(*arguments)].append(time.perf_counter() - started)
+        return answer
+
+    return wrapper
+
+
+def show(n: int, load: float, tolerance: float, threads: int) -> None:
+    """Table of one solve, the most expensive first."""
+    problem, engine = asp.ContactProblem(self_affine(n), BODY), asp.CpuEngine(threads)
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    solver, keep = asp.solvers.ActiveSet(tolerance=tolerance), asp.Keep(stiffness=False)
+    spent: dict[str, list[float]] = defaultdict(list)
+    asp.solve(problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=keep)
+    with watched(spent):
+        result = asp.solve(problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=keep)
+    work = result.certificate
+    print(f"{n}², load {load}: {work.wall_time:.3f} s, {work.fft_pairs:.1f} pairs, {work.iterations} iterations")
+    spent["everything else"].append(work.wall_time - sum(map(sum, spent.values())))
+    for name, seconds in sorted(spent.items(), key=lambda item: -sum(item[1])):
+        print(f"  {name:<28} {len(seconds):>5} × {1e3 * sum(seconds):>9.1f} ms {sum(seconds) / work.wall_time:>7.1%}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--sizes", type=int, nargs="+", default=[1024])
+    parser.add_argument("--load", type=float, default=0.05)
+    parser.add_argument("--tolerance", type=float, default=1e-6)
+    parser.add_argument("--threads", type=int, default=thread_count())
+    given = parser.parse_args()
+    for n in given.sizes:
+        show(n, given.load, given.tolerance, given.threads)
+
+
+if __name__ == "__main__":
+    main()
