@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import time
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -42,7 +43,10 @@ def _serve(kind: str, threads: int, link: Connection) -> None:
             link.send(RuntimeError(f"{method.name} does not take grids of {heights.shape[0]} points per side."))
             continue
         try:
-            link.send(method.solve(heights, load, tolerance))
+            began = time.process_time()
+            solved = method.solve(heights, load, tolerance)
+            solved.counts["cpu_seconds"] = time.process_time() - began
+            link.send(solved)
         except Exception as error:
             link.send(RuntimeError(str(error)))
 
