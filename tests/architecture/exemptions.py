@@ -5,6 +5,7 @@ from __future__ import annotations
 LIMITS: dict[str, dict[str, str]] = {
     "file lines": {},
     "function lines": {
+        "asperity.core.engine.kernels.assess": "one pass over memory for all sums; splitting it would read the fields twice",
         "asperity.contact.assemble.assemble": "one line for each field of the result",
         "asperity.contact.solve.solve": "one call per stage, laid out by the formatter; no loop and no nesting",
         "asperity.contact.solvers.conjugate_gradient._conjugate_step": (
@@ -13,12 +14,22 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.surfaces.surface.Surface.__init__": "one check for each way a height map can be unusable",
     },
     "parameters": {
+        "asperity.co...face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
+        "asperity.core.engine.cpu.CpuEngine.face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
+        "asperity.core.engine.generic.ArrayEngine.face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
+        "asperity.core.engine.kernels.advance": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.count_face": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.direct": "a compiled pass takes its arrays and numbers one by one",
         "asperity.contact.assemble.assemble": "gathers what the separate stages of a solve produced, in one place",
         "asperity.contact.path.solve_path": "the choices of solve, for a sequence of controls",
         "asperity.contact.path.steps": "the choices of solve, for a sequence of controls",
         "asperity.contact.solve.solve": "independent keyword-only choices of the user, each with a default",
     },
-    "public methods": {},
+    "public methods": {
+        "asperity.core.engine.protocol.Engine": "one method per pass over memory; the solver is written once against them",
+        "asperity.core.engine.cpu.CpuEngine": "the passes of the protocol",
+        "asperity.core.engine.generic.ArrayEngine": "the passes of the protocol",
+    },
 }
 """Reason by limit and dotted name. It says why splitting would read worse; "it is long" is none."""
 

@@ -40,7 +40,9 @@ def test_the_examples_of_loading_and_unloading(scan):
     first, second = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
     names = {"scan": scan, "asp": asp, "np": np}
     exec(compile(first, "first block", "exec"), names)  # noqa: S102 - running the page is the test
-    assert names["again"].plastic_work <= 1e-6 * names["loaded"].plastic_work
+    # each of the two solves is uncertain in energy by its field error times load times rms height, some times over
+    again, rms = names["again"], scan.heights.std()
+    assert again.plastic_work <= 10.0 * again.certificate.tolerance * again.force * rms
     assert names["loaded"].plastic_work > 0.0
     exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
     assert names["result"].mean_pressure == pytest.approx(500e6)

@@ -9,47 +9,38 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.engine import Convolution, Engine, Face, Totals
+from ...core.engine import Face, Totals
+from .correction import Direction, carried, correction
 from .feasible import feasible_start, scaled_to_load
 from .nested import nested_start
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 from .steepest_descent import descend, levelling_step
+from .workspace import Workspace, workspace
 
 _COARSE_TOLERANCE = 1e-2
 _COARSE_ITERATIONS = 30
-_UNSTEADY_STEPS = 3
-_STEADY_STEPS = 14
+_UNSETTLED_STEPS = 2
+_SETTLED_STEPS = 14
 _REDUCTION = 0.25
 _SMALLEST_REDUCTION = 1e-4
-_STEADY = 1e-3
+_MARGIN = 0.6
+_CARRIED = 0.1
+_LEAST_SHARE = 0.1
+_MOST_SETBACKS = 4
 _ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
-class _Workspace:
-    """Prepared convolutions and buffers of one problem. Lengths are in m, the kernels over ``scale`` (m/Pa)."""
-
-    engine: Engine
-    heights: Any
-    cap: Any
-    double: Convolution
-    fast: Convolution
-    preconditioner: Convolution
-    scale: float
-    field: Any
-    response: Any
-    pressures: tuple[Any, Any]
-    deflections: tuple[Any, Any]
-
-
-@dataclass(frozen=True, eq=False)
 class _Memory:
-    """Where the iterate lies (``side`` of the buffers), its sums, and whether its working set has settled."""
+    """Where the iterate lies (``side`` of the buffers), its sums, how many points the last step clipped, the last
+    search direction, and how many steps had to be replaced so far: each doubles the effort put into the next."""
 
-    work: _Workspace
+    work: Workspace
     side: int
     totals: Totals
-    steady: bool
+    clipped: int
+    last: Direction | None = None
+    setbacks: int = 0
 
 
 @dataclass(frozen=True)
@@ -91,11 +82,11 @@ class ActiveSet:
             begin, pairs = nested_start(qp, coarse)
         else:
             begin, pairs = feasible_start(qp, start), 0.0
-        work = _workspace(qp, self.precision)
+        work = workspace(qp, self.precision)
         work.engine.copy(work.engine.array(begin, "float64"), work.pressures[0])
         work.double.apply(work.pressures[0], work.deflections[0])
         totals = work.engine.totals(work.pressures[0], work.deflections[0], work.heights, work.cap)
-        state = _state(qp, _Memory(work, 0, totals, steady=False))
+        state = _state(qp, _Memory(work, 0, totals, clipped=1))
         return replace(state, applications=1, extra_pairs=pairs)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
@@ -106,14 +97,13 @@ class ActiveSet:
         engine, p, u = work.engine, work.pressures[here], work.deflections[here]
         level = _level(qp, memory.totals)
         face = engine.face(p, u, work.heights, work.cap, level, qp.height_scale, work.field)
-        correction, steps = _correction(qp, work, face, *self._reduction(memory, state.error))
+        d, steps, last = correction(qp, work, face, _carried(memory, face), *self._effort(memory, face, state.error))
         q, v = work.pressures[there], work.deflections[there]
-        change, clipped = face.pressure(p, correction, qp.height_scale / work.scale, work.cap, q)
+        change, clipped = face.pressure(p, d, qp.height_scale / work.scale, work.cap, q)
         engine.release(face, work.field)
         _restore_load(qp, work, q, memory.totals.pressure + change)
         work.double.apply(q, v)
         totals = engine.totals(q, v, work.heights, work.cap)
-        steady = clipped + face.entering <= _STEADY * face.size
         totals, descended = _monotone(memory, there, totals)
         spent = replace(
             state,
@@ -123,61 +113,29 @@ class ActiveSet:
         )
         if not descended:
             return _gradient_step(qp, memory, spent)
-        new = _state(qp, _Memory(work, there, totals, steady))
+        new = _state(qp, _Memory(work, there, totals, clipped, last, memory.setbacks))
         return replace(new, iterations=spent.iterations, applications=spent.applications, extra_pairs=spent.extra_pairs)
 
-    def _reduction(self, memory: _Memory, error: float) -> tuple[float, int]:
-        """Relative residual at which to stop a correction, and the largest number of its steps."""
-        if not memory.steady:
-            return _REDUCTION, _UNSTEADY_STEPS
-        wanted = 0.2 * self.tolerance / error if error > 0.0 else 1.0
-        return min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _STEADY_STEPS
+    def _effort(self, memory: _Memory, face: Face, error: float) -> tuple[float, int]:
+        """Relative residual at which to stop a correction, and the largest number of its steps.
+
+        Accuracy is wasted on a set that will change: only once no point enters or leaves is the system solved to what
+        the tolerance asks for.
+        """
+        if face.entering or memory.clipped:
+            return _REDUCTION, _UNSETTLED_STEPS << min(memory.setbacks, _MOST_SETBACKS)
+        wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+        return min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _SETTLED_STEPS
 
 
-def _workspace(qp: ContactQP, precision: str) -> _Workspace:
-    operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
-    dtype = "float64" if precision == "double" else "float32"
-    kernel = operator.kernel
-    scale = float(np.abs(kernel).max()) or 1.0
-    datum = -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else 0.0
-    heights = qp.profile + datum if datum else qp.profile - qp.profile.mean()
-    return _Workspace(
-        engine=engine,
-        heights=engine.array(heights, "float64"),
-        cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), "float64"),
-        double=operator.convolution("float64"),
-        fast=operator.convolution(dtype, scale),
-        preconditioner=operator.preconditioner(dtype, scale),
-        scale=scale,
-        field=engine.zeros(shape, dtype),
-        response=engine.zeros(shape, dtype),
-        pressures=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
-        deflections=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
-    )
+def _carried(memory: _Memory, face: Face) -> Direction | None:
+    """Last search direction on the new ``face``, if the set has changed so little that it still helps."""
+    if memory.last is None or memory.clipped + face.entering > _CARRIED * face.size:
+        return None
+    return carried(memory.work, face, memory.last)
 
 
-def _correction(qp: ContactQP, work: _Workspace, face: Face, reduction: float, limit: int) -> tuple[Any, int]:
-    """Vector d with K d = residual on ``face``, d summing to zero under load; conjugate gradient steps taken."""
-    centred = isinstance(qp.constraint, FixedMean)
-    r, d, t = face.residual(centred=centred), face.zeros(), face.zeros()
-    first = previous = 0.0
-    for step in range(limit):
-        work.preconditioner.solve(work.field, work.response)
-        z, (total, product) = face.gather(work.response, r)
-        mean = total / face.size if centred else 0.0
-        if product <= 0.0 or (step and product < reduction**2 * first):
-            return d, step
-        t = face.direct(z, mean, product / previous if step else 0.0, t)
-        first, previous = first or product, product
-        work.fast.apply(work.field, work.response)
-        kt, (total, curvature) = face.gather(work.response, t)
-        if curvature <= 0.0:
-            return d, step
-        d, r = face.advance(product / curvature, t, kt, total / face.size if centred else 0.0, d, r)
-    return d, limit
-
-
-def _restore_load(qp: ContactQP, work: _Workspace, pressure: Any, total: float) -> None:
+def _restore_load(qp: ContactQP, work: Workspace, pressure: Any, total: float) -> None:
     """Scale the clipped ``pressure`` (in place) back to the prescribed load."""
     if not isinstance(qp.constraint, FixedMean):
         return
@@ -217,6 +175,8 @@ def _monotone(memory: _Memory, there: int, totals: Totals) -> tuple[Totals, bool
     if slope >= 0.0 or curvature <= 0.0:
         return totals, False
     share = min(1.0, -slope / curvature)
+    if share < _LEAST_SHARE:
+        return totals, False
     work.engine.blend(p, q, share)
     work.engine.blend(u, v, share)
     return work.engine.totals(q, v, work.heights, work.cap), True
@@ -232,7 +192,7 @@ def _gradient_step(qp: ContactQP, memory: _Memory, spent: SolverState) -> Solver
     work.engine.copy(work.engine.array(lower.pressure, "float64"), work.pressures[there])
     work.engine.copy(work.engine.array(lower.deflection, "float64"), work.deflections[there])
     totals = work.engine.totals(work.pressures[there], work.deflections[there], work.heights, work.cap)
-    new = _state(qp, _Memory(work, there, totals, steady=False))
+    new = _state(qp, _Memory(work, there, totals, clipped=1, setbacks=memory.setbacks + 1))
     return replace(
         new,
         iterations=spent.iterations,
@@ -250,7 +210,7 @@ def _state(qp: ContactQP, memory: _Memory) -> SolverState:
     return SolverState(work.engine.numpy(p), work.engine.numpy(u), error, memory=memory)
 
 
-def _relative_error(qp: ContactQP, work: _Workspace, p: Any, u: Any, totals: Totals) -> float:
+def _relative_error(qp: ContactQP, work: Workspace, p: Any, u: Any, totals: Totals) -> float:
     if isinstance(qp.constraint, FixedMean) and work.cap is None:
         return (totals.work - totals.lowest * totals.pressure) / (totals.pressure * qp.height_scale)
     found = work.engine.violation(p, u, work.heights, work.cap, _level(qp, totals))

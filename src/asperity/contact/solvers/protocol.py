@@ -124,7 +124,8 @@ class Solution:
 
 
 PATIENCE = 500
-"""Iterations without a new smallest error after which a method counts as stagnated."""
+LEAST_PATIENCE = 20
+"""Iterations without a new smallest error after which a method counts as stagnated: a quarter of its limit, within these."""
 
 
 def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress: Progress | None = None) -> Solution:
@@ -133,9 +134,10 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
     state = solver.init(qp, start)
     errors = [state.error]
     best_at = 0
+    patience = min(PATIENCE, max(LEAST_PATIENCE, solver.max_iterations // 4))
     while True:
         report.update(state.iterations, state.error, solver.tolerance)
-        stagnated = state.exhausted or len(errors) - 1 - best_at >= PATIENCE
+        stagnated = state.exhausted or len(errors) - 1 - best_at >= patience
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
             return Solution(state, _status(solver, state, stagnated), tuple(errors))
         state = solver.step(qp, state)

@@ -68,8 +68,8 @@ def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState
     p = state.pressure
     gradient = state.deflection - qp.profile
     downhill = _free_gradient(qp, p, gradient)
-    if isinstance(qp.constraint, FixedOffset):
-        gradient = gradient + qp.constraint.offset
+    # at fixed load a constant is irrelevant to the energy, but rounding grows with it
+    gradient += qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else -gradient.mean()
     length = _exact_length(qp, downhill) or pixel_step
     applications = state.applications + 1
     for _ in range(_HALVINGS):

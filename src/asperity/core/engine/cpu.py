@@ -156,7 +156,7 @@ class CpuFace:
 
     def residual(self, *, centred: bool) -> RealArray:
         """Residual vector, laid out in the field."""
-        if centred:
+        if centred and self.size:
             self.start[...] -= self.start.mean(dtype=np.float64)
         self.blocks.run(self.blocks.kernels.scatter, self.size, self.index, self.start, self.field)
         return self.start
@@ -164,6 +164,18 @@ class CpuFace:
     def zeros(self) -> RealArray:
         """Vector of zeros."""
         return np.zeros_like(self.start)
+
+    def lay(self, values: RealArray) -> None:
+        """Lay ``values`` out in the field."""
+        self.blocks.run(self.blocks.kernels.scatter, self.size, self.index, values, self.field)
+
+    def copied(self, values: RealArray) -> RealArray:
+        """Copy of ``values``."""
+        return values.copy()
+
+    def product(self, a: RealArray, b: RealArray) -> float:
+        """Sum of a b."""
+        return float(self.blocks.sums(self.blocks.kernels.dot, self.size, 1, a, b).sum())
 
     def gather(self, field: RealArray, other: RealArray) -> tuple[RealArray, tuple[float, float]]:
         """Vector of ``field`` (in scratch memory), its sum and its product with ``other``."""

@@ -142,6 +142,18 @@ class ArrayFace:
         """Vector of zeros."""
         return self.library.xp.zeros_like(self.start)
 
+    def lay(self, values: Any) -> None:
+        """Lay ``values`` out in the field."""
+        self.field[...] = values
+
+    def copied(self, values: Any) -> Any:
+        """``values``, which nothing changes in place."""
+        return values
+
+    def product(self, a: Any, b: Any) -> float:
+        """Sum of a b."""
+        return self.library.numbers([self._sum(a * b)])[0]
+
     def gather(self, field: Any, other: Any) -> tuple[Any, tuple[float, float]]:
         """Vector of ``field``, its sum and its product with ``other``."""
         values = self.library.select(self.inside, field)

@@ -82,7 +82,7 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
             room = cap[i * each] - pi
             if gap > 0.0:
                 above += gap * pi
-            elif room > 0.0:
+            elif gap < 0.0 and room > 0.0:
                 deepest = max(deepest, -gap)
                 below -= gap * room
         sums[b, 0] = above
@@ -228,3 +228,13 @@ def segment(span, p, q, u, v, h, sums):  # type: ignore[no-untyped-def]
             curvature += step * (np.float64(v[i]) - u[i])
         sums[b, 0] = slope
         sums[b, 1] = curvature
+
+
+@_compiled
+def dot(span, a, b, sums):  # type: ignore[no-untyped-def]
+    """Per block: sum a·b."""
+    for block in range(span[0], span[1]):
+        total = 0.0
+        for k in range(block * BLOCK, min((block + 1) * BLOCK, a.size)):
+            total += np.float64(a[k]) * b[k]
+        sums[block, 0] = total

@@ -64,6 +64,15 @@ class Face(Protocol):
     def zeros(self) -> Any:
         """Vector of zeros."""
 
+    def lay(self, values: Any) -> None:
+        """Lay the vector ``values`` out in the field."""
+
+    def copied(self, values: Any) -> Any:
+        """Copy of the vector ``values`` that later calls leave alone (``gather`` reuses its memory)."""
+
+    def product(self, a: Any, b: Any) -> float:
+        """Sum of a b, two vectors."""
+
     def gather(self, field: Any, other: Any) -> tuple[Any, tuple[float, float]]:
         """Vector of ``field``, with its sum and its product with the vector ``other``."""
 
