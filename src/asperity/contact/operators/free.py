@@ -56,7 +56,7 @@ class FreeOperator:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         return self.engine.padded_convolution(self.kernel / scale, self.grid.shape, self._padded, dtype)
 
-    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
         return self.engine.convolution(spectral_kernel(self.compliance, self.grid) / scale, self.grid.shape, dtype)
 

@@ -42,9 +42,9 @@ class PeriodicOperator:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         return self.engine.convolution(self.kernel / scale, self.grid.shape, dtype)
 
-    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` divides by the compliance over ``scale``."""
-        return self.convolution(dtype, scale)
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the compliance over ``scale``: the application ``fast`` itself."""
+        return fast
 
     @cached_property
     def coarsened(self) -> PeriodicOperator:

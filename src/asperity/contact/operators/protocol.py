@@ -49,8 +49,11 @@ class Operator(Protocol):
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared application, divided by ``scale``, on arrays of the engine in the precision ``dtype``."""
 
-    def preconditioner(self, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` approximates the inverse of the operator over ``scale``."""
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` approximates the inverse of the operator over ``scale``.
+
+        ``fast`` is the prepared application of the same precision and scale, to be shared where it serves.
+        """
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa; a new array."""

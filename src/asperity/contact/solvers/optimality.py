@@ -41,11 +41,10 @@ def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: f
     Infinite if r < lambda anywhere without a cap (weak duality of the quadratic programme, Kalker 1977).
     """
     gap = r - at
-    above = float((np.maximum(gap, 0.0) * pressure).sum())
-    overlap = np.maximum(-gap, 0.0)
     if not isinstance(cap, np.ndarray) and cap == np.inf:
-        return np.inf if overlap.any() else above
-    return above + float((overlap * (cap - pressure)).sum())
+        return np.inf if gap.min() < 0.0 else float(np.vdot(gap, pressure))
+    above = float(np.vdot(np.maximum(gap, 0.0), pressure))
+    return above + float(np.vdot(np.maximum(-gap, 0.0), cap - pressure))
 
 
 def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> float:

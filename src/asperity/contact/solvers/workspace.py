@@ -36,13 +36,14 @@ def workspace(qp: ContactQP, precision: str) -> Workspace:
     scale = float(np.abs(kernel).max()) or 1.0
     datum = -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else 0.0
     heights = qp.profile + datum if datum else qp.profile - qp.profile.mean()
+    fast = operator.convolution(dtype, scale)
     return Workspace(
         engine=engine,
         heights=engine.array(heights, "float64"),
         cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), "float64"),
         double=operator.convolution("float64"),
-        fast=operator.convolution(dtype, scale),
-        preconditioner=operator.preconditioner(dtype, scale),
+        fast=fast,
+        preconditioner=operator.preconditioner(fast, dtype, scale),
         scale=scale,
         field=engine.zeros(shape, dtype),
         response=engine.zeros(shape, dtype),

@@ -92,24 +92,21 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
 
 @_compiled
 def count_face(span, p, u, h, cap, level, counts):  # type: ignore[no-untyped-def]
-    """Per block: number of points of the working set, and of those entering it from a bound."""
-    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    """Per block: number of points of the working set, and of those entering it from a bound.
+
+    Without branches: which points belong is as random as the surface, and a processor cannot guess it.
+    """
+    each = 1 if cap.size > 1 else 0
     for b in range(span[0], span[1]):
         members = 0
         entering = 0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            below = p[i] <= 0.0
-            at_cap = p[i] >= cap[i * each]
-            if below:
-                if np.float64(u[i]) - h[i] < level:
-                    members += 1
-                    entering += 1
-            elif at_cap:
-                if np.float64(u[i]) - h[i] > level:
-                    members += 1
-                    entering += 1
-            else:
-                members += 1
+            gap = np.float64(u[i]) - h[i] - level
+            open_ = int(p[i] <= 0.0)
+            full = int(p[i] >= cap[i * each])
+            enters = open_ * int(gap < 0.0) + (1 - open_) * full * int(gap > 0.0)
+            entering += enters
+            members += enters + (1 - open_) * (1 - full)
         counts[b, 0] = members
         counts[b, 1] = entering
 
@@ -117,14 +114,12 @@ def count_face(span, p, u, h, cap, level, counts):  # type: ignore[no-untyped-de
 @_compiled
 def fill_face(span, p, u, h, cap, level, scale, starts, index, residual):  # type: ignore[no-untyped-def]
     """Indices of the working set in order, and (level - r) / scale there."""
-    each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
+    each = 1 if cap.size > 1 else 0
     for b in range(span[0], span[1]):
         k = starts[b]
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            below = p[i] <= 0.0
-            at_cap = p[i] >= cap[i * each]
             gap = np.float64(u[i]) - h[i] - level
-            inside = gap < 0.0 if below else (gap > 0.0 if at_cap else True)
+            inside = gap < 0.0 if p[i] <= 0.0 else (gap > 0.0 if p[i] >= cap[i * each] else True)
             if inside:
                 index[k] = i
                 residual[k] = -gap / scale
