@@ -14,7 +14,11 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.surfaces.surface.Surface.__init__": "one check for each way a height map can be unusable",
     },
     "parameters": {
-        "asperity.co...face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
+        "asperity.core.engine.kernels.fill_face": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.segment": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.step_pressure": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.violation": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.protocol.Engine.face": "the fields of an iterate and where to lay out its residual",
         "asperity.core.engine.cpu.CpuEngine.face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
         "asperity.core.engine.generic.ArrayEngine.face": "the fields of an iterate and where to lay out its residual, as the protocol asks",
         "asperity.core.engine.kernels.advance": "a compiled pass takes its arrays and numbers one by one",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.system import peak_memory
 from .solvers.optimality import best_level, duality_gap, level
 from .solvers.protocol import ContactQP, FixedMean, Solution
 
@@ -32,6 +33,8 @@ class Certificate:
         Work of the solver; FFT pairs of the size of the grid.
     wall_time
         Seconds from prepared operator to solution.
+    peak_memory
+        Largest memory the process has held so far, in bytes; NaN where the system does not tell.
     solver
         Name of the method.
     """
@@ -44,6 +47,7 @@ class Certificate:
     iterations: int
     fft_pairs: float
     wall_time: float
+    peak_memory: float
     solver: str
 
 
@@ -67,5 +71,6 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
         iterations=solution.state.iterations,
         fft_pairs=solution.state.applications * qp.operator.pairs_per_application + solution.state.extra_pairs,
         wall_time=wall_time,
+        peak_memory=peak_memory(),
         solver=solver,
     )

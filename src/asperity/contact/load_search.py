@@ -8,7 +8,7 @@ bracketing root search over loads, each solve starting from the last, is the rob
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -25,8 +25,9 @@ Measure: TypeAlias = Callable[[ContactQP, Solution], float]
 
 _FACTOR = 8.0
 _EXPANSIONS = 60
-_PRECISION = 1e-10
+_PRECISION = 1e-12
 _TARGET_ERROR = 1e-4
+_NEGLIGIBLE = 1e-3
 
 _UNREACHED = (
     "No load reaches the prescribed position: where nearly every point yields, the position jumps with the load, and "
@@ -67,19 +68,35 @@ def mean_gap(qp: ContactQP, solution: Solution) -> float:
     return float(np.maximum(r - contact_level(qp, solution), 0.0).mean())
 
 
+def _with_work_of(earlier: Solved | None, solved: Solved) -> Solved:
+    """``solved`` with the work of the solves before it added, freed of what only its solver needs."""
+    qp, solution = solved
+    state = replace(solution.state, memory=None)
+    if earlier is not None:
+        before = earlier[1].state
+        state = replace(
+            state,
+            iterations=state.iterations + before.iterations,
+            applications=state.applications + before.applications,
+            extra_pairs=state.extra_pairs + before.extra_pairs,
+        )
+    return qp, replace(solution, state=state)
+
+
 class _NotConvergedError(Exception):
     """A solve on the way failed; its state is the last of the search."""
 
 
 @dataclass
 class LoadSearch:
-    """Root search over loads; ``solved`` holds every solve so far, the latest last."""
+    """Root search over loads; ``last`` is the latest solve, with the work of the whole search, ``at`` the logarithm of its load."""
 
     posed: ContactQP
     solver: Solver
     progress: Progress | None
     start: RealArray | None
-    solved: list[Solved] = field(default_factory=list)
+    last: Solved | None = None
+    at: float = np.nan
 
     def find(self, measure: Measure, target: float) -> Solved:
         """Solution at which ``measure``, a quantity growing with the load, equals ``target``.
@@ -89,50 +106,55 @@ class LoadSearch:
         """
         from scipy.optimize import brentq
 
+        allowed = _TARGET_ERROR * abs(target) + 10.0 * self.solver.tolerance * self.posed.height_scale
+        known: dict[float, float] = {}
+
         def miss(log_load: float) -> float:
-            start = self.solved[-1][1].state.pressure if self.solved else self.start
-            self.solved.append(solve_at_load(self.posed, float(np.exp(log_load)), self.solver, start, self.progress))
-            if not self.solved[-1][1].status.converged:
-                raise _NotConvergedError
-            return measure(*self.solved[-1]) - target
+            if log_load not in known:
+                start = self.start if self.last is None else self.last[1].state.pressure
+                solved = solve_at_load(self.posed, float(np.exp(log_load)), self.solver, start, self.progress)
+                self.last, self.at = _with_work_of(self.last, solved), log_load
+                if not self.last[1].status.converged:
+                    raise _NotConvergedError
+                found = measure(*self.last) - target
+                known[log_load] = 0.0 if abs(found) <= _NEGLIGIBLE * allowed else found
+            return known[log_load]
 
         missed = 0.0
-
         try:
-            low, high = self._bracket(miss)
-            if low < high:
-                missed = abs(miss(brentq(miss, low, high, xtol=_PRECISION, rtol=_PRECISION)))
+            root, high = self._bracket(miss)
+            if root < high:
+                root = brentq(miss, root, high, xtol=max(_PRECISION, 0.1 * self.solver.tolerance), rtol=_PRECISION)
+            if self.at != root:
+                known.clear()
+            missed = abs(miss(root))
         except _NotConvergedError:
             pass
-        allowed = _TARGET_ERROR * abs(target) + 10.0 * self.solver.tolerance * self.posed.height_scale
-        return self._with_all_work(reached=missed <= allowed)
-
-    def _with_all_work(self, *, reached: bool) -> Solved:
-        """Latest solve, with the iterations and applications of the whole search, flagged if the target is missed."""
-        qp, solution = self.solved[-1]
-        status = solution.status if reached else Status(Outcome.STAGNATED, _UNREACHED, _REMEDY)
-        iterations = sum(earlier.state.iterations for _, earlier in self.solved)
-        applications = sum(earlier.state.applications for _, earlier in self.solved)
-        extra = sum(earlier.state.extra_pairs for _, earlier in self.solved)
-        state = replace(solution.state, iterations=iterations, applications=applications, extra_pairs=extra)
-        return qp, replace(solution, state=state, status=status)
+        assert self.last is not None
+        if missed <= allowed:
+            return self.last
+        qp, solution = self.last
+        return qp, replace(solution, status=Status(Outcome.STAGNATED, _UNREACHED, _REMEDY))
 
     def _bracket(self, miss: Callable[[float], float]) -> tuple[float, float]:
         """Logarithms of two loads around the target, from the load that flattens one pixel's worth of roughness."""
         limit = float(np.log(np.mean(self.posed.cap)))
-        at = min(float(np.log(self._first_load())), limit)
+        known = 0.0 if self.start is None else float(self.start.mean())
+        at = min(float(np.log(known if known > 0.0 else self._first_load())), limit)
         sign = np.sign(miss(at))
+        if sign == 0.0:
+            return at, at
         step = np.log(_FACTOR) * (-1.0 if sign > 0.0 else 1.0)
         for _ in range(_EXPANSIONS):
             ahead = min(at + step, limit)
             if ahead == at:
                 break
             reached = miss(ahead)
-            if reached == 0.0 or np.sign(reached) != sign:
+            if reached == 0.0:
+                return ahead, ahead
+            if np.sign(reached) != sign:
                 return min(at, ahead), max(at, ahead)
             at = ahead
-        if sign == 0.0:
-            return at, at
         raise NoSolutionError(f"{_UNREACHED} {_REMEDY}")
 
     def _first_load(self) -> float:

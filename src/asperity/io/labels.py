@@ -24,6 +24,7 @@ CERTIFICATE = (
     Quantity("iterations", "1", "iterations"),
     Quantity("fft_pairs", "1", "FFT pairs of the size of the grid"),
     Quantity("wall_time", "s", "time to solve"),
+    Quantity("peak_memory", "B", "largest memory of the process so far"),
     Quantity("solver", "", "solver"),
 )
 """Entries of a certificate in the order of tables."""

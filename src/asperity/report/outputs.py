@@ -18,6 +18,7 @@ MEANINGS = {
     "iterations": "Steps of the solver.",
     "fft_pairs": "Work in forward and backward transforms, the unit of cost.",
     "wall_time": "From the prepared problem to the solution.",
+    "peak_memory": "The largest memory the program has held so far, everything included.",
     "solver": "The numerical method.",
 }
 """What each entry of a certificate says, in plain words."""

@@ -20,6 +20,8 @@ from .periodic import spectral_kernel
 class FreeOperator:
     """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no periodicity error.
 
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+
     Parameters
     ----------
     compliance
@@ -39,6 +41,8 @@ class FreeOperator:
         self.boundary: Boundary = Free()
         self.engine: Engine = engine or CpuEngine()
         self._influence = compliance.influence(grid)
+        self._prepared: dict[tuple[str, float], Convolution] = {}
+        self._preconditioners: dict[tuple[str, float], Convolution] = {}
         self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.pairs_per_application = 0.75 * self._padded[0] * self._padded[1] / grid.n_points  # pruned along y
 
@@ -54,25 +58,29 @@ class FreeOperator:
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
-        return self.engine.padded_convolution(self.kernel / scale, self.grid.shape, self._padded, dtype)
+        if (dtype, scale) not in self._prepared:
+            kernel = self.kernel / scale
+            self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self._padded, dtype)
+        return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
-        return self.engine.convolution(spectral_kernel(self.compliance, self.grid) / scale, self.grid.shape, dtype)
+        if (dtype, scale) not in self._preconditioners:
+            kernel = spectral_kernel(self.compliance, self.grid) / scale
+            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
+        return self._preconditioners[dtype, scale]
 
     @cached_property
     def coarsened(self) -> FreeOperator:
         """Operator on the grid of half as many points per side."""
         return FreeOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
 
-    @cached_property
-    def _double(self) -> Convolution:
-        return self.convolution("float64")
-
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m) under ``pressure`` (Pa), zero at infinity."""
         field = self.engine.array(pressure, "float64")
-        return self.engine.numpy(self._double.apply(field, self.engine.zeros(self.grid.shape, "float64")))
+        return self.engine.numpy(
+            self.convolution("float64").apply(field, self.engine.zeros(self.grid.shape, "float64"))
+        )
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa."""

@@ -18,6 +18,8 @@ from .convolution import circulant_matrix
 class PeriodicOperator:
     """u(q) = c(q) p(q) on a periodic grid (Stanley & Kato 1997), spectral discretisation.
 
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+
     Parameters
     ----------
     compliance
@@ -36,11 +38,14 @@ class PeriodicOperator:
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
         self.kernel = spectral_kernel(compliance, grid)
+        self._prepared: dict[tuple[str, float], Convolution] = {}
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
-        return self.engine.convolution(self.kernel / scale, self.grid.shape, dtype)
+        if (dtype, scale) not in self._prepared:
+            self._prepared[dtype, scale] = self.engine.convolution(self.kernel / scale, self.grid.shape, dtype)
+        return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the compliance over ``scale``: the application ``fast`` itself."""
@@ -51,14 +56,12 @@ class PeriodicOperator:
         """Operator on the grid of half as many points per side."""
         return PeriodicOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
 
-    @cached_property
-    def _double(self) -> Convolution:
-        return self.convolution("float64")
-
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
         field = self.engine.array(pressure, "float64")
-        return self.engine.numpy(self._double.apply(field, self.engine.zeros(self.grid.shape, "float64")))
+        return self.engine.numpy(
+            self.convolution("float64").apply(field, self.engine.zeros(self.grid.shape, "float64"))
+        )
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa, built from the response to one loaded point."""

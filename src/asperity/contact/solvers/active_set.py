@@ -26,8 +26,9 @@ _SMALLEST_REDUCTION = 1e-4
 _MARGIN = 0.6
 _CARRIED = 0.1
 _LEAST_SHARE = 0.1
+_ENERGY_ROUNDING = 1e-13
 _MOST_SETBACKS = 4
-_ROUNDING = 1e-13
+_ROUNDING = 4.0 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +99,9 @@ class ActiveSet:
         level = _level(qp, memory.totals)
         face = engine.face(p, u, work.heights, work.cap, level, qp.height_scale, work.field)
         d, steps, last = correction(qp, work, face, _carried(memory, face), *self._effort(memory, face, state.error))
+        if steps == 0:
+            engine.release(face, work.field)
+            return _gradient_step(qp, memory, replace(state, iterations=state.iterations + 1))
         q, v = work.pressures[there], work.deflections[there]
         change, clipped = face.pressure(p, d, qp.height_scale / work.scale, work.cap, q)
         engine.release(face, work.field)
@@ -166,7 +170,7 @@ def _energy(totals: Totals) -> float:
 def _monotone(memory: _Memory, there: int, totals: Totals) -> tuple[Totals, bool]:
     """Shorten the step just taken so that the energy does not rise; whether that was possible."""
     before = _energy(memory.totals)
-    if _energy(totals) <= before + _ROUNDING * abs(before):
+    if _energy(totals) <= before + _ENERGY_ROUNDING * abs(before):
         return totals, True
     work = memory.work
     p, q = work.pressures[memory.side], work.pressures[there]
@@ -211,10 +215,14 @@ def _state(qp: ContactQP, memory: _Memory) -> SolverState:
 
 
 def _relative_error(qp: ContactQP, work: Workspace, p: Any, u: Any, totals: Totals) -> float:
+    load = totals.pressure * qp.height_scale
     if isinstance(qp.constraint, FixedMean) and work.cap is None:
-        return (totals.work - totals.lowest * totals.pressure) / (totals.pressure * qp.height_scale)
+        lifted = totals.lowest * totals.pressure
+        rounding = _ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
+        return max(totals.work - lifted, rounding) / load
     found = work.engine.violation(p, u, work.heights, work.cap, _level(qp, totals))
     if isinstance(qp.constraint, FixedMean):
-        return (found.above + found.below) / (totals.pressure * qp.height_scale)
+        lowest = work.engine.violation(p, u, work.heights, work.cap, totals.lowest)
+        return min(found.above + found.below, lowest.above + lowest.below) / load
     weighted = found.above / totals.pressure if totals.pressure > 0.0 else 0.0
     return (weighted + found.deepest) / qp.height_scale

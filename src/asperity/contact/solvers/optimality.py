@@ -73,5 +73,6 @@ def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) ->
             penetration = np.where(pressure < qp.cap, penetration, 0.0)
         weighted = float((pressure * np.maximum(gap, 0.0)).sum()) / total if total > 0.0 else 0.0
         return (weighted + float(penetration.max())) / qp.height_scale
-    at = float(r.min()) if qp.elastic else level(qp, pressure, r)
-    return duality_gap(pressure, r, qp.cap, at) / (total * qp.height_scale)
+    lowest = duality_gap(pressure, r, qp.cap, float(r.min()))
+    found = lowest if qp.elastic else min(lowest, duality_gap(pressure, r, qp.cap, level(qp, pressure, r)))
+    return found / (total * qp.height_scale)
