@@ -45,8 +45,8 @@ def workspace(qp: ContactQP, precision: str) -> Workspace:
         fast=fast,
         preconditioner=operator.preconditioner(fast, dtype, scale),
         scale=scale,
-        field=engine.zeros(shape, dtype),
-        response=engine.zeros(shape, dtype),
+        field=engine.field(shape, dtype),
+        response=engine.field(shape, dtype),
         pressures=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
         deflections=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
     )

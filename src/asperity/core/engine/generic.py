@@ -43,6 +43,8 @@ class ArrayEngine:
         """Field of zeros."""
         return self._library.zeros(shape, dtype)
 
+    field = zeros
+
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution."""
         return _Convolution(self._library, kernel, shape, shape, dtype)

@@ -102,6 +102,9 @@ class Engine(Protocol):
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
         """Field of zeros."""
 
+    def field(self, shape: tuple[int, int], dtype: str) -> Any:
+        """Field of zeros for convolutions and faces, in whatever memory layout suits the transforms."""
+
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``."""
 
