@@ -69,17 +69,16 @@ def mean_gap(qp: ContactQP, solution: Solution) -> float:
 
 
 def _with_work_of(earlier: Solved | None, solved: Solved) -> Solved:
-    """``solved`` with the work of the solves before it added, freed of what only its solver needs."""
-    qp, solution = solved
-    state = replace(solution.state, memory=None)
-    if earlier is not None:
-        before = earlier[1].state
-        state = replace(
-            state,
-            iterations=state.iterations + before.iterations,
-            applications=state.applications + before.applications,
-            extra_pairs=state.extra_pairs + before.extra_pairs,
-        )
+    """``solved`` with the work of the solves before it added."""
+    if earlier is None:
+        return solved
+    (qp, solution), before = solved, earlier[1].state
+    state = replace(
+        solution.state,
+        iterations=solution.state.iterations + before.iterations,
+        applications=solution.state.applications + before.applications,
+        extra_pairs=solution.state.extra_pairs + before.extra_pairs,
+    )
     return qp, replace(solution, state=state)
 
 

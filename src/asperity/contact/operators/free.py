@@ -59,7 +59,7 @@ class FreeOperator:
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         if (dtype, scale) not in self._prepared:
-            kernel = self.kernel / scale
+            kernel = self.kernel if scale == 1.0 else self.kernel / scale
             self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self._padded, dtype)
         return self._prepared[dtype, scale]
 

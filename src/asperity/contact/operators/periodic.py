@@ -44,7 +44,8 @@ class PeriodicOperator:
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         if (dtype, scale) not in self._prepared:
-            self._prepared[dtype, scale] = self.engine.convolution(self.kernel / scale, self.grid.shape, dtype)
+            kernel = self.kernel if scale == 1.0 else self.kernel / scale
+            self._prepared[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
         return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:

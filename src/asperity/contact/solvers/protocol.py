@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias
 
 import numpy as np
@@ -139,7 +139,8 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
         report.update(state.iterations, state.error, solver.tolerance)
         stagnated = state.exhausted or len(errors) - 1 - best_at >= patience
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
-            return Solution(state, _status(solver, state, stagnated), tuple(errors))
+            bare = replace(state, memory=None)  # buffers of the method are not needed any more
+            return Solution(bare, _status(solver, state, stagnated), tuple(errors))
         state = solver.step(qp, state)
         errors.append(state.error)
         if state.error < errors[best_at]:
