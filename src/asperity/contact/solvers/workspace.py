@@ -33,7 +33,7 @@ def workspace(qp: ContactQP, precision: str) -> Workspace:
     operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
     dtype = "float64" if precision == "double" else "float32"
     kernel = operator.kernel
-    scale = float(np.abs(kernel).max()) or 1.0
+    scale = float(kernel.max()) or 1.0
     datum = -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else 0.0
     heights = qp.profile + datum if datum else qp.profile - qp.profile.mean()
     fast = operator.convolution(dtype, scale)
