@@ -27,6 +27,7 @@ from asperity.contact.drive import drive
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.operators import prepare_operator
 from asperity.contact.solvers import (
+    ActiveSet,
     ConjugateGradient,
     ContactQP,
     DenseActiveSet,
@@ -49,6 +50,7 @@ BODY = Elastic(MODULUS * (1.0 - 0.3**2), 0.3)
 SOLVERS: dict[str, Solver] = {
     solver.name: solver
     for solver in (
+        ActiveSet(tolerance=1e-9),
         ConjugateGradient(tolerance=1e-10),
         SteepestDescent(tolerance=1e-6),
         QuasiNewton(tolerance=1e-8),

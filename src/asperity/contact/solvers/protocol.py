@@ -105,7 +105,10 @@ class Solver(Protocol):
         """State at the pressure ``start`` (Pa), made feasible, or at a first guess of the method; ``start`` is not changed."""
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
-        """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step)."""
+        """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step).
+
+        A method may reuse the arrays of the state before ``state``, and must say so.
+        """
 
 
 def require_settings(solver: Solver) -> None:
