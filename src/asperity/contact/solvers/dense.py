@@ -8,9 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
-from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, magnitude, solve_on, violation
-from .feasible import feasible_start
-from .optimality import relative_error
+from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, magnitude, solve_on, started, violation
 from .protocol import ContactQP, SolverState, require_settings
 
 
@@ -40,9 +38,7 @@ class DenseActiveSet:
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, whose contact set is the first guess."""
-        begin = feasible_start(qp, start)
-        deflection = qp.operator.apply(begin)
-        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
+        return started(qp, start)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """The whole solve.

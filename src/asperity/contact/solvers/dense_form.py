@@ -8,12 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
-from .feasible import scaled_to_load
+from .feasible import feasible_start, scaled_to_load
 from .optimality import relative_error
 from .protocol import ContactQP, FixedMean, SolverState
 
 ROUNDING = 1e-13
 """Violations of the optimality conditions below this, relative to the largest number in them, count as rounding."""
+
+
+def started(qp: ContactQP, start: RealArray | None) -> SolverState:
+    """State of a direct method before its one step: feasible pressure, its deflection and error."""
+    begin = feasible_start(qp, start)
+    deflection = qp.operator.apply(begin)
+    return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError, NoSolutionError
-from .dense_form import DenseQP, answered, dense_form, solve_on
-from .feasible import feasible_start
-from .optimality import relative_error
+from .dense_form import DenseQP, answered, dense_form, solve_on, started
 from .protocol import ContactQP, SolverState, require_settings
 
 IntArray: TypeAlias = NDArray[np.integer[Any]]
@@ -60,9 +58,7 @@ class Lemke:
                 f"grid of Lemke's method must have at most {LARGEST} points, but has {qp.profile.size}. "
                 "Use DenseActiveSet() or, on large grids, ConjugateGradient()."
             )
-        begin = feasible_start(qp, start)
-        deflection = qp.operator.apply(begin)
-        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
+        return started(qp, start)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """The whole solve.

@@ -9,9 +9,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, violation
-from .feasible import feasible_start
-from .optimality import relative_error
+from .dense_form import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, started, violation
 from .protocol import ContactQP, SolverState, require_settings
 
 LARGEST_CAPPED = 1600
@@ -45,9 +43,7 @@ class NonNegativeLeastSquares:
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""
-        begin = feasible_start(qp, start)
-        deflection = qp.operator.apply(begin)
-        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=1)
+        return started(qp, start)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """The whole solve.
