@@ -38,6 +38,11 @@ def fft_library() -> str:
     return "ducc0" if importlib.util.find_spec("ducc0") else "numpy"
 
 
+def _ducc_transforms() -> Any:
+    """Module of ducc0's transforms, or None where NumPy serves."""
+    return importlib.import_module("ducc0.fft") if fft_library() == "ducc0" else None
+
+
 def fast_length(minimum: int) -> int:
     """Smallest transform length of at least ``minimum`` without prime factors above 11."""
     length = require.integer(minimum, 1, "transform length")
@@ -70,7 +75,7 @@ class RealTransform:
 
     @cached_property
     def _ducc(self) -> Any:
-        return importlib.import_module("ducc0.fft") if fft_library() == "ducc0" else None
+        return _ducc_transforms()
 
     @property
     def spectrum_shape(self) -> tuple[int, int]:
@@ -120,7 +125,7 @@ class PaddedTransform:
 
     @cached_property
     def _ducc(self) -> Any:
-        return importlib.import_module("ducc0.fft") if fft_library() == "ducc0" else None
+        return _ducc_transforms()
 
     @property
     def spectrum_shape(self) -> tuple[int, int]:

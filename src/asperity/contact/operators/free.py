@@ -12,6 +12,7 @@ from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length
 from ...solids.compliance.protocol import Compliance
 from ..boundary import Boundary, Free
+from .application import displacement
 from .coarse import coarse_grid
 from .convolution import toeplitz_matrix
 from .periodic import spectral_kernel
@@ -77,10 +78,7 @@ class FreeOperator:
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m) under ``pressure`` (Pa), zero at infinity."""
-        field = self.engine.array(pressure, "float64")
-        return self.engine.numpy(
-            self.convolution("float64").apply(field, self.engine.zeros(self.grid.shape, "float64"))
-        )
+        return displacement(self, pressure)
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa."""

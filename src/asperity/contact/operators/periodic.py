@@ -11,6 +11,7 @@ from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
 from ..boundary import Boundary, Periodic
+from .application import displacement
 from .coarse import coarse_grid
 from .convolution import circulant_matrix
 
@@ -59,10 +60,7 @@ class PeriodicOperator:
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
-        field = self.engine.array(pressure, "float64")
-        return self.engine.numpy(
-            self.convolution("float64").apply(field, self.engine.zeros(self.grid.shape, "float64"))
-        )
+        return displacement(self, pressure)
 
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa, built from the response to one loaded point."""

@@ -87,8 +87,8 @@ class ActiveSet:
         work.engine.copy(work.engine.array(begin, "float64"), work.pressures[0])
         work.double.apply(work.pressures[0], work.deflections[0])
         totals = work.engine.totals(work.pressures[0], work.deflections[0], work.heights, work.cap)
-        state = _state(qp, _Memory(work, 0, totals, clipped=1))
-        return replace(state, applications=1, extra_pairs=pairs)
+        spent = SolverState(begin, begin, np.inf, applications=1, extra_pairs=pairs)
+        return _state(qp, _Memory(work, 0, totals, clipped=1), spent)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One working set, its correction, and the clipped pressure."""
@@ -98,10 +98,11 @@ class ActiveSet:
         engine, p, u = work.engine, work.pressures[here], work.deflections[here]
         level = _level(qp, memory.totals)
         face = engine.face(p, u, work.heights, work.cap, level, qp.height_scale, work.field)
-        d, steps, last = correction(qp, work, face, _carried(memory, face), *self._effort(memory, face, state.error))
-        if steps == 0:
+        d, pairs, last = correction(qp, work, face, _carried(memory, face), *self._effort(memory, face, state.error))
+        spent = replace(state, iterations=state.iterations + 1, extra_pairs=state.extra_pairs + pairs)
+        if d is None:
             engine.release(face, work.field)
-            return _gradient_step(qp, memory, replace(state, iterations=state.iterations + 1))
+            return _gradient_step(qp, memory, spent)
         q, v = work.pressures[there], work.deflections[there]
         change, clipped = face.pressure(p, d, qp.height_scale / work.scale, work.cap, q)
         engine.release(face, work.field)
@@ -109,16 +110,10 @@ class ActiveSet:
         work.double.apply(q, v)
         totals = engine.totals(q, v, work.heights, work.cap)
         totals, descended = _monotone(memory, there, totals)
-        spent = replace(
-            state,
-            iterations=state.iterations + 1,
-            applications=state.applications + 1,
-            extra_pairs=state.extra_pairs + steps * (1.0 + qp.operator.pairs_per_application),
-        )
+        spent = replace(spent, applications=state.applications + 1)
         if not descended:
             return _gradient_step(qp, memory, spent)
-        new = _state(qp, _Memory(work, there, totals, clipped, last, memory.setbacks))
-        return replace(new, iterations=spent.iterations, applications=spent.applications, extra_pairs=spent.extra_pairs)
+        return _state(qp, _Memory(work, there, totals, clipped, last, memory.setbacks), spent)
 
     def _effort(self, memory: _Memory, face: Face, error: float) -> tuple[float, int]:
         """Relative residual at which to stop a correction, and the largest number of its steps.
@@ -196,22 +191,17 @@ def _gradient_step(qp: ContactQP, memory: _Memory, spent: SolverState) -> Solver
     work.engine.copy(work.engine.array(lower.pressure, "float64"), work.pressures[there])
     work.engine.copy(work.engine.array(lower.deflection, "float64"), work.deflections[there])
     totals = work.engine.totals(work.pressures[there], work.deflections[there], work.heights, work.cap)
-    new = _state(qp, _Memory(work, there, totals, clipped=1, setbacks=memory.setbacks + 1))
-    return replace(
-        new,
-        iterations=spent.iterations,
-        applications=lower.applications + 1,
-        extra_pairs=spent.extra_pairs,
-        exhausted=lower.exhausted,
-    )
+    spent = replace(spent, applications=lower.applications + 1, exhausted=lower.exhausted)
+    return _state(qp, _Memory(work, there, totals, clipped=1, setbacks=memory.setbacks + 1), spent)
 
 
-def _state(qp: ContactQP, memory: _Memory) -> SolverState:
-    """State with its error, which equals ``optimality.relative_error`` of its fields."""
+def _state(qp: ContactQP, memory: _Memory, spent: SolverState) -> SolverState:
+    """State at the iterate of ``memory`` with the work ``spent``; its error is ``optimality.relative_error``."""
     work = memory.work
     p, u = work.pressures[memory.side], work.deflections[memory.side]
     error = _relative_error(qp, work, p, u, memory.totals)
-    return SolverState(work.engine.numpy(p), work.engine.numpy(u), error, memory=memory)
+    pressure, deflection = work.engine.numpy(p), work.engine.numpy(u)
+    return replace(spent, pressure=pressure, deflection=deflection, error=error, memory=memory)
 
 
 def _relative_error(qp: ContactQP, work: Workspace, p: Any, u: Any, totals: Totals) -> float:
