@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import math
+import signal
 
 import pytest
 from rich.console import Console
 from rich.progress import Progress as Bar
 
+from asperity.cli.interrupt import interruptible
 from asperity.cli.progress import OnBar, done, shown
 from asperity.core.progress import NoProgress
 
@@ -40,3 +43,14 @@ def test_bar_follows_the_error() -> None:
             progress.update(iteration, error, 1e-4)
         assert bar.tasks[0].completed == 1.0
         assert "iteration 2" in bar.tasks[0].fields["state"]
+
+
+def test_a_swallowed_interrupt_comes_back_at_the_next_iteration():
+    handler = signal.getsignal(signal.SIGINT)
+    with interruptible(NoProgress()) as progress:
+        progress.update(1, 1.0, 1e-6)
+        with contextlib.suppress(KeyboardInterrupt):  # as a callback of a compiler does
+            signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            progress.update(2, 0.5, 1e-6)
+    assert signal.getsignal(signal.SIGINT) is handler

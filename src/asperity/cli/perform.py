@@ -57,9 +57,10 @@ def _folder(options: OutputOptions) -> Iterator[Path | None]:
 def _solved(case: Case) -> ContactResult:
     from ..contact.solve import solve
     from ..core.engine import CpuEngine
+    from .interrupt import interruptible
     from .progress import shown
 
-    with shown("solving") as progress:
+    with shown("solving") as bar, interruptible(bar) as progress:
         return solve(
             case.problem,
             case.control,
