@@ -58,6 +58,14 @@ def _largest_factor_left(number: int) -> int:
     return number
 
 
+def line_transform(field: RealArray, axis: int, threads: int = 1) -> ComplexArray:
+    """Unnormalised real transform of every line of ``field`` along ``axis``, whose length becomes n // 2 + 1."""
+    ducc = _ducc_transforms()
+    spectrum: ComplexArray
+    spectrum = np.fft.rfft(field, axis=axis) if ducc is None else ducc.r2c(field, axes=(axis,), nthreads=threads)
+    return spectrum
+
+
 @dataclass(frozen=True)
 class RealTransform:
     """Transform pair between real fields (nx, ny) and half spectra (nx, ny // 2 + 1).

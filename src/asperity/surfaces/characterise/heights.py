@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...core.arrays import RealArray
@@ -9,24 +12,60 @@ from ...core.errors import InputError
 from ..surface import Surface
 
 
+@dataclass(frozen=True)
+class HeightParameters:
+    """Height parameters: ``Sa``, ``Sq``, ``Sp``, ``Sv``, ``Sz`` in m; ``Ssk``, ``Sku`` NaN if all heights are equal."""
+
+    Sa: float
+    Sq: float
+    Sp: float
+    Sv: float
+    Sz: float
+    Ssk: float
+    Sku: float
+
+
+def height_parameters(surface: Surface) -> HeightParameters:
+    """All height parameters of ``surface`` in one pass over its valid points."""
+    z = deviations(surface)
+    squared = np.square(z)
+    mean_square = float(squared.mean())
+    highest, lowest = float(z.max()), float(z.min())
+    return HeightParameters(
+        Sa=float(np.abs(z).mean()),
+        Sq=float(np.sqrt(mean_square)),
+        Sp=highest,
+        Sv=-lowest,
+        Sz=highest - lowest,
+        Ssk=float((squared * z).mean()) / mean_square**1.5 if mean_square > 0.0 else math.nan,
+        Sku=float(np.square(squared).mean()) / mean_square**2 if mean_square > 0.0 else math.nan,
+    )
+
+
+def mean_height(surface: Surface) -> float:
+    """Mean of the valid heights in m."""
+    valid = _valid(surface)
+    return float(valid[0] + (valid - valid[0]).mean())  # a large common offset must not cost digits
+
+
 def rms_height(surface: Surface) -> float:
     """Sq = sqrt(<z²>) in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.1)."""
-    return float(np.sqrt(np.mean(np.square(_deviations(surface)))))
+    return float(np.sqrt(np.mean(np.square(deviations(surface)))))
 
 
 def mean_absolute_height(surface: Surface) -> float:
     """Sa = <|z|> in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.7)."""
-    return float(np.mean(np.abs(_deviations(surface))))
+    return float(np.mean(np.abs(deviations(surface))))
 
 
 def highest_peak(surface: Surface) -> float:
     """Sp = max z in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.4)."""
-    return float(_deviations(surface).max())
+    return float(deviations(surface).max())
 
 
 def deepest_valley(surface: Surface) -> float:
     """Sv = -min z in m, positive, z measured from the mean of the valid points (ISO 25178-2, 4.1.5)."""
-    return float(-_deviations(surface).min())
+    return float(-deviations(surface).min())
 
 
 def peak_to_valley(surface: Surface) -> float:
@@ -43,7 +82,7 @@ def skewness(surface: Surface) -> float:
     InputError
         If all heights are equal.
     """
-    return float(np.mean(_standardised(surface, "skewness") ** 3))
+    return _defined(height_parameters(surface).Ssk, "skewness")
 
 
 def kurtosis(surface: Surface) -> float:
@@ -54,7 +93,7 @@ def kurtosis(surface: Surface) -> float:
     InputError
         If all heights are equal.
     """
-    return float(np.mean(_standardised(surface, "kurtosis") ** 4))
+    return _defined(height_parameters(surface).Sku, "kurtosis")
 
 
 def _valid(surface: Surface) -> RealArray:
@@ -62,17 +101,15 @@ def _valid(surface: Surface) -> RealArray:
     return valid
 
 
-def _deviations(surface: Surface) -> RealArray:
+def deviations(surface: Surface) -> RealArray:
+    """Heights (N,) of the valid points less their mean, in m."""
     valid = _valid(surface)
     shifted = valid - valid[0]  # a large common offset must not cost digits
     deviations: RealArray = shifted - shifted.mean()
     return deviations
 
 
-def _standardised(surface: Surface, what: str) -> RealArray:
-    deviations = _deviations(surface)
-    rms = np.sqrt(np.mean(np.square(deviations)))
-    if rms == 0.0:
+def _defined(value: float, what: str) -> float:
+    if math.isnan(value):
         raise InputError(f"surface must have heights that differ for its {what} to be defined, but all are equal.")
-    standardised: RealArray = deviations / rms
-    return standardised
+    return value

@@ -1,0 +1,209 @@
+"""Summits of a surface: the points above all their neighbours, with their heights and curvatures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arrays import BoolArray, RealArray
+from ...core.errors import InputError
+from ..surface import Surface
+from .heights import mean_height
+
+Indices: TypeAlias = NDArray[np.intp]
+"""Positions of points along one axis."""
+
+_SIDES = ((1, 0), (0, 1))
+_DIAGONALS = ((1, 1), (1, -1))  # each direction stands for itself and its opposite
+
+
+@dataclass(frozen=True, eq=False)
+class Summits:
+    """The summits of a surface.
+
+    Parameters
+    ----------
+    i, j
+        Positions (n,) along x and y.
+    height
+        (n,) heights above the mean of the valid points in m.
+    kappa_x, kappa_y, kappa_xy
+        (n,) curvatures -∂²h/∂x², -∂²h/∂y², -∂²h/∂x∂y by central differences in 1/m, the first two positive;
+        ``kappa_xy`` is NaN where a diagonal neighbour is missing (4 neighbours only).
+    candidates
+        Number of points that have all their neighbours and so could have been summits.
+    candidate_area
+        Area of these points in m².
+    neighbours
+        4 or 8, the number of neighbours that a summit exceeds.
+    """
+
+    i: Indices
+    j: Indices
+    height: RealArray
+    kappa_x: RealArray
+    kappa_y: RealArray
+    kappa_xy: RealArray
+    candidates: int
+    candidate_area: float
+    neighbours: int
+    citation_keys: ClassVar[tuple[str, ...]] = ("Nayak1971", "McCool1986")
+
+    @property
+    def count(self) -> int:
+        """Number of summits."""
+        return int(self.height.size)
+
+    @property
+    def density(self) -> float:
+        """Summits per area of the candidates in 1/m²; NaN without candidates."""
+        return self.count / self.candidate_area if self.candidate_area > 0.0 else math.nan
+
+    @property
+    def curvature(self) -> RealArray:
+        """Mean curvature κ = (κ_x + κ_y)/2 of each summit in 1/m, half the negative Laplacian."""
+        curvature: RealArray = 0.5 * (self.kappa_x + self.kappa_y)
+        return curvature
+
+    @property
+    def principal_curvatures(self) -> tuple[RealArray, RealArray]:
+        """Largest and smallest curvature of each summit in 1/m; the smallest of a few is not positive."""
+        half = np.hypot(0.5 * (self.kappa_x - self.kappa_y), self.kappa_xy)
+        return self.curvature + half, self.curvature - half
+
+    @property
+    def geometric_curvature(self) -> RealArray:
+        """sqrt(κ1 κ2) of each summit in 1/m, NaN where the smallest curvature is not positive."""
+        largest, smallest = self.principal_curvatures
+        product = np.where(smallest > 0.0, largest * smallest, np.nan)
+        geometric: RealArray = np.sqrt(product)
+        return geometric
+
+
+@dataclass(frozen=True)
+class SummitStatistics:
+    """Averages over the summits, NaN where there is none.
+
+    ``count``; ``density`` (1/m²); ``mean_height``, ``height_deviation`` (m, above the mean plane, normalised by the
+    number of summits); ``mean_curvature`` <κ> (= Ssc), ``curvature_deviation``, ``mean_geometric_curvature`` (1/m);
+    ``radius`` = 1/<κ> and ``mean_radius`` = <1/κ> (m), which is larger; ``saddles``, the number of summits whose
+    smallest principal curvature is not positive; ``bandwidth`` = density × radius × deviation of heights (η R σ_s).
+    """
+
+    count: int
+    density: float
+    mean_height: float
+    height_deviation: float
+    mean_curvature: float
+    curvature_deviation: float
+    mean_geometric_curvature: float
+    radius: float
+    mean_radius: float
+    saddles: int
+    bandwidth: float
+
+
+def summits(surface: Surface, neighbours: int = 8) -> Summits:
+    """Points strictly above all their ``neighbours``, all present and valid; equal heights are never summits.
+
+    Borders are excluded unless the surface is periodic. With 8 neighbours the density of a well resolved isotropic
+    surface is 1.01 times the true one, with 4 it is 1.31 times: use 8; 4 serves for comparison with the literature.
+    On a surface rough down to the pixel both, and the curvatures, are properties of the sampling.
+
+    Raises
+    ------
+    InputError
+        If ``neighbours`` is neither 4 nor 8.
+    """
+    if neighbours not in (4, 8):
+        raise InputError(f"neighbours of a summit must be 4 or 8, but are {neighbours!r}.")
+    padded = _padded(surface)
+    highest, candidate = _compared(padded, neighbours)
+    i, j = np.nonzero(highest)
+    number = int(np.count_nonzero(candidate))
+    offset = 0 if surface.periodic else 1
+    return Summits(
+        i + offset,
+        j + offset,
+        padded[i + 1, j + 1] - mean_height(surface),
+        *_curvatures(padded, (i + 1, j + 1), surface.grid.spacing),
+        candidates=number,
+        candidate_area=number * surface.grid.pixel_area,
+        neighbours=neighbours,
+    )
+
+
+def summit_statistics(found: Summits) -> SummitStatistics:
+    """Averages of the summits ``found``."""
+    if found.count == 0:
+        return _NO_SUMMITS if math.isnan(found.density) else replace(_NO_SUMMITS, density=0.0)
+    curvature, geometric = found.curvature, found.geometric_curvature
+    mean_curvature, height_deviation = float(curvature.mean()), float(found.height.std())
+    valid = geometric[~np.isnan(geometric)]
+    return SummitStatistics(
+        count=found.count,
+        density=found.density,
+        mean_height=float(found.height.mean()),
+        height_deviation=height_deviation,
+        mean_curvature=mean_curvature,
+        curvature_deviation=float(curvature.std()),
+        mean_geometric_curvature=float(valid.mean()) if valid.size else math.nan,
+        radius=1.0 / mean_curvature,
+        mean_radius=float(np.mean(1.0 / curvature)),
+        saddles=int(np.count_nonzero(found.principal_curvatures[1] <= 0.0)),
+        bandwidth=found.density * height_deviation / mean_curvature,
+    )
+
+
+_NO_SUMMITS = SummitStatistics(
+    count=0,
+    density=math.nan,
+    mean_height=math.nan,
+    height_deviation=math.nan,
+    mean_curvature=math.nan,
+    curvature_deviation=math.nan,
+    mean_geometric_curvature=math.nan,
+    radius=math.nan,
+    mean_radius=math.nan,
+    saddles=0,
+    bandwidth=math.nan,
+)
+
+
+def _padded(surface: Surface) -> RealArray:
+    """Heights with a rim of one point where the surface is periodic."""
+    h = surface.heights.astype(np.float64, copy=False)
+    return np.pad(h, 1, mode="wrap") if surface.periodic else h
+
+
+def _compared(h: RealArray, neighbours: int) -> tuple[BoolArray, BoolArray]:
+    """For the inner points: whether they exceed all neighbours, and whether they and all neighbours are valid."""
+    middle = h[1:-1, 1:-1]
+    highest, candidate = ~np.isnan(middle), ~np.isnan(middle)
+    complete = bool(candidate.all()) and not np.isnan(h).any()
+    for dx, dy in _SIDES + (_DIAGONALS if neighbours == 8 else ()):
+        for sign in (1, -1):
+            neighbour = _shifted(h, sign * dx, sign * dy)
+            highest &= middle > neighbour
+            if not complete:
+                candidate &= ~np.isnan(neighbour)
+    return highest & candidate, candidate
+
+
+def _shifted(h: RealArray, dx: int, dy: int) -> RealArray:
+    return h[1 + dx : h.shape[0] - 1 + dx, 1 + dy : h.shape[1] - 1 + dy]
+
+
+def _curvatures(
+    h: RealArray, at: tuple[Indices, Indices], spacing: tuple[float, float]
+) -> tuple[RealArray, RealArray, RealArray]:
+    i, j = at
+    dx, dy = spacing
+    kappa_x = -(h[i + 1, j] - 2.0 * h[i, j] + h[i - 1, j]) / dx**2
+    kappa_y = -(h[i, j + 1] - 2.0 * h[i, j] + h[i, j - 1]) / dy**2
+    kappa_xy = -(h[i + 1, j + 1] - h[i + 1, j - 1] - h[i - 1, j + 1] + h[i - 1, j - 1]) / (4.0 * dx * dy)
+    return kappa_x, kappa_y, kappa_xy

@@ -1,0 +1,146 @@
+"""Spatial parameters of ISO 25178-2: how far the texture stays correlated, in which direction it runs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from .autocorrelation import DROP_ISO, Autocovariance
+from .spectrum import PowerSpectrum
+
+_RAY_STEPS = 2  # samples per pixel along a ray
+_BLOCK = 1 << 20  # samples taken at once
+
+
+@dataclass(frozen=True)
+class TextureLengths:
+    """``Sal`` shortest distance in m at which R/R(0) drops to 0.2, ``Str`` = Sal/longest such distance (0 to 1).
+
+    ``Sal_direction``, ``longest_direction`` are the angles of both in rad from +x towards +y, in [0, π). NaN where no
+    direction decays inside the map, or (Str and the longest direction) where one does not.
+    """
+
+    Sal: float
+    Str: float
+    Sal_direction: float
+    longest_direction: float
+
+
+@dataclass(frozen=True, eq=False)
+class AngularSpectrum:
+    """Share of the mean square height by the direction of its waves.
+
+    ``angle`` of the middle of the sectors in rad from +x towards +y, in [0, π); ``density`` per rad, whose integral
+    over [0, π) is one (NaN for a flat map).
+    """
+
+    angle: RealArray
+    density: RealArray
+
+    @property
+    def peak(self) -> float:
+        """Std: direction in rad, [0, π), of the waves that carry most; the lay runs across it. NaN for a flat map."""
+        return math.nan if np.isnan(self.density).any() else float(self.angle[int(np.argmax(self.density))])
+
+
+def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> TextureLengths:
+    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first crossings along rays, one a degree.
+
+    Rays end at half the map; R is interpolated bilinearly.
+
+    Raises
+    ------
+    InputError
+        If ``drop`` is not between 0 and 1.
+    """
+    require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
+    half = tuple(
+        max(1, round(0.5 * side / d)) for side, d in zip(autocovariance.size, autocovariance.spacing, strict=True)
+    )
+    centre = autocovariance.within((half[0], half[1]))
+    angles = np.deg2rad(np.arange(180.0))
+    distances = _ray_distances(centre, angles)
+    lengths = _crossings(centre, angles, distances, drop)
+    found = np.isfinite(lengths)
+    if not found.any():
+        return TextureLengths(math.nan, math.nan, math.nan, math.nan)
+    shortest = int(np.nanargmin(lengths))
+    Sal = float(lengths[shortest])
+    if not found.all():
+        return TextureLengths(Sal, math.nan, float(angles[shortest]), math.nan)
+    longest = int(np.argmax(lengths))
+    return TextureLengths(Sal, Sal / float(lengths[longest]), float(angles[shortest]), float(angles[longest]))
+
+
+def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
+    """Spectrum summed over sectors within the Nyquist circle, from the third mode of a windowed map on.
+
+    Sectors are as wide as it takes to hold two modes at the Nyquist circle, one degree at least; each is the sum over
+    its modes per their number and times its area, so that the square arrangement of modes does not show. The angle of
+    the largest density is Std (ISO 25178-2, 4.3.3); it is sensitive to noise, the axis of the slope tensor is not.
+    """
+    qx, qy = spectrum.grid.wavevector()
+    q = spectrum.grid.wavenumber()
+    first = 0.0 if spectrum.window == "none" else 2.5 * 2.0 * np.pi / min(spectrum.grid.size)
+    inside = (q > first) & (q <= spectrum.nyquist)
+    count = int(np.clip(np.pi * min(spectrum.grid.shape) / 4.0, 4, 180))
+    angle = np.mod(np.arctan2(np.broadcast_to(qy, q.shape)[inside], np.broadcast_to(qx, q.shape)[inside]), np.pi)
+    sector = np.minimum((angle * (count / np.pi) + 0.5).astype(int) % count, count - 1)
+    power = np.bincount(sector, spectrum.psd[inside], count)
+    modes = np.bincount(sector, minlength=count)
+    density = power / np.maximum(modes, 1)
+    total = density.sum() * np.pi / count
+    middle = np.arange(count) * np.pi / count
+    return AngularSpectrum(middle, density / total if total > 0.0 else np.full(count, np.nan))
+
+
+def _ray_distances(centre: Autocovariance, angles: RealArray) -> RealArray:
+    """Distances (m) from 0 along the rays, up to the farthest corner."""
+    reach = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
+    step = min(centre.spacing) / _RAY_STEPS
+    return step * np.arange(int(reach / step) + 2)
+
+
+def _crossings(centre: Autocovariance, angles: RealArray, distances: RealArray, drop: float) -> RealArray:
+    """Distance (m) of the first fall to ``drop`` R(0) along each ray, NaN where there is none inside the range.
+
+    Distances are walked in blocks from the origin, so that no more of the map is read than the rays need.
+    """
+    lengths = np.full(angles.size, np.nan)
+    open_rays = np.arange(angles.size)
+    level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
+    for start in range(0, distances.size - 1, block - 1):
+        part = distances[start : start + block]
+        values = _bilinear(centre, np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part)
+        below = values <= level
+        crossed = below.any(axis=1)
+        after = np.maximum(below.argmax(axis=1), 1)[crossed]
+        high, low = values[crossed, after - 1], values[crossed, after]
+        share = np.divide(high - level, high - low, out=np.zeros_like(high), where=high > low)
+        lengths[open_rays[crossed]] = part[after - 1] + share * (part[after] - part[after - 1])
+        open_rays = open_rays[~crossed]
+        if open_rays.size == 0:
+            break
+    return lengths
+
+
+def _bilinear(centre: Autocovariance, x: RealArray, y: RealArray) -> RealArray:
+    """R at the lags (x, y) in m by bilinear interpolation, NaN outside the range."""
+    k_max, l_max = centre.range
+    flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
+    k, moved = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
+    outside = (k > k_max) | (moved < 0.0) | (moved > 2 * l_max)
+    low_k, low_l = (
+        np.clip(np.floor(c).astype(int), 0, top) for c, top in ((k, max(0, k_max - 1)), (moved, max(0, 2 * l_max - 1)))
+    )
+    part_k, part_l = k - low_k, moved - low_l
+    next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
+    v = centre.values
+    lower = v[low_k, low_l] * (1.0 - part_l) + v[low_k, next_l] * part_l
+    upper = v[next_k, low_l] * (1.0 - part_l) + v[next_k, next_l] * part_l
+    values: RealArray = np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)
+    return values
