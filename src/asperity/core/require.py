@@ -42,6 +42,14 @@ def between(value: float, low: float, high: float, what: str, fix: str = "") -> 
     return number
 
 
+def within(value: float, low: float, high: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if ``low < value <= high``."""
+    number = finite(value, what, fix)
+    if not low < number <= high:
+        raise InputError(_sentence(what, f"greater than {low:g} and at most {high:g}", value, fix))
+    return number
+
+
 def at_most(value: float, high: float, what: str, fix: str = "") -> float:
     """Return ``value`` as float if ``0 < value <= high``."""
     number = finite(value, what, fix)

@@ -9,6 +9,9 @@ from ..core import require
 from ..core.errors import InputError
 from .strength import Strength
 
+INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
+"""What to do about a Poisson's ratio that is too large."""
+
 
 @dataclass(frozen=True)
 class Elastic:
@@ -19,7 +22,7 @@ class Elastic:
     youngs_modulus
         E in Pa, > 0.
     poisson_ratio
-        nu, -1 < nu < 0.5.
+        nu, -1 < nu <= 0.5; 0.5 is incompressible.
     strength
         Hardness and yield stress, where known.
     name, sources
@@ -39,9 +42,7 @@ class Elastic:
 
     def __post_init__(self) -> None:
         require.positive(self.youngs_modulus, "Young's modulus (Pa)")
-        require.between(
-            self.poisson_ratio, -1.0, 0.5, "Poisson's ratio", "Use 0.4999 for a nearly incompressible solid."
-        )
+        require.within(self.poisson_ratio, -1.0, 0.5, "Poisson's ratio", INCOMPRESSIBLE)
         require.instance(self.strength, Strength, "strength of an elastic body", "Write Strength(hardness=...).")
 
     @property

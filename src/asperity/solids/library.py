@@ -11,7 +11,7 @@ from typing import Any
 
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
-from .elastic import Elastic
+from .elastic import INCOMPRESSIBLE, Elastic
 from .strength import Strength
 
 REQUIRED_KEYS = ("youngs_modulus", "poisson_ratio")
@@ -51,7 +51,7 @@ class MaterialRecord:
     youngs_modulus
         E in Pa, > 0.
     poisson_ratio
-        nu, -1 < nu < 0.5.
+        nu, -1 < nu <= 0.5.
     hardness, yield_stress
         Hardness and tensile yield stress in Pa, > 0; None where not known.
     note
@@ -213,6 +213,5 @@ def _sourced(key: str, entry: Any, where: str) -> Sourced:
         raise InputError(f"source of {what} must be text, but is {source!r}.")
     value = entry["value"]
     if key == "poisson_ratio":
-        fix = "Use 0.4999 for a nearly incompressible solid."
-        return Sourced(require.between(value, -1.0, 0.5, what, fix), source)
+        return Sourced(require.within(value, -1.0, 0.5, what, INCOMPRESSIBLE), source)
     return Sourced(require.positive(units.parse(value, "pressure", what), f"{what} (Pa)"), source)

@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 from ...contact.solvers.by_name import SOLVERS
 from ...core import require, units
 from ...core.errors import InputError
+from ...solids.elastic import INCOMPRESSIBLE
 
 FROM_BODY = "from body"
 """Hardness that stands for the lowest known hardness of the two bodies."""
@@ -84,7 +85,7 @@ def _ordered(value: object) -> object:
 
 
 def _poisson_ratio(value: float) -> float:
-    return require.between(value, -1.0, 0.5, "", "Use 0.4999 for a nearly incompressible solid.")
+    return require.within(value, -1.0, 0.5, "", INCOMPRESSIBLE)
 
 
 def _channel(value: object) -> object:
