@@ -1,0 +1,146 @@
+"""Summits of Gaussian surfaces and peaks of Gaussian profiles against quadrature, simulation and closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from reference_data import reference
+from scipy.integrate import dblquad, quad
+
+from asperity.core.errors import InputError
+from asperity.theories.nayak import GEOMETRIC_CURVATURE, NayakSummits
+from asperity.theories.whitehouse_archard import SampledPeaks
+
+SUMMITS = {
+    "density_times_m2_over_m4": lambda n: n.density * n.m2 / n.m4,
+    "mean_height": lambda n: n.mean_height,
+    "std_height": lambda n: n.height_deviation,
+    "skew_height": lambda n: n.height_skewness,
+    "kurt_height": lambda n: n.height_kurtosis,
+    "mean_curvature": lambda n: n.mean_curvature / math.sqrt(n.m4),
+    "std_curvature": lambda n: n.curvature_deviation / math.sqrt(n.m4),
+    "mean_geometric_curvature": lambda n: n.mean_geometric_curvature / math.sqrt(n.m4),
+    "corr_height_curvature": lambda n: n.height_curvature_correlation,
+}
+PEAKS = {
+    "peak_fraction": lambda p: p.fraction,
+    "mean_peak_height": lambda p: p.mean_height,
+    "std_peak_height": lambda p: p.height_deviation,
+    "mean_peak_curvature": lambda p: p.mean_curvature,
+    "std_peak_curvature": lambda p: p.curvature_deviation,
+    "corr_height_curvature": lambda p: p.height_curvature_correlation,
+}
+
+
+@pytest.mark.parametrize("quantity", SUMMITS)
+@pytest.mark.parametrize("row", reference("nayak_summits"), ids=lambda row: f"{row['alpha']:g}")
+def test_summits_against_quadrature(row, quantity):
+    summits = NayakSummits(1.0, 1.0, row["alpha"])
+    # third and fourth cumulants are small differences: absolute, too
+    assert SUMMITS[quantity](summits) == pytest.approx(row[quantity], rel=1e-11, abs=1e-14)
+
+
+@pytest.mark.parametrize("row", reference("nayak_height_pdf"), ids=lambda row: f"{row['alpha']:g}-{row['xi']:g}")
+def test_height_density_against_quadrature(row):
+    summits = NayakSummits(4.0, 2.0, row["alpha"])  # m0 m4/m2² = alpha
+    height = 2.0 * row["xi"]
+    assert float(summits.height_density(height)) * 2.0 == pytest.approx(row["pdf"], rel=1e-10)
+    expected = row["mean_curvature_given_xi"] * math.sqrt(summits.m4)
+    assert float(summits.mean_curvature_at(height)) == pytest.approx(expected, rel=1e-10)
+
+
+@pytest.mark.parametrize("row", reference("mccool_parameters"), ids=lambda row: f"{row['alpha']:.3g}")
+def test_mccool_parameters(row):
+    summits = NayakSummits(row["m0_m2"], row["m2"], row["m4_per_m2"])
+    assert summits.alpha == pytest.approx(row["alpha"], rel=1e-12)
+    assert summits.density == pytest.approx(row["eta_per_m2"], rel=1e-12)
+    assert summits.radius == pytest.approx(row["R_m"], rel=1e-12)
+    # the reference takes the constant 0.8968 with ten digits
+    assert summits.height_deviation == pytest.approx(row["sigma_s_m"], rel=1e-10)
+    assert summits.mean_height == pytest.approx(row["zbar_s_m"], rel=1e-12)
+
+
+def test_the_mean_geometric_curvature_is_its_integral():
+    integral, _ = dblquad(
+        lambda u, t: (t * t - u) ** 1.5 * math.exp(-u - 0.5 * t * t) / math.sqrt(2.0 * math.pi),
+        0.0,
+        12.0,  # the density beyond is below exp(-72)
+        0.0,
+        lambda t: t * t,
+        epsabs=1e-12,
+    )
+    # sqrt(2/3) is the unit of curvature, 2 sqrt(3) the norm of the density of summits
+    assert math.sqrt(2.0 / 3.0) * 2.0 * math.sqrt(3.0) * integral == pytest.approx(GEOMETRIC_CURVATURE, rel=1e-10)
+
+
+@given(alpha=st.floats(1.5, 500.0))
+def test_the_density_of_heights_has_the_stated_moments(alpha):
+    summits = NayakSummits(1.0, 1.0, alpha)
+    # the density of a single wavelength ends at zero height
+    low = 0.0 if alpha < 1.5 + 1e-8 else -12.0
+    moments = [quad(lambda z, n=n: z**n * float(summits.height_density(z)), low, 14.0, limit=200)[0] for n in range(3)]
+    assert moments[0] == pytest.approx(1.0, rel=1e-7)
+    assert moments[1] == pytest.approx(summits.mean_height, rel=1e-6)
+    assert moments[2] - moments[1] ** 2 == pytest.approx(summits.height_deviation**2, rel=1e-6)
+
+
+def test_wide_spectra_have_gaussian_summits_independent_of_curvature():
+    summits = NayakSummits(1.0, 1.0, 1e8)
+    assert summits.mean_height == pytest.approx(4.0 / math.sqrt(math.pi * 1e8))
+    assert summits.height_deviation == pytest.approx(1.0, rel=1e-8)
+    assert summits.height_curvature_correlation < 1e-4
+    assert float(summits.height_density(0.0)) == pytest.approx(1.0 / math.sqrt(2.0 * math.pi), rel=1e-4)
+
+
+def test_no_isotropic_surface_has_alpha_below_three_halves():
+    with pytest.raises(InputError, match=r"1\.5"):
+        NayakSummits(1.0, 1.0, 1.4)
+    with pytest.raises(InputError, match="m4"):
+        NayakSummits(1.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("quantity", PEAKS)
+@pytest.mark.parametrize("row", reference("profile_peaks_exponential_acf"), ids=lambda row: f"{row['l_over_beta']:g}")
+def test_peaks_against_quadrature(row, quantity):
+    assert PEAKS[quantity](SampledPeaks(row["rho1"], row["rho2"])) == pytest.approx(row[quantity], rel=1e-11)
+
+
+@pytest.mark.parametrize("row", reference("surfaces_sampled_peaks"), ids=lambda row: f"{row['delta_over_beta_e']:g}")
+def test_sampled_exponential_profiles(row):
+    rho = [math.exp(-n * row["delta_over_beta_e"]) for n in (1, 2)]
+    peaks = SampledPeaks(*rho)
+    assert peaks.fraction == pytest.approx(row["peak_density_times_delta"], rel=1e-10)
+    assert peaks.mean_height == pytest.approx(row["mean_peak_height_over_sigma"], rel=1e-10)
+    assert peaks.mean_curvature == pytest.approx(row["mean_peak_curvature_times_delta2_over_sigma"], rel=1e-10)
+    assert peaks.zero_crossings == pytest.approx(row["zero_crossing_density_times_delta"], rel=1e-10)
+
+
+@given(rho_1=st.floats(-0.6, 0.99), share=st.floats(0.01, 0.99))
+def test_peaks_of_any_profile(rho_1, share):
+    lowest = 2.0 * rho_1**2 - 1.0
+    peaks = SampledPeaks(rho_1, lowest + share * (1.0 - lowest))
+    assert 0.0 < peaks.fraction < 0.5
+    assert abs(peaks.height_curvature_correlation) <= 1.0
+    assert peaks.mean_height > 0.0
+
+
+def test_peaks_of_white_noise_are_every_third_point():
+    peaks = SampledPeaks(0.0, 0.0)
+    triples = np.random.default_rng(3).standard_normal((3, 400_000))
+    is_peak = (triples[1] > triples[0]) & (triples[1] > triples[2])
+    heights = triples[1, is_peak]
+    assert peaks.fraction == pytest.approx(1.0 / 3.0, rel=1e-14)
+    error = heights.std() / math.sqrt(heights.size)
+    assert peaks.mean_height == pytest.approx(heights.mean(), abs=5.0 * error)
+    assert peaks.height_deviation == pytest.approx(heights.std(), abs=5.0 * error)
+
+
+def test_impossible_correlations_are_refused():
+    with pytest.raises(InputError, match="correlations of a profile"):
+        SampledPeaks(0.9, 0.1)
+    with pytest.raises(InputError, match="correlation of neighbours"):
+        SampledPeaks(1.0, 0.9)
