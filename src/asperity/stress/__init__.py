@@ -1,0 +1,1 @@
+"""Layer 2: displacement and stress inside homogeneous and layered bodies under given surface tractions."""

@@ -1,0 +1,174 @@
+"""Potentials of a uniformly loaded quarter plane, from which every field of a rectangular patch is a corner sum.
+
+Derivatives of Φ (Φ_XY = ln(R + z)) and Ψ (Ψ_Z = Φ), the Boussinesq-Cerruti potentials (Love 1929; Johnson 1985,
+eqs 3.2-3.10); functions of X alone or Y alone cancel in the corner sum and are left out. Written without cancellation:
+logarithms as asinh, pairs of arctangents as one angle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.tensor import Displacement, StressTensor
+
+_TINY = 1e-290
+
+
+@dataclass(frozen=True, eq=False)
+class Corner:
+    """Point (X, Y, z) in m relative to a corner; arrays that broadcast against each other, z >= 0."""
+
+    X: RealArray
+    Y: RealArray
+    z: RealArray | float
+
+    @cached_property
+    def R(self) -> RealArray:
+        """Distance from the corner, kept above 1e-145."""
+        distance: RealArray = np.sqrt(np.maximum(self.X**2 + self.Y**2 + self.z**2, _TINY))
+        return distance
+
+    @cached_property
+    def L_X(self) -> RealArray:
+        """ln(R + X) up to a function of Y: Φ_YZ."""
+        length: RealArray = np.arcsinh(self.X / np.sqrt(self._yz))
+        return length
+
+    @cached_property
+    def L_Y(self) -> RealArray:
+        """ln(R + Y) up to a function of X: Φ_XZ."""
+        length: RealArray = np.arcsinh(self.Y / np.sqrt(self._xz))
+        return length
+
+    @cached_property
+    def XY(self) -> RealArray:
+        """Φ_XY = ln(R + z)."""
+        logarithm: RealArray = np.log(self.R + self.z)
+        return logarithm
+
+    @cached_property
+    def ZZ(self) -> RealArray:
+        """Φ_ZZ = -arctan(XY / zR)."""
+        return -np.arctan2(self.X * self.Y, self.z * self.R)
+
+    @cached_property
+    def XX(self) -> RealArray:
+        """Φ_XX = arctan(Y/X) - arctan(zY / XR) as one angle."""
+        return np.arctan2(self._twist, self.X**2 * self.R + self.Y**2 * self.z)
+
+    @cached_property
+    def YY(self) -> RealArray:
+        """Φ_YY, as Φ_XX with X and Y exchanged."""
+        return np.arctan2(self._twist, self.Y**2 * self.R + self.X**2 * self.z)
+
+    @cached_property
+    def X_(self) -> RealArray:
+        """Φ_X."""
+        return self.Y * self.XY - self.Y + self.X * self.XX + self.z * self.L_Y
+
+    @cached_property
+    def Y_(self) -> RealArray:
+        """Φ_Y."""
+        return self.X * self.XY - self.X + self.Y * self.YY + self.z * self.L_X
+
+    @cached_property
+    def Z_(self) -> RealArray:
+        """Φ_Z."""
+        return self.X * self.L_Y + self.Y * self.L_X + self.z * self.ZZ
+
+    @cached_property
+    def XXZ(self) -> RealArray:
+        """Φ_XXZ = -XY / R(X² + z²)."""
+        return -self.X * self.Y / self.R / self._xz
+
+    @cached_property
+    def YYZ(self) -> RealArray:
+        """Φ_YYZ = -XY / R(Y² + z²)."""
+        return -self.X * self.Y / self.R / self._yz
+
+    @cached_property
+    def XZZ(self) -> RealArray:
+        """Φ_XZZ = -zY / R(X² + z²)."""
+        return -self.z * self.Y / self.R / self._xz
+
+    @cached_property
+    def YZZ(self) -> RealArray:
+        """Φ_YZZ = -zX / R(Y² + z²)."""
+        return -self.z * self.X / self.R / self._yz
+
+    @cached_property
+    def XXY(self) -> RealArray:
+        """Φ_XXY = X / R(R + z)."""
+        return self.X / self.R / (self.R + self.z)
+
+    @cached_property
+    def XYY(self) -> RealArray:
+        """Φ_XYY = Y / R(R + z)."""
+        return self.Y / self.R / (self.R + self.z)
+
+    @cached_property
+    def _xz(self) -> RealArray:
+        square: RealArray = np.maximum(self.X**2 + self.z**2, _TINY)
+        return square
+
+    @cached_property
+    def _yz(self) -> RealArray:
+        square: RealArray = np.maximum(self.Y**2 + self.z**2, _TINY)
+        return square
+
+    @cached_property
+    def _twist(self) -> RealArray:
+        return self.X * self.Y * (self.X**2 + self.Y**2) / (self.R + self.z)
+
+
+def pressure_stress(c: Corner, nu: float) -> StressTensor:
+    """Stress of unit pressure: Love's patch (Love 1929)."""
+    z, k = c.z, 1.0 - 2.0 * nu
+    s = StressTensor(
+        xx=2.0 * nu * c.ZZ - k * c.XX - z * c.XXZ,
+        yy=2.0 * nu * c.ZZ - k * c.YY - z * c.YYZ,
+        zz=c.ZZ + z * (c.XXZ + c.YYZ),
+        xy=-k * c.XY - z / c.R,
+        xz=-z * c.XZZ,
+        yz=-z * c.YZZ,
+    )
+    return s * (0.5 / np.pi)
+
+
+def pressure_displacement(c: Corner, shear: float, nu: float) -> Displacement:
+    """Displacement (m/Pa) of unit pressure on a body of shear modulus ``shear`` (Pa)."""
+    z, k = c.z, 1.0 - 2.0 * nu
+    u = Displacement(-k * c.X_ - z * c.L_Y, -k * c.Y_ - z * c.L_X, 2.0 * (1.0 - nu) * c.Z_ - z * c.ZZ)
+    return u * (0.25 / (np.pi * shear))
+
+
+def shear_stress(c: Corner, nu: float) -> StressTensor:
+    """Stress of unit shear traction along +x."""
+    z, s = c.z, c.R + c.z
+    xzz, xyy = c.XZZ, c.XYY
+    t = StressTensor(
+        xx=2.0 * (1.0 + nu) * c.L_Y + 2.0 * nu * (-c.L_Y + c.Y / s) + z * (xyy + xzz),
+        yy=2.0 * nu * c.L_Y - 2.0 * nu * c.Y / s - z * xyy,
+        zz=-z * xzz,
+        xy=c.L_X - 2.0 * nu * c.X / s - z * c.XXY,
+        xz=c.ZZ - z * c.XXZ,
+        yz=-z / c.R,
+    )
+    return t * (0.5 / np.pi)
+
+
+def shear_displacement(c: Corner, shear: float, nu: float) -> Displacement:
+    """Displacement (m/Pa) of unit shear traction along +x on a body of shear modulus ``shear`` (Pa)."""
+    z = c.z
+    psi_xx = -c.X * c.L_Y + z * c.XX
+    psi_xy = z * c.XY - c.R
+    u = Displacement(
+        2.0 * c.Z_ + 2.0 * nu * psi_xx - z * c.XX,
+        2.0 * nu * psi_xy - z * c.XY,
+        (1.0 - 2.0 * nu) * c.X_ - z * c.L_Y,
+    )
+    return u * (0.25 / (np.pi * shear))

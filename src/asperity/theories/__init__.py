@@ -1,0 +1,1 @@
+"""Closed-form theories: they take and return numbers."""
