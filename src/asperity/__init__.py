@@ -1,9 +1,10 @@
 """Contact mechanics of layered rough surfaces."""
 
 from .contact import solvers
-from .contact.advice import Advice, advise, review
-from .contact.boundary import Free, Periodic
+from .contact.advice import advise, review
+from .contact.boundary import Free, FreeLine, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure
+from .contact.finding import Advice
 from .contact.laws import Hardness, HardWall
 from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
@@ -27,7 +28,11 @@ from .io.export import export_csv, export_vtk
 from .io.results import load, open_dataset, save
 from .plots.figures import save_plots, save_surface_plot
 from .report.write import write_report
-from .solids.elastic import Elastic, Rigid, contact_modulus
+from .solids.body import contact_modulus
+from .solids.elastic import Elastic, Rigid
+from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
+from .solids.interface import Bonded, Frictionless
+from .solids.layers import Layer, Layered, RigidBase
 from .solids.library import material, materials
 from .solids.strength import Strength
 from .surfaces import generate
@@ -49,28 +54,37 @@ __all__ = [
     "Approach",
     "ArrayEngine",
     "AsperityError",
+    "Bonded",
     "ContactProblem",
     "ContactResult",
     "ConvergenceError",
     "CpuEngine",
     "Elastic",
+    "ExponentialGrading",
     "FileFormatError",
     "Flat",
     "Force",
     "Free",
+    "FreeLine",
+    "Frictionless",
     "Grid",
     "HardWall",
     "Hardness",
     "InputError",
     "InterfaceState",
     "Keep",
+    "Layer",
+    "Layered",
+    "LinearGrading",
     "LoadPath",
     "MeanGap",
     "MeanPressure",
     "NoSolutionError",
     "OutputError",
     "Periodic",
+    "PowerGrading",
     "Rigid",
+    "RigidBase",
     "Strength",
     "Surface",
     "UnitError",
@@ -85,6 +99,7 @@ __all__ = [
     "export_vtk",
     "filled",
     "generate",
+    "graded",
     "levelled",
     "load",
     "material",

@@ -11,7 +11,7 @@ from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..contact.advice import Advice
+    from ..contact.finding import Advice
     from ..contact.result import ContactResult
     from ..io.build import Case
     from ..io.documents import ProblemDocument

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from ..contact.advice import Advice
+    from ..contact.finding import Advice
     from ..contact.result import ContactResult
-    from ..solids.elastic import Body
+    from ..solids.body import Body
     from ..surfaces.surface import Surface
 
 

@@ -5,17 +5,16 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from ..core.arrays import RealArray
-from ..solids.elastic import Elastic
+from ..solids.body import materials_of, surface_material
 from ..surfaces.characterise.slopes import rms_slope
 from ..surfaces.surface import Surface
-from .boundary import Free
 from .control import Control, Force, MeanPressure, mean_pressure
+from .finding import Advice
+from .layer_advice import layer_advice
 from .problem import ContactProblem
 from .result import ContactResult
 
@@ -50,21 +49,8 @@ FIELDS_OF_A_SOLVE = 16
 """Real fields of the grid alive in a solve, result included."""
 
 
-@dataclass(frozen=True)
-class Advice:
-    """One finding.
-
-    ``level`` is ``"note"`` (good to know) or ``"warning"`` (the answer may be wrong); ``criterion`` a short name;
-    ``message`` one or two sentences with the numbers and the remedy.
-    """
-
-    level: Literal["note", "warning"]
-    criterion: str
-    message: str
-
-
 def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
-    """Findings that can be made before solving: slopes, resolution, edges, load, memory."""
+    """Findings that can be made before solving: slopes, resolution, edges, load, layers, memory."""
     profile = problem.profile()
     return (
         *_slope(problem, profile),
@@ -72,6 +58,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
         *_asperity_radius(problem, profile),
         *_edges(problem, profile),
         *_load(problem, control),
+        *layer_advice(problem),
         *_memory(problem),
     )
 
@@ -133,10 +120,8 @@ def _shortest_wavelength(profile: RealArray, axis: int) -> float:
 
 
 def _edges(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
-    if isinstance(problem.boundary, Free):
-        return
     for axis, name in enumerate("xy"):
-        if profile.shape[axis] < 2:
+        if profile.shape[axis] < 2 or not problem.boundary.wraps[axis]:
             continue
         inside = _mean_square_difference(profile, 1, axis)
         across = float(((profile.take(0, axis=axis) - profile.take(-1, axis=axis)) ** 2).mean())
@@ -156,18 +141,24 @@ def _edges(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
 def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
     if not isinstance(control, MeanPressure | Force):
         return
-    ratio = mean_pressure(control, problem.grid) / problem.contact_modulus
+    ratio = mean_pressure(control, problem.grid) / _softest_contact_modulus(problem)
     if ratio > LARGEST_LOAD_RATIO:
         yield Advice(
             "warning",
             "load",
-            f"The mean pressure is {ratio:.2g} of the contact modulus E*; linear elasticity holds up to about "
+            f"The mean pressure is {ratio:.2g} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
             f"{LARGEST_LOAD_RATIO:g}. Check unit and value of the load.",
         )
 
 
+def _softest_contact_modulus(problem: ContactProblem) -> float:
+    """E* (Pa) as if each body consisted of its softest material, layers and base included."""
+    bodies = (materials_of(body) for body in (problem.body, problem.counter_body))
+    return 1.0 / sum(max((1.0 / solid.plane_strain_modulus for solid in solids), default=0.0) for solids in bodies)
+
+
 def _memory(problem: ContactProblem) -> Iterator[Advice]:
-    padding = 4 if isinstance(problem.boundary, Free) else 1
+    padding = 1 if all(problem.boundary.wraps) else 4
     needed = 8.0 * FIELDS_OF_A_SOLVE * padding * problem.grid.n_points
     names = getattr(os, "sysconf_names", {})
     if "SC_AVPHYS_PAGES" not in names or "SC_PAGE_SIZE" not in names:
@@ -216,9 +207,9 @@ def _room(result: ContactResult) -> Iterator[Advice]:
     contact, problem = result.contact, result.problem
     if not contact.any():
         return
-    if isinstance(problem.boundary, Free):
-        border = contact[0, :].any() or contact[-1, :].any() or contact[:, 0].any() or contact[:, -1].any()
-        if border:
+    open_axes = [axis for axis in (0, 1) if not problem.boundary.wraps[axis]]
+    if open_axes:
+        if any(contact.take([0, -1], axis).any() for axis in open_axes):
             yield Advice(
                 "note",
                 "contact at the border",
@@ -249,13 +240,14 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
     for body in (result.problem.body, result.problem.counter_body):
-        hardness = body.strength.hardness if isinstance(body, Elastic) else math.nan
+        solid = surface_material(body)
+        hardness = math.nan if solid is None else solid.strength.hardness
         if result.max_pressure > hardness * (1.0 + 1e-9):  # reaching a cap equal to the hardness is as it should be
             yield Advice(
                 "warning",
                 "hardness",
                 f"The maximum pressure is {result.max_pressure / hardness:.2g} times the hardness of "
-                f"{body.name or 'the body'}: it would yield. Use the law Hardness(...) with that hardness "
+                f"{(solid and solid.name) or body.name or 'the body'}: it would yield. Use the law Hardness(...) with that hardness "
                 "(--hardness body).",
             )
 

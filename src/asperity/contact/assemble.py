@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from . import measure
-from .boundary import Periodic
 from .certificate import Certificate
 from .control import Control
 from .problem import ContactProblem
@@ -36,9 +35,9 @@ def assemble(
     permanent = indentation if state is None else state.permanent_indentation + indentation
     contact = p > 0.0
     pixels = int(np.count_nonzero(contact))
-    periodic = isinstance(problem.boundary, Periodic)
-    area = measure.corrected_area(contact, grid, periodic=periodic)
-    spots = measure.contact_spots(contact, periodic=periodic) * grid.pixel_area
+    wraps = problem.boundary.wraps
+    area = measure.corrected_area(contact, grid, wraps=wraps)
+    spots = measure.contact_spots(contact, wraps=wraps) * grid.pixel_area
     gap = np.maximum(raw_gap, 0.0)
     return ContactResult(
         problem=problem,
@@ -65,7 +64,7 @@ def assemble(
         n_spots=int(spots.size),
         spot_areas=spots,
         mean_spot_area=float(spots.mean()) if spots.size else 0.0,
-        contact_perimeter=measure.contact_perimeter(contact, grid, periodic=periodic),
+        contact_perimeter=measure.contact_perimeter(contact, grid, wraps=wraps),
         certificate=certificate,
         status=solution.status,
         citation_keys=citations,

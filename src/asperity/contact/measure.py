@@ -17,39 +17,39 @@ PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""
 
 
-def contact_edges(contact: BoolArray, *, periodic: bool) -> tuple[int, int]:
+def contact_edges(contact: BoolArray, *, wraps: tuple[bool, bool]) -> tuple[int, int]:
     """Number of pixel edges between contact and non-contact, normal to x and normal to y.
 
-    Across the border of the grid lies the opposite side (``periodic``) or no contact.
+    Across the border of the grid lies, along x and along y, the opposite side (``wraps``) or no contact.
     """
-    if periodic:
-        along_x, along_y = np.roll(contact, 1, axis=0), np.roll(contact, 1, axis=1)
-        return int(np.count_nonzero(contact != along_x)), int(np.count_nonzero(contact != along_y))
-    padded = np.pad(contact, 1)
-    return (
-        int(np.count_nonzero(padded[1:, :] != padded[:-1, :])),
-        int(np.count_nonzero(padded[:, 1:] != padded[:, :-1])),
-    )
+    return _edges(contact, 0, wraps=wraps[0]), _edges(contact, 1, wraps=wraps[1])
 
 
-def contact_perimeter(contact: BoolArray, grid: Grid, *, periodic: bool) -> float:
+def _edges(contact: BoolArray, axis: int, *, wraps: bool) -> int:
+    if wraps:
+        return int(np.count_nonzero(contact != np.roll(contact, 1, axis)))
+    beyond = np.zeros_like(contact.take([0], axis))
+    return int(np.count_nonzero(np.diff(np.concatenate([beyond, contact, beyond], axis), axis=axis)))
+
+
+def contact_perimeter(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) -> float:
     """Total length in m of the pixel edges between contact and non-contact."""
-    edges_x, edges_y = contact_edges(contact, periodic=periodic)
+    edges_x, edges_y = contact_edges(contact, wraps=wraps)
     return edges_x * grid.spacing[1] + edges_y * grid.spacing[0]
 
 
-def corrected_area(contact: BoolArray, grid: Grid, *, periodic: bool) -> float:
+def corrected_area(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) -> float:
     """True contact area in m², freed of the pixel bias (Yastrebov, Anciaux & Molinari 2017, eq. 7).
 
     For rectangular pixels each edge counts with the pixel size across it. Contacts of a few pixels may be
     over-corrected; the result is never below zero.
     """
-    edges = sum(contact_edges(contact, periodic=periodic))
+    edges = sum(contact_edges(contact, wraps=wraps))
     pixels = int(np.count_nonzero(contact))
     return max(0.0, pixels - PERIMETER_FACTOR * edges) * grid.pixel_area
 
 
-def contact_spots(contact: BoolArray, *, periodic: bool) -> RealArray:
+def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:
     """Number of pixels of every contact spot (pixels joined by edges), largest first."""
     from scipy.ndimage import label
     from scipy.sparse import coo_array
@@ -58,9 +58,9 @@ def contact_spots(contact: BoolArray, *, periodic: bool) -> RealArray:
     labels, count = label(contact)
     if count == 0:
         return np.zeros(0)
-    if periodic:
-        first = np.concatenate([labels[0, :], labels[:, 0]])
-        last = np.concatenate([labels[-1, :], labels[:, -1]])
+    if any(wraps):
+        ends = [(labels.take(0, axis), labels.take(-1, axis)) for axis in (0, 1) if wraps[axis]]
+        first, last = (np.concatenate(lines) for lines in zip(*ends, strict=True))
         joined = (first > 0) & (last > 0)
         rows, columns = first[joined] - 1, last[joined] - 1
         links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))

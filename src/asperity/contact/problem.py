@@ -11,12 +11,13 @@ from ..core.arrays import RealArray
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..solids.body import Body, contact_modulus
 from ..solids.compliance.protocol import Compliance
 from ..solids.compliance.two_bodies import contact_compliance
-from ..solids.elastic import Body, Rigid, contact_modulus
+from ..solids.elastic import Rigid
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
-from .boundary import Boundary, Periodic
+from .boundary import Boundary, FreeLine, Periodic
 from .laws import HardWall, InterfaceLaw
 
 
@@ -38,14 +39,14 @@ class ContactProblem:
     surface
         Surface of ``body``, heights positive out of it. Missing points must have been filled.
     body
-        The body under the surface.
+        The body under the surface: ``Elastic``, ``Layered`` or ``Rigid``.
     counter_surface
         Surface of the counter body on the same grid, heights positive out of *that* body and already laid in the
         lateral frame of ``surface`` (see ``composite`` for the mirror a measured map needs). Flat by default.
     counter_body
         The counter body; rigid by default. Only one of the two may be rigid.
     boundary
-        ``Periodic()`` or ``Free()``.
+        ``Periodic()``, ``Free()``, or ``FreeLine()`` for a free line contact.
     law
         ``HardWall()`` (elastic) or ``Hardness(H)``.
 
@@ -56,7 +57,8 @@ class ContactProblem:
     Raises
     ------
     InputError
-        If a surface has missing points, grids differ, both bodies are rigid, or a hardness array has another shape.
+        If a surface has missing points, grids differ, both bodies are rigid, a hardness array has another shape, or
+        the grid does not suit the boundary.
     """
 
     surface: Surface
@@ -69,11 +71,13 @@ class ContactProblem:
     def __post_init__(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
         _require(self.counter_surface, Surface | Flat, "counter_surface", "a Surface or Flat()")
-        _require(self.boundary, Boundary, "boundary", "Periodic() or Free()")
+        _require(self.boundary, Boundary, "boundary", "Periodic(), Free() or FreeLine()")
         for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
-            _require(body, Body, what, "Elastic(...), a named material or Rigid()")
+            _require(body, Body, what, "Elastic(...), a named material, Layered(...) or Rigid()")
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
         contact_modulus(self.body, self.counter_body)
+        if isinstance(self.boundary, FreeLine):
+            self.boundary.require_line(self.grid)
         for surface, what in ((self.surface, "surface"), (self.counter_surface, "counter_surface")):
             if isinstance(surface, Surface) and surface.n_missing:
                 raise InputError(
@@ -95,7 +99,7 @@ class ContactProblem:
 
     @property
     def contact_modulus(self) -> float:
-        """E* in Pa."""
+        """E* in Pa of the materials at the two surfaces, see ``contact_modulus``."""
         return contact_modulus(self.body, self.counter_body)
 
     @property

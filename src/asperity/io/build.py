@@ -14,7 +14,8 @@ from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
 from ..core import units
 from ..core.errors import InputError
-from ..solids.elastic import Body, Elastic, Rigid
+from ..solids.body import Body
+from ..solids.elastic import Elastic, Rigid
 from ..solids.library import material
 from ..solids.strength import Strength
 from .build_surface import build_counter_surface, build_surface

@@ -15,16 +15,21 @@ from ..contact.laws import Hardness, HardWall
 from ..contact.problem import Flat
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
-from ..solids.elastic import Body
+from ..solids.body import Body
+from ..solids.interface import Interface
+from ..solids.layers import Layer, RigidBase
 from ..solids.strength import Strength
 
 TYPES: tuple[type, ...] = (
     *get_args(Body),
     *get_args(Boundary),
     *get_args(Control),
+    *get_args(Interface),
     Flat,
     Hardness,
     HardWall,
+    Layer,
+    RigidBase,
     Strength,
 )
 """Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""

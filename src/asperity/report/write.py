@@ -8,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ..contact.advice import Advice
+from ..contact.finding import Advice
 from ..contact.result import ContactResult
 from ..core.citations import REFERENCES
 from ..core.errors import InputError

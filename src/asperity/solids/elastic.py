@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
 from ..core import require
-from ..core.errors import InputError
 from .strength import Strength
 
 INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
@@ -61,21 +59,3 @@ class Rigid:
     """Body that does not deform."""
 
     name: str = "rigid"
-
-
-Body: TypeAlias = Elastic | Rigid
-"""A body that can take part in a contact."""
-
-
-def contact_modulus(body: Body, counter_body: Body) -> float:
-    """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22).
-
-    Raises
-    ------
-    InputError
-        If both bodies are rigid.
-    """
-    compliance = sum(1.0 / b.plane_strain_modulus for b in (body, counter_body) if isinstance(b, Elastic))
-    if compliance == 0.0:
-        raise InputError("body and counter_body must not both be rigid; make at least one of them Elastic.")
-    return 1.0 / compliance

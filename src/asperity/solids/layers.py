@@ -93,3 +93,25 @@ class Layered:
                 f"but is {type(self.base).__name__}."
             )
         object.__setattr__(self, "layers", layers)
+
+    @property
+    def reduced(self) -> Layered:
+        """The same body without layers of zero thickness and without what lies under a layer of infinite thickness."""
+        kept: list[Layer] = []
+        for layer in self.layers:
+            if layer.thickness == math.inf:
+                return Layered(kept, layer.material, self.name)
+            if layer.thickness > 0.0:
+                kept.append(layer)
+        return Layered(kept, self.base, self.name)
+
+    @property
+    def surface_material(self) -> Base:
+        """Material at the surface: of the first layer that is there at all, or the base."""
+        reduced = self.reduced
+        return reduced.layers[0].material if reduced.layers else reduced.base
+
+    @property
+    def thickness(self) -> float:
+        """Sum of the thicknesses of all layers in m."""
+        return sum(layer.thickness for layer in self.layers)

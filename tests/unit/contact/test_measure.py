@@ -18,14 +18,14 @@ def test_perimeter_counts_edges_with_their_lengths():
     contact = pattern("..... .##.. .....")
     grid = asp.Grid(contact.shape, (2.0, 3.0))
     for periodic in (True, False):
-        assert measure.contact_edges(contact, periodic=periodic) == (4, 2)
-        assert measure.contact_perimeter(contact, grid, periodic=periodic) == 4 * 3.0 + 2 * 2.0
+        assert measure.contact_edges(contact, wraps=(periodic, periodic)) == (4, 2)
+        assert measure.contact_perimeter(contact, grid, wraps=(periodic, periodic)) == 4 * 3.0 + 2 * 2.0
 
 
 def test_border_is_an_edge_only_where_free():
     contact = pattern("## ##")
-    assert measure.contact_edges(contact, periodic=False) == (4, 4)
-    assert measure.contact_edges(contact, periodic=True) == (0, 0)
+    assert measure.contact_edges(contact, wraps=(False, False)) == (4, 4)
+    assert measure.contact_edges(contact, wraps=(True, True)) == (0, 0)
 
 
 def test_corrected_area_is_the_formula_of_the_paper():
@@ -33,36 +33,36 @@ def test_corrected_area_is_the_formula_of_the_paper():
     contact = pattern(".... .##. .##. ....")
     factor = (np.pi - 1.0 + np.log(2.0)) / 24.0
     for spacing in ((1.0, 1.0), (2.0, 0.5)):
-        area = measure.corrected_area(contact, asp.Grid(contact.shape, spacing), periodic=False)
+        area = measure.corrected_area(contact, asp.Grid(contact.shape, spacing), wraps=(False, False))
         assert area == pytest.approx((4.0 - 8.0 * factor) * spacing[0] * spacing[1], rel=1e-14)
 
 
 def test_spots_join_across_a_periodic_border():
     contact = pattern("#...# ..... ..#.. ..#.. #....")
-    assert measure.contact_spots(contact, periodic=False).tolist() == [2, 1, 1, 1]
-    assert measure.contact_spots(contact, periodic=True).tolist() == [3, 2]
+    assert measure.contact_spots(contact, wraps=(False, False)).tolist() == [2, 1, 1, 1]
+    assert measure.contact_spots(contact, wraps=(True, True)).tolist() == [3, 2]
 
 
 def test_diagonal_neighbours_are_two_spots():
-    assert measure.contact_spots(pattern("#. .#"), periodic=False).tolist() == [1, 1]
+    assert measure.contact_spots(pattern("#. .#"), wraps=(False, False)).tolist() == [1, 1]
 
 
 def test_no_contact():
     nothing = np.zeros((4, 4), dtype=bool)
-    assert measure.contact_spots(nothing, periodic=True).size == 0
-    assert measure.corrected_area(nothing, asp.Grid((4, 4), (1.0, 1.0)), periodic=True) == 0.0
+    assert measure.contact_spots(nothing, wraps=(True, True)).size == 0
+    assert measure.corrected_area(nothing, asp.Grid((4, 4), (1.0, 1.0)), wraps=(True, True)) == 0.0
 
 
 @settings(max_examples=50)
 @given(st.integers(0, 10**6), st.floats(0.1, 0.9), st.integers(0, 20), st.integers(0, 20), st.booleans())
 def test_spots_conserve_pixels_and_do_not_care_where_the_map_starts(seed, share, i, j, periodic):
     contact = np.random.default_rng(seed).random((9, 12)) < share
-    spots = measure.contact_spots(contact, periodic=periodic)
+    spots = measure.contact_spots(contact, wraps=(periodic, periodic))
     assert spots.sum() == np.count_nonzero(contact)
     assert (np.diff(spots) <= 0).all()
     if periodic:
         moved = np.roll(contact, (i, j), (0, 1))
-        np.testing.assert_array_equal(measure.contact_spots(moved, periodic=True), spots)
+        np.testing.assert_array_equal(measure.contact_spots(moved, wraps=(True, True)), spots)
 
 
 def test_distribution_integrates_to_one_and_holds_the_mean():

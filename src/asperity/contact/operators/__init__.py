@@ -4,7 +4,7 @@ from ...core.engine import Engine
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
-from ..boundary import Boundary, Free, Periodic
+from ..boundary import Boundary, Free, FreeLine, Periodic
 from .free import FreeOperator
 from .periodic import PeriodicOperator
 from .protocol import Operator
@@ -24,17 +24,17 @@ def prepare_operator(
     grid
         Grid of pressure and displacement, ``problem.grid``.
     boundary
-        ``Periodic()`` or ``Free()``, ``problem.boundary``.
+        ``Periodic()``, ``Free()`` or ``FreeLine()``, ``problem.boundary``.
     engine
         Machine to compute on; the CPU with ASPERITY_THREADS or all cores by default.
 
     Raises
     ------
     InputError
-        If the boundary is neither.
+        If the boundary is none of them, or the grid is no line where it must be.
     """
     if isinstance(boundary, Periodic):
         return PeriodicOperator(compliance, grid, engine=engine)
-    if isinstance(boundary, Free):
-        return FreeOperator(compliance, grid, engine=engine)
-    raise InputError(f"boundary of an operator must be Periodic() or Free(), but is {boundary!r}.")
+    if isinstance(boundary, Free | FreeLine):
+        return FreeOperator(compliance, grid, boundary, engine=engine)
+    raise InputError(f"boundary of an operator must be Periodic(), Free() or FreeLine(), but is {boundary!r}.")

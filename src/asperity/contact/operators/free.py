@@ -11,7 +11,7 @@ from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length
 from ...solids.compliance.protocol import Compliance
-from ..boundary import Boundary, Free
+from ..boundary import Free, FreeLine
 from .application import displacement
 from .coarse import coarse_grid
 from .convolution import toeplitz_matrix
@@ -29,19 +29,23 @@ class FreeOperator:
         Normal compliance of the contact.
     grid
         Grid of pixels that can carry pressure.
+    boundary
+        ``Free()`` or, for strips in plane strain, ``FreeLine()``.
     engine
         Machine to compute on; the CPU with its default threads if not given.
     """
 
     zero_mean_mode = False
 
-    def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
+    def __init__(
+        self, compliance: Compliance, grid: Grid, boundary: Free | FreeLine = Free(), *, engine: Engine | None = None
+    ) -> None:
         nx, ny = grid.shape
         self.grid = grid
         self.compliance = compliance
-        self.boundary: Boundary = Free()
+        self.boundary: Free | FreeLine = boundary
         self.engine: Engine = engine or CpuEngine()
-        self._influence = compliance.influence(grid)
+        self._influence = boundary.influence(compliance, grid)
         self._prepared: dict[tuple[str, float], Convolution] = {}
         self._preconditioners: dict[tuple[str, float], Convolution] = {}
         self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
@@ -74,10 +78,10 @@ class FreeOperator:
     @cached_property
     def coarsened(self) -> FreeOperator:
         """Operator on the grid of half as many points per side."""
-        return FreeOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
+        return FreeOperator(self.compliance, coarse_grid(self.grid), self.boundary, engine=self.engine)
 
     def apply(self, pressure: RealArray) -> RealArray:
-        """Displacement (m) under ``pressure`` (Pa), zero at infinity."""
+        """Displacement (m) under ``pressure`` (Pa), zero at infinity (strips: at the datum)."""
         return displacement(self, pressure)
 
     def matrix(self) -> RealArray:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.grid import Grid
+from .line_kernel import half_space_strips
 from .patch import patch_displacement
 
 
@@ -42,3 +43,7 @@ class HalfSpace:
         """Love's coefficients in m/Pa, shape (nx, ny), for constant pressure on each pixel."""
         x, y = grid.coordinates()
         return patch_displacement(x, y, *grid.spacing) / self.modulus
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at distance ``datum``."""
+        return half_space_strips(grid, datum) / self.modulus

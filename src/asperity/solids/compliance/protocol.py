@@ -23,3 +23,9 @@ class Compliance(Protocol):
 
     def influence(self, grid: Grid) -> RealArray:
         """Displacement (m/Pa) at pixel offsets (i, j) = (0…nx-1, 0…ny-1) from a pixel under unit pressure."""
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip along y under unit pressure.
+
+        Plane strain; a half-space gives it relative to the distance ``datum`` (m) from a line load.
+        """

@@ -2,9 +2,49 @@
 
 from __future__ import annotations
 
-from ..elastic import Body, contact_modulus
+from dataclasses import dataclass
+
+from ...core.arrays import RealArray
+from ...core.citations import citation_keys
+from ...core.grid import Grid
+from ..body import Body, contact_modulus, surface_material
+from ..elastic import Elastic
+from ..layers import Layered
 from .halfspace import HalfSpace
+from .layered import LayerStack
 from .protocol import Compliance
+
+
+@dataclass(frozen=True)
+class SumOfCompliances:
+    """Compliance of bodies that carry the same pressure: their normal displacements add up (Peng 2001, eq. 3.32)."""
+
+    parts: tuple[Compliance, ...]
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of all parts."""
+        return (*citation_keys(*self.parts), "Peng2001")
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Sum of c(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
+        first, *others = (part.spectral(wavenumber) for part in self.parts)
+        return sum(others, start=first)
+
+    def mean_mode(self) -> float:
+        """Sum in m/Pa; 0 if the datum of one part is its mean displacement, which then is that of the sum."""
+        modes = [part.mean_mode() for part in self.parts]
+        return sum(modes) if all(modes) else 0.0
+
+    def influence(self, grid: Grid) -> RealArray:
+        """Sum of the influence coefficients in m/Pa, shape (nx, ny)."""
+        first, *others = (part.influence(grid) for part in self.parts)
+        return sum(others, start=first)
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Sum of the strip coefficients in m/Pa, shape (nx, 1)."""
+        first, *others = (part.line_influence(grid, datum) for part in self.parts)
+        return sum(others, start=first)
 
 
 def contact_compliance(body: Body, counter_body: Body) -> Compliance:
@@ -17,4 +57,11 @@ def contact_compliance(body: Body, counter_body: Body) -> Compliance:
     InputError
         If both bodies are rigid.
     """
-    return HalfSpace(contact_modulus(body, counter_body))
+    modulus = contact_modulus(body, counter_body)
+    stacks = tuple(LayerStack(b) for b in (body, counter_body) if isinstance(b, Layered) and b.reduced.layers)
+    if not stacks:
+        return HalfSpace(modulus)
+    solids = (surface_material(b) for b in (body, counter_body) if not (isinstance(b, Layered) and b.reduced.layers))
+    half_spaces = tuple(HalfSpace(s.plane_strain_modulus) for s in solids if isinstance(s, Elastic))
+    parts: tuple[Compliance, ...] = (*half_spaces, *stacks)
+    return parts[0] if len(parts) == 1 else SumOfCompliances(parts)

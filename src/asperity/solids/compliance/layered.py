@@ -1,0 +1,93 @@
+"""Normal compliance of a body of any number of layers on a half-space or a rigid base."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from ...core.arrays import RealArray
+from ...core.grid import Grid
+from ...core.log_table import LogTable, log_table
+from ..elastic import Elastic
+from ..layers import Layered
+from .hybrid import PlaneCompliance, interface_compliances
+from .line_kernel import LineKernel, line_kernel, strip_coefficients
+from .patch_average import patch_coefficients
+from .point_kernel import COUNT, Limits, PointKernel, point_kernel, wavenumber_grid
+
+
+@dataclass(frozen=True)
+class LayerStack:
+    """Compliance of ``body``, which has at least one layer of finite thickness.
+
+    Its spectrum is computed once, on a logarithmic grid of wavenumbers, however large the maps are it is asked for:
+    a layered body then costs a map of 1024² points about as much as one Fourier transform. The interpolation error is
+    below 1e-13 relative. Influence coefficients come from the same spectrum, with a relative error below 1e-8.
+    """
+
+    body: Layered
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
+        return ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
+
+    @property
+    def _depth(self) -> float:
+        return self.body.reduced.thickness
+
+    @cached_property
+    def samples(self) -> PlaneCompliance:
+        """alpha C in 1/Pa on ``wavenumber_grid`` of the total thickness."""
+        alpha = wavenumber_grid(self._depth)
+        return interface_compliances(self.body.reduced, alpha)[0].scaled(alpha)
+
+    @cached_property
+    def _spectrum(self) -> LogTable:
+        return log_table(float(wavenumber_grid(self._depth)[0]), self.samples.zz)
+
+    @property
+    def limits(self) -> Limits:
+        """alpha C_zz = 2/E' at short wavelengths (top layer) and at long ones (base)."""
+        reduced = self.body.reduced
+        base = reduced.base
+        low = 2.0 / base.plane_strain_modulus if isinstance(base, Elastic) else 0.0
+        return Limits(2.0 / reduced.layers[0].material.plane_strain_modulus, low, self._depth)
+
+    @cached_property
+    def _point(self) -> PointKernel:
+        return point_kernel(self.samples.zz, self.limits)
+
+    @cached_property
+    def _line(self) -> LineKernel:
+        return line_kernel(self.samples.zz, self.limits)
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
+        if wavenumber.size <= COUNT:
+            return interface_compliances(self.body, wavenumber)[0].zz
+        values = self._spectrum(wavenumber)
+        values /= wavenumber
+        return values
+
+    def mean_mode(self) -> float:
+        """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose datum is the mean.
+
+        Without lateral strain each layer gives h/M, M = 2G (1 - nu)/(1 - 2nu).
+        """
+        reduced = self.body.reduced
+        if isinstance(reduced.base, Elastic):
+            return 0.0
+        return sum(
+            layer.thickness * (1.0 - 2.0 * nu) / (2.0 * layer.material.shear_modulus * (1.0 - nu))
+            for layer in reduced.layers
+            for nu in (layer.material.poisson_ratio,)
+        )
+
+    def influence(self, grid: Grid) -> RealArray:
+        """Coefficients in m/Pa, shape (nx, ny), for constant pressure on each pixel."""
+        return patch_coefficients(self._point, grid)
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx (plane strain)."""
+        return strip_coefficients(self._line, grid, datum)
