@@ -10,22 +10,21 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.errors import InputError
 from ...core.grid import Grid
-from ...core.spectral import RealTransform
-from .spectra import mode_sum
+from .embedding import clipped_eigenvalues, clipping_text
 
-_CLIP_LIMIT = 1e-4  # largest negative part of a circulant spectrum, relative to its trace, that may be clipped
+_EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
+_GAUSSIAN_DOMAIN = 8.0  # the same; negative part 1e-7
+_RANGE = math.log(1e5)  # heights whose correlation has dropped to 1e-5 are taken as independent
 
 
 @dataclass(frozen=True)
 class ExponentialAutocorrelation:
     """Autocovariance σ² exp[-ln(1/drop) sqrt((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
 
-    Synthesis is by circulant embedding: the autocovariance at the shortest periodic lags is transformed. Cutting the
-    continuous spectrum at the Nyquist wavenumber instead would lose variance, and even more slope. The mean of every
-    realisation is removed, so the expected mean square is σ² less the variance of the mean, as for any finite window.
-    Source: Peng & Bhushan (2001) for the 10 % length; Dietrich & Newsam (1997) for the embedding.
+    Synthesis is by circulant embedding. ``gaussian`` removes the mean of every realisation, so the expected mean square
+    is σ² less the variance of the mean, as for any finite window. Source: Peng & Bhushan (2001) for the 10 % length;
+    Dietrich & Newsam (1997) for the embedding.
 
     Parameters
     ----------
@@ -51,18 +50,29 @@ class ExponentialAutocorrelation:
     citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997", "PengBhushan2001")
 
     def __post_init__(self) -> None:
-        require.positive(self.rms_height, "rms height (m)")
-        require.positive(self.correlation_length, "correlation length (m)")
-        require.between(self.drop, 0.0, 1.0, "drop that defines the correlation length")
-        if self.correlation_length_y is not None:
-            require.positive(self.correlation_length_y, "correlation length along y (m)")
+        _require_lengths(self.rms_height, self.correlation_length, self.drop, self.correlation_length_y)
 
     @property
     def decay_lengths(self) -> tuple[float, float]:
         """Lengths (m) along x and y at which the autocorrelation is 1/e."""
-        along_y = self.correlation_length if self.correlation_length_y is None else self.correlation_length_y
         decay = math.log(1.0 / self.drop)
-        return self.correlation_length / decay, along_y / decay
+        return self.correlation_length / decay, _along_y(self.correlation_length, self.correlation_length_y) / decay
+
+    @property
+    def correlation_range(self) -> float:
+        """Distance in m beyond which heights are uncorrelated (to 1e-5)."""
+        return _RANGE * max(self.decay_lengths)
+
+    @property
+    def embedding_lengths(self) -> tuple[float, float]:
+        """Sides in m of a periodic domain that is large enough: 12 decay lengths."""
+        return _EXPONENTIAL_DOMAIN * self.decay_lengths[0], _EXPONENTIAL_DOMAIN * self.decay_lengths[1]
+
+    def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
+        """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
+        beta_x, beta_y = self.decay_lengths
+        values: RealArray = self.rms_height**2 * np.exp(-np.hypot(x / beta_x, y / beta_y))
+        return values
 
     def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
         """C in m⁴ of the continuous surface, 2π σ² βx βy [1 + (qx βx)² + (qy βy)²]^(-3/2) with 1/e lengths β."""
@@ -79,34 +89,89 @@ class ExponentialAutocorrelation:
         InputError
             If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
-        eigenvalues = self._eigenvalues(grid)
-        negative = _negative_part(grid, eigenvalues)
-        if negative > _CLIP_LIMIT:
-            beta_x, beta_y = self.decay_lengths
-            raise InputError(
-                f"grid size must be about 12 decay lengths ({12.0 * beta_x:.3g} x {12.0 * beta_y:.3g} m) or more for a "
-                f"periodic exponential autocorrelation, but is {grid.size[0]:.3g} x {grid.size[1]:.3g} m. "
-                "Enlarge the grid and crop the result."
-            )
-        psd: RealArray = grid.pixel_area * np.maximum(eigenvalues, 0.0)
+        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
         psd[0, 0] = 0.0
         return psd
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
-        negative = _negative_part(grid, self._eigenvalues(grid))
         beta_x, beta_y = self.decay_lengths
-        text = f"exponential autocorrelation, rms height {self.rms_height:.4g} m, decay lengths {beta_x:.4g} m x {beta_y:.4g} m"
-        return text + (f", negative part {negative:.1e} of the spectrum clipped" if negative > 1e-15 else "")
-
-    def _eigenvalues(self, grid: Grid) -> RealArray:
-        lag_x, lag_y = (
-            np.minimum(np.arange(n), n - np.arange(n)) * d / beta
-            for n, d, beta in zip(grid.shape, grid.spacing, self.decay_lengths, strict=True)
-        )
-        autocovariance = self.rms_height**2 * np.exp(-np.hypot(lag_x[:, None], lag_y[None, :]))
-        return RealTransform(grid.shape).forward(autocovariance).real
+        lengths = f"decay lengths {beta_x:.4g} m x {beta_y:.4g} m"
+        return f"exponential autocorrelation, rms height {self.rms_height:.4g} m, {lengths}" + clipping_text(self, grid)
 
 
-def _negative_part(grid: Grid, eigenvalues: RealArray) -> float:
-    return mode_sum(grid, np.maximum(-eigenvalues, 0.0)) / mode_sum(grid, np.maximum(eigenvalues, 0.0))
+@dataclass(frozen=True)
+class GaussianAutocorrelation:
+    """Autocovariance σ² exp[-ln(1/drop) ((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
+
+    The surface is smooth: m2 = 2σ²/b², m4 = 12σ²/b⁴, Nayak's parameter 3, with b the 1/e length. Parameters, mean and
+    errors as for ``ExponentialAutocorrelation``.
+    """
+
+    rms_height: float
+    correlation_length: float
+    drop: float = 0.1
+    correlation_length_y: float | None = None
+    citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997",)
+
+    def __post_init__(self) -> None:
+        _require_lengths(self.rms_height, self.correlation_length, self.drop, self.correlation_length_y)
+
+    @property
+    def decay_lengths(self) -> tuple[float, float]:
+        """Lengths (m) along x and y at which the autocorrelation is 1/e."""
+        decay = math.sqrt(math.log(1.0 / self.drop))
+        return self.correlation_length / decay, _along_y(self.correlation_length, self.correlation_length_y) / decay
+
+    @property
+    def correlation_range(self) -> float:
+        """Distance in m beyond which heights are uncorrelated (to 1e-5)."""
+        return math.sqrt(_RANGE) * max(self.decay_lengths)
+
+    @property
+    def embedding_lengths(self) -> tuple[float, float]:
+        """Sides in m of a periodic domain that is large enough: 8 decay lengths."""
+        return _GAUSSIAN_DOMAIN * self.decay_lengths[0], _GAUSSIAN_DOMAIN * self.decay_lengths[1]
+
+    def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
+        """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
+        b_x, b_y = self.decay_lengths
+        values: RealArray = self.rms_height**2 * np.exp(-np.square(x / b_x) - np.square(y / b_y))
+        return values
+
+    def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
+        """C in m⁴ of the continuous surface, π σ² bx by exp{-[(qx bx)² + (qy by)²]/4} with 1/e lengths b."""
+        b_x, b_y = self.decay_lengths
+        squared = (np.asarray(qx, dtype=float) * b_x) ** 2 + (np.asarray(qy, dtype=float) * b_y) ** 2
+        values: RealArray = np.pi * self.rms_height**2 * b_x * b_y * np.exp(-0.25 * squared)
+        return values
+
+    def lattice_psd(self, grid: Grid) -> RealArray:
+        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
+
+        Raises
+        ------
+        InputError
+            If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
+        """
+        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
+        psd[0, 0] = 0.0
+        return psd
+
+    def describe(self, grid: Grid) -> str:
+        """Words and numbers for the history of a surface generated on ``grid``."""
+        b_x, b_y = self.decay_lengths
+        lengths = f"decay lengths {b_x:.4g} m x {b_y:.4g} m"
+        return f"Gaussian autocorrelation, rms height {self.rms_height:.4g} m, {lengths}" + clipping_text(self, grid)
+
+
+def _require_lengths(rms_height: float, along_x: float, drop: float, along_y: float | None) -> None:
+    require.positive(rms_height, "rms height (m)")
+    require.positive(along_x, "correlation length (m)")
+    require.between(drop, 0.0, 1.0, "drop that defines the correlation length")
+    if along_y is not None:
+        require.positive(along_y, "correlation length along y (m)")
+
+
+def _along_y(along_x: float, along_y: float | None) -> float:
+    return along_x if along_y is None else along_y

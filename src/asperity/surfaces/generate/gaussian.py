@@ -5,21 +5,35 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import require
+from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
-from ...core.spectral import RealTransform
+from ...core.spectral import RealTransform, fast_length, thread_count
 from ..surface import Origin, Surface
-from .spectra import Spectrum, mode_sum
+from .modes import mode_sum
+from .noise import node_noise, wave_noise
+from .spectra import Spectrum
+
+VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", "nested": "nested waves of PCG64"}
+"""How the waves of a realisation are drawn, with the words for its history."""
+
+_LARGEST_PARENT = 2**29  # points of the periodic map from which a window is cut: 4 GB of heights
 
 
-def gaussian(grid: Grid, spectrum: Spectrum, *, seed: int, exact_rms: bool = False) -> Surface:
-    """Periodic Gaussian surface with the given power spectrum and zero mean.
+def gaussian(
+    grid: Grid,
+    spectrum: Spectrum,
+    *,
+    seed: int,
+    variant: str = "random",
+    exact_rms: bool = False,
+    periodic: bool = True,
+) -> Surface:
+    """Gaussian surface with the given power spectrum.
 
-    White noise η (standard normal, NumPy's PCG64 stream of ``seed``, drawn in the order of the array) is filtered:
-    h = IFFT[FFT[η] sqrt(C/(dx dy))]. Amplitudes and phases are random, so every spectral mode has the expected power
-    C only on average and the rms height of one realisation scatters. Equal seeds give equal surfaces on every
-    machine up to rounding of the transform.
+    White noise η (standard normal) is filtered: h = IFFT[FFT[η] sqrt(C/(dx dy))]. Equal seeds give equal surfaces on
+    every machine and for every number of threads, up to rounding of the transform.
 
     Parameters
     ----------
@@ -30,27 +44,70 @@ def gaussian(grid: Grid, spectrum: Spectrum, *, seed: int, exact_rms: bool = Fal
         surface cites the papers in its ``citation_keys``, if it has any.
     seed
         Whole number >= 0.
+    variant
+        ``random``: noise at the nodes (PCG64, in the order of the array); amplitudes and phases are random, so a mode has
+        the power C only on average and the rms height of one realisation scatters. ``fixed``: the same phases with all
+        amplitudes equal to sqrt(C); spectrum and rms height are exact in every realisation, heights are Gaussian by
+        the central limit theorem only (Wu 2000). ``nested``: noise numbered by wave instead of by node, so that grids
+        of one size and different pixels show the same surface: for studies of the mesh.
     exact_rms
         Rescale this realisation to the expected rms height. That is another ensemble: mean square slopes and
         curvatures are then biased by up to the relative variance of the mean square height.
+    periodic
+        If false, a window of a periodic surface of at least twice the size and at least ``spectrum.correlation_range``
+        more, so that opposite borders are independent. Its mean, tilt and rms height scatter.
 
     Raises
     ------
     InputError
-        If the seed is not a whole number >= 0 or the grid does not suit the spectrum.
+        If the seed is not a whole number >= 0, the variant is unknown or the grid does not suit the spectrum.
     """
     seed = require.integer(seed, 0, "seed of a random surface")
-    psd = spectrum.lattice_psd(grid)
-    target = np.sqrt(mode_sum(grid, psd))
+    require.one_of(variant, VARIANTS, "variant of a Gaussian surface")
+    parent = grid if periodic else parent_grid(grid, spectrum)
+    psd = spectrum.lattice_psd(parent)
+    target = np.sqrt(mode_sum(parent, psd))
     if not target > 0.0:
         raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
-    transform = RealTransform(grid.shape)
-    noise = np.random.Generator(np.random.PCG64(seed)).standard_normal(grid.shape)
-    heights = transform.backward(transform.forward(noise) * np.sqrt(psd / grid.pixel_area))
-    text = f"generated: Gaussian, {spectrum.describe(grid)}, PCG64 seed {seed}"
+    heights = _synthesised(parent, psd, seed, variant)
+    text = f"generated: Gaussian, {spectrum.describe(parent)}, {VARIANTS[variant]} seed {seed}"
+    if not periodic:
+        heights = heights[: grid.shape[0], : grid.shape[1]]
+        text += f", window of a periodic surface of {parent.shape[0]} x {parent.shape[1]} points"
     if exact_rms:
-        heights *= target / np.sqrt(np.mean(np.square(heights)))
+        heights *= target / heights.std()
         text += f", rescaled to the rms height {target:g} m"
     dx, dy = grid.spacing
-    origin = Origin(source="gaussian", history=(text,), citation_keys=citation_keys(spectrum))
-    return Surface(heights, dx, dy, periodic=True, origin=origin)
+    keys = (*citation_keys(spectrum), *(("Wu2000",) if variant == "fixed" else ()))
+    origin = Origin(source="gaussian", history=(text,), citation_keys=keys)
+    return Surface(heights, dx, dy, periodic=periodic, origin=origin)
+
+
+def parent_grid(grid: Grid, spectrum: object) -> Grid:
+    """Grid of the periodic surface from which a window on ``grid`` is cut.
+
+    Raises
+    ------
+    InputError
+        If it would have more than 2^29 points.
+    """
+    reach = float(getattr(spectrum, "correlation_range", 0.0))
+    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
+    lengths = [max(2.0 * size, size + reach, side) for size, side in zip(grid.size, sides, strict=True)]
+    nx, ny = (fast_length(int(np.ceil(length / d))) for length, d in zip(lengths, grid.spacing, strict=True))
+    if nx * ny > _LARGEST_PARENT:
+        raise InputError(
+            f"grid of a window must not be much smaller than the longest waves of the spectrum, but {grid.size[0]:.3g} x "
+            f"{grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the window or shorten the waves."
+        )
+    return Grid((nx, ny), grid.spacing)
+
+
+def _synthesised(grid: Grid, psd: RealArray, seed: int, variant: str) -> RealArray:
+    transform = RealTransform(grid.shape, thread_count())
+    nested = variant == "nested"
+    spectrum = wave_noise(grid.shape, seed) if nested else transform.forward(node_noise(grid.shape, seed))
+    if variant == "fixed":
+        spectrum *= np.sqrt(grid.n_points) / np.abs(spectrum)
+    spectrum *= np.sqrt(psd / grid.pixel_area)
+    return transform.backward(spectrum)

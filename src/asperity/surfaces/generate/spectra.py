@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, TypeAlias
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -15,51 +17,25 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from .amplitude import Amplitude, PlateauPSD, RmsHeight, RmsSlope, amplitude_text, require_amplitude
+from .modes import mode_sum
+from .power_laws import PowerLaws, continuous_level, lattice_psd
 
-_ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exactly on it is kept
+__all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes", "mode_sum"]
 
 
 class Spectrum(Protocol):
-    """Isotropic or anisotropic spectrum from which a periodic random surface can be generated."""
+    """Isotropic or anisotropic spectrum from which a periodic random surface can be generated.
+
+    Optional attributes: ``correlation_range`` (m), the distance beyond which heights are uncorrelated, for surfaces
+    that are not periodic; ``citation_keys``.
+    """
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0."""
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
-
-
-@dataclass(frozen=True)
-class RmsHeight:
-    """Amplitude of a spectrum given by the rms height (m) of the surface, about its mean."""
-
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "rms height (m)")
-
-
-@dataclass(frozen=True)
-class RmsSlope:
-    """Amplitude of a spectrum given by the rms gradient sqrt(<|∇h|²>) of the surface (spectral, dimensionless)."""
-
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "rms slope")
-
-
-@dataclass(frozen=True)
-class PlateauPSD:
-    """Amplitude of a spectrum given by its plateau C0 (m⁴)."""
-
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "plateau of the power spectrum (m^4)")
-
-
-Amplitude: TypeAlias = RmsHeight | RmsSlope | PlateauPSD
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +52,8 @@ class SelfAffine:
     hurst
         Hurst exponent H, 0 < H <= 1.
     rolloff_wavelength, shortest_wavelength, longest_wavelength
-        λ_r, λ_s, λ_L in m with λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean.
+        λ_r, λ_s, λ_L in m with λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean, λ_s = 0
+        keeps all modes of the grid, those in the corners of the Nyquist square too.
 
     Raises
     ------
@@ -92,24 +69,25 @@ class SelfAffine:
     citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.amplitude, (RmsHeight, RmsSlope, PlateauPSD)):
-            raise InputError(
-                "amplitude of a self-affine spectrum must be an RmsHeight, RmsSlope or PlateauPSD, "
-                f"but is {self.amplitude!r}. Write for example RmsHeight(1e-9)."
-            )
+        require_amplitude(self.amplitude, "self-affine")
         require.at_most(self.hurst, 1.0, "Hurst exponent")
-        require.positive(self.shortest_wavelength, "shortest wavelength (m)")
-        require.positive(self.rolloff_wavelength, "roll-off wavelength (m)")
-        if not self.shortest_wavelength <= self.rolloff_wavelength <= self.longest_wavelength:
-            raise InputError(
-                "wavelengths of a self-affine spectrum must satisfy shortest <= roll-off <= longest, but are "
-                f"{self.shortest_wavelength:g}, {self.rolloff_wavelength:g} and {self.longest_wavelength:g} m."
-            )
+        waves = (self.shortest_wavelength, self.rolloff_wavelength, self.longest_wavelength)
+        _require_ascending(waves, "shortest <= roll-off <= longest", "self-affine")
+
+    @cached_property
+    def law(self) -> PowerLaws:
+        """Shape of the spectrum."""
+        low, high = _limits(self.longest_wavelength, self.shortest_wavelength)
+        return PowerLaws((2.0 * np.pi / self.rolloff_wavelength,), (2.0 + 2.0 * self.hurst,), low, high)
+
+    @property
+    def correlation_range(self) -> float:
+        """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the longest wave."""
+        return _correlation_range(self.rolloff_wavelength, self.longest_wavelength)
 
     def psd(self, q: RealArray | float) -> RealArray:
         """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape)."""
-        values: RealArray = self._plateau() * self._relative(np.asarray(q, dtype=float))
-        return values
+        return continuous_level(self.law, self.amplitude) * self.law.relative(np.asarray(q, dtype=float))
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
@@ -119,60 +97,110 @@ class SelfAffine:
         InputError
             If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
         """
-        finest = 2.0 * max(grid.spacing)
-        if self.shortest_wavelength < finest * (1.0 - _ROUNDING):
-            raise InputError(
-                f"shortest wavelength must be at least two pixels ({finest:g} m), "
-                f"but is {self.shortest_wavelength:g} m. Refine the grid or raise the shortest wavelength."
-            )
-        q = grid.wavenumber()
-        relative = self._relative(q)
-        if not relative.any():
-            raise InputError(
-                f"grid must hold waves between {self.shortest_wavelength:g} and {self.longest_wavelength:g} m, "
-                f"but has the size {grid.size[0]:g} x {grid.size[1]:g} m. Enlarge the grid."
-            )
-        if isinstance(self.amplitude, PlateauPSD):
-            return self.amplitude.value * relative
-        moment = mode_sum(grid, relative if isinstance(self.amplitude, RmsHeight) else q**2 * relative)
-        return self.amplitude.value**2 / moment * relative
+        return lattice_psd(self.law, self.amplitude, grid)
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
-        names = {RmsHeight: "rms height {:.4g} m", RmsSlope: "rms slope {:.4g}", PlateauPSD: "plateau {:.4g} m^4"}
-        amplitude = names[type(self.amplitude)].format(self.amplitude.value)
-        waves = f"roll-off {self.rolloff_wavelength:.4g} m, shortest wave {self.shortest_wavelength:.4g} m"
-        longest = "" if math.isinf(self.longest_wavelength) else f", longest wave {self.longest_wavelength:.4g} m"
-        return f"self-affine, Hurst exponent {self.hurst:.4g}, {waves}{longest}, {amplitude}"
-
-    def _relative(self, q: RealArray) -> RealArray:
-        q_r, q_s = 2.0 * np.pi / self.rolloff_wavelength, 2.0 * np.pi / self.shortest_wavelength
-        q_long = 2.0 * np.pi / self.longest_wavelength
-        inside = (q > 0.0) & (q >= q_long * (1.0 - _ROUNDING)) & (q <= q_s * (1.0 + _ROUNDING))
-        return np.where(inside, np.maximum(q / q_r, 1.0) ** (-2.0 - 2.0 * self.hurst), 0.0)
-
-    def _plateau(self) -> float:
-        """C0 of the continuous surface from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq."""
-        if isinstance(self.amplitude, PlateauPSD):
-            return self.amplitude.value
-        power = 2 if isinstance(self.amplitude, RmsHeight) else 4
-        q_r = 2.0 * np.pi / self.rolloff_wavelength
-        low = self.rolloff_wavelength / self.longest_wavelength
-        high = self.rolloff_wavelength / self.shortest_wavelength
-        exponent = power - 2.0 - 2.0 * self.hurst
-        tail = math.log(high) if exponent == 0.0 else (high**exponent - 1.0) / exponent
-        integral = (1.0 - low**power) / power + tail
-        return 2.0 * np.pi * self.amplitude.value**2 / (q_r**power * integral)
+        waves = f"roll-off {self.rolloff_wavelength:.4g} m, {_ends(self.shortest_wavelength, self.longest_wavelength)}"
+        return f"self-affine, Hurst exponent {self.hurst:.4g}, {waves}, {amplitude_text(self.amplitude)}"
 
 
-def mode_sum(grid: Grid, half: RealArray) -> float:
-    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 + 1).
+@dataclass(frozen=True, kw_only=True)
+class TwoSlopes:
+    """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2 up to q_s.
 
-    For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
+    Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
+    spectrum is no fractal, and is accepted. ``amplitude`` as for ``SelfAffine``.
+
+    Parameters
+    ----------
+    amplitude
+        ``RmsHeight``, ``RmsSlope`` or ``PlateauPSD``.
+    exponents
+        (a1, a2), positive: C falls as q^-a1 between λ_r and λ_c, as q^-a2 below λ_c.
+    rolloff_wavelength, crossover_wavelength
+        λ_r and λ_c <= λ_r in m.
+    shortest_wavelength, longest_wavelength
+        λ_s <= λ_c and λ_L >= λ_r in m; λ_s = 0 keeps all modes of the grid, those in the corners of the Nyquist square too.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range or the wavelengths are out of order.
     """
-    columns = half.sum(axis=0)
-    weights = np.full(columns.shape, 2.0)
-    weights[0] = 1.0
-    if grid.shape[1] % 2 == 0:
-        weights[-1] = 1.0
-    return float(columns @ weights) / grid.area
+
+    amplitude: Amplitude
+    exponents: tuple[float, float]
+    rolloff_wavelength: float
+    crossover_wavelength: float
+    shortest_wavelength: float = 0.0
+    longest_wavelength: float = math.inf
+    citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
+
+    def __post_init__(self) -> None:
+        require_amplitude(self.amplitude, "two-slope")
+        for exponent in require.two(self.exponents, "exponents of a two-slope spectrum", "Write (a1, a2)."):
+            require.positive(exponent, "exponent of a two-slope spectrum")
+        waves = (
+            self.shortest_wavelength,
+            self.crossover_wavelength,
+            self.rolloff_wavelength,
+            self.longest_wavelength,
+        )
+        _require_ascending(waves, "shortest <= crossover <= roll-off <= longest", "two-slope")
+
+    @cached_property
+    def law(self) -> PowerLaws:
+        """Shape of the spectrum."""
+        low, high = _limits(self.longest_wavelength, self.shortest_wavelength)
+        bends = (2.0 * np.pi / self.rolloff_wavelength, 2.0 * np.pi / self.crossover_wavelength)
+        return PowerLaws(bends, tuple(self.exponents), low, high)
+
+    @property
+    def correlation_range(self) -> float:
+        """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the longest wave."""
+        return _correlation_range(self.rolloff_wavelength, self.longest_wavelength)
+
+    def psd(self, q: RealArray | float) -> RealArray:
+        """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape)."""
+        return continuous_level(self.law, self.amplitude) * self.law.relative(np.asarray(q, dtype=float))
+
+    def lattice_psd(self, grid: Grid) -> RealArray:
+        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
+
+        Raises
+        ------
+        InputError
+            If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+        """
+        return lattice_psd(self.law, self.amplitude, grid)
+
+    def describe(self, grid: Grid) -> str:
+        """Words and numbers for the history of a surface generated on ``grid``."""
+        first, second = self.exponents
+        bends = f"q^-{first:.4g} from {self.rolloff_wavelength:.4g} m, q^-{second:.4g} from {self.crossover_wavelength:.4g} m"
+        ends = _ends(self.shortest_wavelength, self.longest_wavelength)
+        return f"two slopes, {bends}, {ends}, {amplitude_text(self.amplitude)}"
+
+
+def _require_ascending(waves: tuple[float, ...], order: str, what: str) -> None:
+    if not waves[0] >= 0.0:
+        raise InputError(f"shortest wavelength (m) must be zero or greater, but is {waves[0]!r}.")
+    require.positive(waves[1], "roll-off or crossover wavelength (m)")
+    if not all(short <= long for short, long in pairwise(waves)):
+        listed = ", ".join(f"{wave:g}" for wave in waves)
+        raise InputError(f"wavelengths of a {what} spectrum must satisfy {order}, but are {listed} m.")
+
+
+def _limits(longest: float, shortest: float) -> tuple[float, float]:
+    """Smallest and largest wavenumber in rad/m."""
+    return 2.0 * np.pi / longest, math.inf if shortest == 0.0 else 2.0 * np.pi / shortest
+
+
+def _correlation_range(rolloff: float, longest: float) -> float:
+    return 2.0 * rolloff if math.isinf(longest) else max(2.0 * rolloff, longest)
+
+
+def _ends(shortest: float, longest: float) -> str:
+    short = "all short waves of the grid" if shortest == 0.0 else f"shortest wave {shortest:.4g} m"
+    return short if math.isinf(longest) else f"{short}, longest wave {longest:.4g} m"

@@ -1,0 +1,114 @@
+"""Isotropic spectra made of a plateau and power laws: the shape, its integrals and its level on a grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from .amplitude import Amplitude, PlateauPSD, RmsHeight
+from .modes import mode_sum
+
+_ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exactly on it is kept
+
+
+@dataclass(frozen=True)
+class PowerLaws:
+    """C(q)/C0: 1 up to the first of ``bends``, then falling as q to the power -``exponents[i]`` beyond bend i.
+
+    Zero for q < ``low`` and q > ``high``, and at q = 0; wavenumbers in rad/m, bends in ascending order.
+    """
+
+    bends: tuple[float, ...]
+    exponents: tuple[float, ...]
+    low: float
+    high: float
+
+    def relative(self, q: RealArray) -> RealArray:
+        """C/C0 at the wavenumbers ``q``, any shape."""
+        inside = (q > 0.0) & (q >= self.low * (1.0 - _ROUNDING)) & (q <= self.high * (1.0 + _ROUNDING))
+        values = inside.astype(np.float64)
+        before = 0.0
+        for bend, exponent in zip(self.bends, self.exponents, strict=True):
+            # only the inside beyond the bend takes the power, the slow part on large grids
+            beyond = inside & (q > bend)
+            values[beyond] *= (q[beyond] / bend) ** (before - exponent)
+            before = exponent
+        return values
+
+    def integral(self, power: float) -> float:
+        """∫ q^power C/C0 dq from ``low`` to ``high``; infinite where it diverges."""
+        edges, level, total = [0.0, *self.bends, math.inf], 1.0, 0.0
+        for number, exponent in enumerate((0.0, *self.exponents)):
+            start, end = edges[number], edges[number + 1]
+            low, high = max(self.low, start), min(self.high, end)
+            scale = start if start > 0.0 else end
+            if high > low:
+                total += level * scale ** (power + 1.0) * _monomial(power - exponent, low / scale, high / scale)
+            if 0 < number < len(self.bends):
+                level *= (end / start) ** -exponent
+        return total
+
+
+def lattice_psd(law: PowerLaws, amplitude: Amplitude, grid: Grid) -> RealArray:
+    """C in m⁴ on the modes of ``grid``, shape (nx, ny // 2 + 1): ``law`` at the level that meets ``amplitude`` there.
+
+    Raises
+    ------
+    InputError
+        If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    """
+    finest = 2.0 * max(grid.spacing)
+    shortest = 2.0 * np.pi / law.high
+    if 0.0 < shortest < finest * (1.0 - _ROUNDING):
+        raise InputError(
+            f"shortest wavelength must be at least two pixels ({finest:g} m), or 0 for all that the grid holds, "
+            f"but is {shortest:g} m. Refine the grid or raise the shortest wavelength."
+        )
+    q = grid.wavenumber()
+    relative = law.relative(q)
+    if not relative.any():
+        longest = math.inf if law.low == 0.0 else 2.0 * np.pi / law.low
+        raise InputError(
+            f"grid must hold waves between {shortest:g} and {longest:g} m, "
+            f"but has the size {grid.size[0]:g} x {grid.size[1]:g} m. Enlarge the grid."
+        )
+    if isinstance(amplitude, PlateauPSD):
+        relative *= amplitude.value
+        return relative
+    moment = mode_sum(grid, relative if isinstance(amplitude, RmsHeight) else q**2 * relative)
+    relative *= amplitude.value**2 / moment
+    return relative
+
+
+def continuous_level(law: PowerLaws, amplitude: Amplitude) -> float:
+    """C0 in m⁴ of the continuous surface, from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq.
+
+    Raises
+    ------
+    InputError
+        If the integral diverges.
+    """
+    if isinstance(amplitude, PlateauPSD):
+        return amplitude.value
+    moment = law.integral(1.0 if isinstance(amplitude, RmsHeight) else 3.0) / (2.0 * np.pi)
+    if math.isinf(moment):
+        raise InputError(
+            "shortest wavelength must be greater than zero for an rms slope of the continuous surface to be finite, "
+            "but is 0. Give a cut-off, or the plateau of the spectrum."
+        )
+    return amplitude.value**2 / moment
+
+
+def _monomial(power: float, low: float, high: float) -> float:
+    """∫ x^power dx from ``low`` to ``high``; infinite where it diverges."""
+    if power == -1.0:
+        return math.inf if low == 0.0 or math.isinf(high) else math.log(high / low)
+    if (power < -1.0 and low == 0.0) or (power > -1.0 and math.isinf(high)):
+        return math.inf
+    upper = 0.0 if math.isinf(high) else high ** (power + 1.0)
+    return (upper - (0.0 if low == 0.0 else low ** (power + 1.0))) / (power + 1.0)
