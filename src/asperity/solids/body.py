@@ -27,6 +27,24 @@ def materials_of(body: Body) -> tuple[Elastic, ...]:
     return tuple(part for part in parts if isinstance(part, Elastic))
 
 
+def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered, float], ...]:
+    """The bodies that deform, each with the sign of the tractions it carries: 1 for ``body``, -1 for ``counter_body``.
+
+    Raises
+    ------
+    InputError
+        If both are rigid.
+    """
+    found = tuple(
+        (solid, sign)
+        for solid, sign in ((body, 1.0), (counter_body, -1.0))
+        if not isinstance(solid, Rigid) and materials_of(solid)
+    )
+    if not found:
+        raise InputError("body and counter_body must not both be rigid; make at least one of them Elastic.")
+    return found
+
+
 def contact_modulus(body: Body, counter_body: Body) -> float:
     """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22), of the surface materials.
 
@@ -38,8 +56,5 @@ def contact_modulus(body: Body, counter_body: Body) -> float:
     InputError
         If both bodies are rigid.
     """
-    materials = (surface_material(body), surface_material(counter_body))
-    compliance = sum(1.0 / material.plane_strain_modulus for material in materials if material is not None)
-    if compliance == 0.0:
-        raise InputError("body and counter_body must not both be rigid; make at least one of them Elastic.")
-    return 1.0 / compliance
+    solids = (surface_material(solid) for solid, _ in deformable(body, counter_body))
+    return 1.0 / sum(1.0 / solid.plane_strain_modulus for solid in solids if solid is not None)

@@ -13,7 +13,8 @@ from ..layers import Layered
 from .hybrid import PlaneCompliance, interface_compliances
 from .line_kernel import LineKernel, line_kernel, strip_coefficients
 from .patch_average import patch_coefficients
-from .point_kernel import COUNT, Limits, PointKernel, point_kernel, wavenumber_grid
+from .point_kernel import COUNT, PointKernel, wavenumber_grid
+from .samples import Samples, samples
 
 
 @dataclass(frozen=True)
@@ -32,43 +33,19 @@ class LayerStack:
         """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
         return ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
 
-    @property
-    def _depth(self) -> float:
-        return self.body.reduced.thickness
-
-    @cached_property
-    def samples(self) -> PlaneCompliance:
-        """alpha C in 1/Pa on ``wavenumber_grid`` of the total thickness."""
-        alpha = wavenumber_grid(self._depth)
-        return interface_compliances(self.body.reduced, alpha)[0].scaled(alpha)
-
-    @cached_property
-    def _spectrum(self) -> LogTable:
-        return log_table(float(wavenumber_grid(self._depth)[0]), self.samples.zz)
-
-    @property
-    def limits(self) -> Limits:
-        """alpha C_zz = 2/E' at short wavelengths (top layer) and at long ones (base)."""
-        reduced = self.body.reduced
-        base = reduced.base
-        low = 2.0 / base.plane_strain_modulus if isinstance(base, Elastic) else 0.0
-        return Limits(2.0 / reduced.layers[0].material.plane_strain_modulus, low, self._depth)
-
-    @cached_property
-    def _point(self) -> PointKernel:
-        return point_kernel(self.samples.zz, self.limits)
-
-    @cached_property
-    def _line(self) -> LineKernel:
-        return line_kernel(self.samples.zz, self.limits)
-
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         if wavenumber.size <= COUNT:
             return interface_compliances(self.body, wavenumber)[0].zz
-        values = self._spectrum(wavenumber)
-        values /= wavenumber
-        return values
+        return self._interpolated(self._samples.values.zz, wavenumber)
+
+    def plane(self, wavenumber: RealArray) -> PlaneCompliance:
+        """All components of C(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
+        if wavenumber.size <= COUNT:
+            return interface_compliances(self.body, wavenumber)[0]
+        values = self._samples.values
+        LL, zz, Lz, T = (self._interpolated(v, wavenumber) for v in (values.LL, values.zz, values.Lz, values.T))
+        return PlaneCompliance(LL, zz, Lz, T)
 
     def mean_mode(self) -> float:
         """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose datum is the mean.
@@ -91,3 +68,22 @@ class LayerStack:
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
         """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx (plane strain)."""
         return strip_coefficients(self._line, grid, datum)
+
+    @cached_property
+    def _samples(self) -> Samples:
+        return samples(self.body, self.body.reduced.thickness)
+
+    @cached_property
+    def _point(self) -> PointKernel:
+        return self._samples.kernel(lambda c: c.zz)
+
+    @cached_property
+    def _line(self) -> LineKernel:
+        return line_kernel(self._samples.values.zz, self._samples.limits(lambda c: c.zz))
+
+    def _interpolated(self, values: RealArray, wavenumber: RealArray) -> RealArray:
+        """C from the samples ``values`` of alpha C."""
+        table: LogTable = log_table(float(wavenumber_grid(self._samples.depth)[0]), values)
+        result = table(wavenumber)
+        result /= wavenumber
+        return result

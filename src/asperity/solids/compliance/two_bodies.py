@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.grid import Grid
-from ..body import Body, contact_modulus, surface_material
-from ..elastic import Elastic
+from ..body import Body, contact_modulus, deformable, materials_of
 from ..layers import Layered
 from .halfspace import HalfSpace
 from .layered import LayerStack
@@ -57,11 +56,15 @@ def contact_compliance(body: Body, counter_body: Body) -> Compliance:
     InputError
         If both bodies are rigid.
     """
-    modulus = contact_modulus(body, counter_body)
-    stacks = tuple(LayerStack(b) for b in (body, counter_body) if isinstance(b, Layered) and b.reduced.layers)
+    solids = [solid for solid, _ in deformable(body, counter_body)]
+    stacks = [LayerStack(solid) for solid in solids if isinstance(solid, Layered) and solid.reduced.layers]
     if not stacks:
-        return HalfSpace(modulus)
-    solids = (surface_material(b) for b in (body, counter_body) if not (isinstance(b, Layered) and b.reduced.layers))
-    half_spaces = tuple(HalfSpace(s.plane_strain_modulus) for s in solids if isinstance(s, Elastic))
+        return HalfSpace(contact_modulus(body, counter_body))
+    half_spaces = [
+        HalfSpace(material.plane_strain_modulus)
+        for solid in solids
+        if not (isinstance(solid, Layered) and solid.reduced.layers)
+        for material in materials_of(solid)
+    ]
     parts: tuple[Compliance, ...] = (*half_spaces, *stacks)
     return parts[0] if len(parts) == 1 else SumOfCompliances(parts)
