@@ -17,7 +17,7 @@ import asperity as asp
 from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
 from asperity.core.arrays import RealArray
-from asperity.core.engine import Engine
+from asperity.core.engine import Engine, Hierarchy, Load, Merge
 
 REFERENCE = asp.CpuEngine(1)
 OTHERS: dict[str, Engine] = {
@@ -136,7 +136,7 @@ def convolved(engine: Engine, convolution: Any, method: str, field: RealArray, d
 @every_cap
 def test_totals_agree(engine: Engine, shape: tuple[int, int], cap: str) -> None:
     case = iterate(shape, cap)
-    found, wanted = (values_of(e.totals(*case.on(e))) for e in (engine, REFERENCE))
+    found, wanted = (values_of(e.survey(*case.on(e)).totals) for e in (engine, REFERENCE))
     agree(found, wanted, case.p.size)
 
 
@@ -148,9 +148,9 @@ def test_totals_of_empty_selections(engine: Engine, cap: str, everywhere: str) -
     bound = np.full(case.p.shape, 1.0) if case.cap is None else np.broadcast_to(case.cap, case.p.size).reshape(5, 8)
     p = {"zero": 0.0 * bound, "between": 0.5 * bound, "full": bound.copy()}[everywhere]
     case = Iterate(p, case.u, case.h, case.cap, case.level)
-    found, wanted = (e.totals(*case.on(e)) for e in (engine, REFERENCE))
+    found, wanted = (e.survey(*case.on(e)).totals for e in (engine, REFERENCE))
     agree(values_of(found), values_of(wanted), p.size)
-    assert (found.lowest_open == math.inf) == (everywhere != "zero")
+    assert (found.lowest_open == math.inf) == (everywhere != "zero" and cap != "none")
     assert (found.highest_capped == -math.inf) == (everywhere != "full" or cap == "none")
 
 
@@ -174,38 +174,87 @@ def test_a_face_is_worked_on_alike(engine: Engine, shape: tuple[int, int], cap: 
     assert found.size == wanted.size
     assert found.entering == wanted.entering
     assert found.clipped == wanted.clipped
-    for name in ("residual", "gathered", "direction", "advanced", "sums", "out", "change"):
+    for name in (
+        "residual",
+        "gathered",
+        "direction",
+        "advanced",
+        "sums",
+        "moved",
+        "loads",
+        "segment",
+        "blended",
+        "changed",
+    ):
         agree(getattr(found, name), getattr(wanted, name), case.p.size, dtype)
     assert not found.released.any()
 
 
 def work_on_face(engine: Engine, case: Iterate, dtype: str, centred: bool) -> SimpleNamespace:
-    """One conjugate gradient step with made-up numbers; what the field holds after each stage."""
+    """One conjugate gradient step with made-up numbers, a step of the pressure, and what is seen at each stage."""
     rng = np.random.default_rng(3)
     response = engine.array(rng.standard_normal(case.p.shape), dtype)
     p, u, h, cap = case.on(engine)
+    p = engine.array(case.p.copy(), "float64")
     field = engine.zeros((case.p.shape[0], case.p.shape[1]), dtype)
-    face = engine.face(p, u, h, cap, case.level, 2.5, field)
+    face = engine.survey(p, u, h, cap).face(case.level, 2.5, dtype)
+
+    def laid(vector: Any) -> RealArray:
+        face.lay(vector, field)
+        return engine.numpy(field).copy()
+
     r = face.residual(centred=centred and face.size > 0)
-    seen = SimpleNamespace(size=face.size, entering=face.entering, residual=engine.numpy(field).copy())
-    d, t = face.zeros(), face.zeros()
-    z, first = face.gather(response, r)
-    t = face.direct(z, 0.25, 0.0, t)
-    t = face.direct(face.gather(response, r)[0], 0.25, 0.5, t)
+    seen = SimpleNamespace(size=face.size, entering=face.entering, residual=laid(r))
+    z, *first = face.gather(response, r, r, face.zeros())
+    seen.gathered = laid(z)
+    t, product = face.direct(z, 0.25, 0.0, face.zeros(), r, field)
+    t, second = face.direct(z, 0.25, 0.5, t, r, field)
     seen.direction = engine.numpy(field).copy()
-    kt, second = face.gather(response, t)
-    d, r = face.advance(0.7, t, kt, 0.125, d, r)
+    kt, *third = face.gather(response, t, r, face.zeros())
+    d, r = face.advance(0.7, t, kt, 0.125, face.zeros(), r)
     d, r = face.advance(0.3, t, kt, 0.125, d, r)
-    seen.advanced = engine.numpy(field).copy()
-    third = face.gather(response, d)[1]
-    seen.gathered = face.gather(response, r)[1]
-    out = engine.array(np.full(case.p.shape, np.nan), "float64")
-    seen.change, seen.clipped = face.pressure(p, d, 0.8, cap, out)
-    seen.out = engine.numpy(out)
+    seen.advanced = [laid(d), laid(r)]
+    seen.sums = [*first, product, second, *third]
+    old, total = face.pick(p)
+    found, seen.clipped = face.move(p, d, 0.8, cap)
+    seen.moved = engine.numpy(p).copy()
+    raised = face.scale(p, 1.25, 0.125, cap)
+    seen.loads = [total, *values_of(found), *values_of(raised)]
+    seen.segment = face.segment(old, p, u, h, case.level, response)
+    face.blend(old, 0.25, p)
+    seen.blended = engine.numpy(p).copy()
+    face.lay_change(old, p, field)
+    seen.changed = engine.numpy(field).copy()
     engine.release(face, field)
     seen.released = engine.numpy(field)
-    seen.sums = [*first, *second, *third]
     return seen
+
+
+@every_cap
+def test_a_step_on_a_face_is_what_it_says(cap: str) -> None:
+    case = iterate((12, 7), cap)
+    bound = np.inf if case.cap is None else case.cap if case.cap.size == 1 else case.cap.reshape(12, 7)
+    _, u, h, flat = case.on(REFERENCE)
+    q = case.p.copy()
+    face = REFERENCE.survey(q, u, h, flat).face(case.level, 1.0, "float64")
+    r = face.residual(centred=False)
+    field = np.zeros((12, 7))
+    face.lay(r, field)
+    inside = field != 0.0
+    old, total = face.pick(q)
+    assert total == pytest.approx(case.p[inside].sum())
+    free = case.p + 3.0 * field
+    found, clipped = face.move(q, r, 3.0, flat)
+    wanted = np.where(inside, np.clip(free, 0.0, bound), case.p)
+    np.testing.assert_allclose(q, wanted, atol=1e-15)
+    below = inside & (wanted < bound)
+    assert clipped == np.count_nonzero(inside & ((free < 0.0) | (free > bound)))
+    assert found == Load(pytest.approx(wanted[inside].sum()), pytest.approx(wanted[below].sum()), below.sum())
+    change, at = wanted - case.p, case.u - case.h - case.level
+    products = (change * at).sum(), (change * np.cos(u)).sum()
+    assert face.segment(old, q, u, h, case.level, np.cos(u)) == pytest.approx(products)
+    face.scale(q, 2.0, 0.5, flat)
+    np.testing.assert_allclose(q, np.where(below, np.minimum(2.0 * wanted + 0.5, bound), wanted), atol=1e-15)
 
 
 @every_engine
@@ -217,8 +266,8 @@ def test_members_of_a_face(engine: Engine, cap: str) -> None:
     entering = ((case.p <= 0.0) & (gap < 0.0)) | ((case.p > 0.0) & (case.p >= bound) & (gap > 0.0))
     inside = entering | ((case.p > 0.0) & (case.p < bound))
     field = engine.zeros((12, 7), "float64")
-    face = engine.face(*case.on(engine), case.level, 2.0, field)
-    face.residual(centred=False)
+    face = engine.survey(*case.on(engine)).face(case.level, 2.0, "float64")
+    face.lay(face.residual(centred=False), field)
     assert (face.size, face.entering) == (inside.sum(), entering.sum())
     agree(engine.numpy(field), np.where(inside, -gap / 2.0, 0.0), 1)
 
@@ -228,39 +277,95 @@ def test_members_of_a_face(engine: Engine, cap: str) -> None:
 def test_an_empty_face(engine: Engine, dtype: str) -> None:
     p, u, h = (engine.array(values, "float64") for values in (np.zeros((3, 4)), np.ones((3, 4)), np.zeros((3, 4))))
     field = engine.zeros((3, 4), dtype)
-    face = engine.face(p, u, h, None, 0.5, 1.0, field)
+    face = engine.survey(p, u, h, None).face(0.5, 1.0, dtype)
     r = face.residual(centred=False)
     assert (face.size, face.entering) == (0, 0)
-    _, sums = face.gather(engine.array(np.ones((3, 4)), dtype), r)
-    assert sums == (0.0, 0.0)
-    out = engine.array(np.ones((3, 4)), "float64")
-    assert face.pressure(p, face.zeros(), 1.0, None, out) == (0.0, 0)
+    _, *sums = face.gather(engine.array(np.ones((3, 4)), dtype), r, r, face.zeros())
+    assert sums == [0.0, 0.0, 0.0]
+    assert face.move(p, face.zeros(), 1.0, None) == (Load(0.0, 0.0, 0), 0)
+    cells = engine.cells((3, 4), (HIERARCHY,), dtype)
+    cells.restrict(face)
+    assert list(cells.solve(face, r, r, face.zeros())[1:]) == [0.0, 0.0, 0.0]
     engine.release(face, field)
     assert not engine.numpy(field).any()
-    assert not engine.numpy(out).any()
+    assert not engine.numpy(p).any()
 
 
 @every_engine
 @every_shape
-def test_plain_passes_agree(engine: Engine, shape: tuple[int, int]) -> None:
-    p, q, u, v, h = np.random.default_rng(shape).standard_normal((5, *shape))
-    arrays = [engine.array(values.copy(), "float64") for values in (p, q, u, v, h)]
-    agree(engine.segment(*arrays), [((u - h) * (q - p)).sum(), ((v - u) * (q - p)).sum()], p.size)
-    a, b = arrays[:2]
-    engine.blend(a, b, 0.25)
-    agree(engine.numpy(b), p + 0.25 * (q - p), 1)
-    assert np.array_equal(engine.numpy(a), p)
-    engine.rescale(b, 4.0)
-    agree(engine.numpy(b), 4.0 * p + (q - p), 1)
-    engine.copy(a, b)
-    assert np.array_equal(engine.numpy(b), p)
+@every_type
+def test_fields_are_added(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+    given, values = np.random.default_rng(shape).standard_normal((2, *shape))
+    field, out = engine.field(shape, dtype), engine.array(values.copy(), "float64")
+    field[...] = engine.array(given, dtype)
+    engine.add(field, 0.5, out)
+    agree(engine.numpy(out), values + 0.5 * given, 1, dtype)
+
+
+@every_engine
+@every_shape
+def test_pressures_are_refined(engine: Engine, shape: tuple[int, int]) -> None:
+    rng = np.random.default_rng(shape)
+    half = -(-shape[0] // 2), -(-shape[1] // 2)
+    coarse, base = np.maximum(rng.standard_normal(half), 0.0), rng.standard_normal(half)
+    heights = rng.standard_normal(shape)
+    fine = engine.refined(coarse, base, heights, 0.3)
+    for (i, j), value in np.ndenumerate(fine):
+        p = coarse[i // 2, j // 2]
+        assert value == pytest.approx(max(0.0, p + 0.3 * (heights[i, j] - base[i // 2, j // 2])) if p > 0.0 else 0.0)
+
+
+HIERARCHY = tuple(Merge(True, True, 0, 1, 0.5) for _ in range(4))
+SHIFTED = tuple(Merge(True, level % 2 == 0, level % 2, int(level % 2 == 0), 0.5) for level in range(4))
+
+
+def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
+    """1 + sum over cells of w 1 1^T, from the places of the points alone."""
+    x, y = (axis.ravel() for axis in np.indices(shape))
+    matrix = np.eye(x.size)
+    for merge in hierarchy:
+        x = (x + merge.offset_x) // 2 if merge.x else x
+        y = (y + merge.offset_y) // 2 if merge.y else y
+        matrix += merge.weight * ((x[:, None] == x) & (y[:, None] == y))
+    return matrix
+
+
+@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16)], ids=str)
+@every_type
+def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+    rng = np.random.default_rng(shape)
+    hierarchies = (HIERARCHY, SHIFTED)
+    cells = engine.cells(shape, hierarchies, dtype)
+    for share in (0.2, 0.6, 1.0):  # the same buffers for one set after the other
+        inside = rng.uniform(size=shape) < share
+        p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
+        arrays = (engine.array(values, "float64") for values in (p, 0.0 * h, h))
+        face = engine.survey(*arrays, None).face(-10.0, 1.0, dtype)
+        cells.restrict(face)
+        r = face.residual(centred=False)
+        z, total, first, second = cells.solve(face, r, r, face.zeros())
+        field = engine.zeros(shape, dtype)
+        face.lay(r, field)
+        load = engine.numpy(field).astype(float)[inside]
+        face.lay(z, field)
+        found = engine.numpy(field).astype(float)
+        chosen = np.ix_(inside.ravel(), inside.ravel())
+        inverses = [np.linalg.inv(cells_matrix(shape, hierarchy)[chosen]) for hierarchy in hierarchies]
+        wanted = np.mean([inverse @ load for inverse in inverses], axis=0) if load.size else load
+        tolerance = 100.0 * EPS[dtype] * (1.0 + np.abs(load).sum())
+        np.testing.assert_allclose(found[inside], wanted, atol=tolerance)
+        assert not found[~inside].any()
+        assert total == pytest.approx(wanted.sum(), abs=tolerance * load.size)
+        assert first == second == pytest.approx(wanted @ load, abs=tolerance * load.size)
 
 
 @every_cap
 def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
     case = iterate((300, 301), cap)  # several blocks for each of three threads
     one, three = asp.CpuEngine(1), asp.CpuEngine(3)
-    assert values_of(one.totals(*case.on(one))) == values_of(three.totals(*case.on(three)))
+    first, second = (values_of(e.survey(*case.on(e)).totals) for e in (one, three))
+    assert first == second
     if cap != "none":
         first, second = (values_of(e.violation(*case.on(e), case.level)) for e in (one, three))
         assert first == second
@@ -352,8 +457,10 @@ def test_arrays_and_passes_on_a_gpu() -> None:
     engine = gpu()
     test_arrays_go_in_and_out(engine)
     for shape in SHAPES:
-        test_plain_passes_agree(engine, shape)
+        test_pressures_are_refined(engine, shape)
         for dtype in EPS:
+            test_fields_are_added(engine, shape, dtype)
+            test_nested_cells_are_inverted_exactly(engine, shape, dtype)
             test_periodic_convolutions_agree(engine, shape, dtype)
             test_free_convolutions_agree(engine, shape, dtype)
         for cap in CAPS:

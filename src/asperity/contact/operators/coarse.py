@@ -24,8 +24,3 @@ def restricted(field: RealArray) -> RealArray:
         )
         field = 0.5 * (pairs[0] + pairs[1])
     return field
-
-
-def prolonged(field: RealArray, shape: tuple[int, int]) -> RealArray:
-    """Every value of ``field`` on the 2 x 2 points it stands for, of a grid of ``shape``."""
-    return np.repeat(np.repeat(field, 2, axis=0), 2, axis=1)[: shape[0], : shape[1]]

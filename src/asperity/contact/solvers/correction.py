@@ -1,4 +1,4 @@
-"""Preconditioned conjugate gradients on a working set (FFT preconditioner: the inverse compliance, restricted)."""
+"""Preconditioned conjugate gradients on a working set."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ...core.engine import Face
+from .preconditioner import preconditioner
 from .protocol import ContactQP, FixedMean
 from .workspace import Workspace
 
@@ -31,14 +32,13 @@ class Correction(NamedTuple):
 
 def carried(work: Workspace, face: Face, last: Direction) -> Direction:
     """Search direction ``last`` on the new ``face``."""
-    moved = []
-    for vector in (last.t, last.kt):
-        last.face.lay(vector)
-        values, (total, _) = face.gather(work.field, face.zeros())
-        moved.append(face.copied(values))
+    last.face.lay(last.t, work.field)
+    nothing = face.zeros()
+    t = face.gather(work.field, nothing, nothing, face.zeros()).vector
+    last.face.lay(last.kt, work.field)
+    kt, total, curvature, _ = face.gather(work.field, t, t, nothing)
     work.engine.release(last.face, work.field)
-    t, kt = moved
-    return Direction(face, t, kt, face.product(t, kt), total)
+    return Direction(face, t, kt, curvature, total)
 
 
 def correction(
@@ -46,26 +46,26 @@ def correction(
 ) -> Correction:
     """Solve K d = residual on ``face``, d summing to zero under load, to ``reduction`` or for ``limit`` steps."""
     centred = isinstance(qp.constraint, FixedMean)
-    r, d = face.residual(centred=centred), face.zeros()
+    inverse = preconditioner(work, face, qp.profile.size)
+    r, d, z = face.residual(centred=centred), face.zeros(), face.zeros()
     first, pairs = 0.0, 0.0
     for step in range(limit):
-        work.preconditioner.solve(work.field, work.response)
-        pairs += 1.0
-        z, (total, product) = face.gather(work.response, r)
+        z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
+        pairs += inverse.pairs
         mean = total / face.size if centred else 0.0
         if product <= 0.0 or (step and product < reduction**2 * first):
             return Correction(d if step else None, pairs, last)
         first = first or product
         ratio = 0.0
         if last is not None and last.curvature > 0.0:
-            ratio = -(face.product(z, last.kt) - mean * last.total) / last.curvature
-        t = face.direct(z, mean, ratio, face.zeros() if last is None else last.t)
+            ratio = -(overlap - mean * last.total) / last.curvature
+        t, kt = (face.zeros(), face.zeros()) if last is None else (last.t, last.kt)
+        t, slope = face.direct(z, mean, ratio, t, r, work.field)
         work.fast.apply(work.field, work.response)
         pairs += qp.operator.pairs_per_application
-        gathered, (total, curvature) = face.gather(work.response, t)
-        kt = face.copied(gathered)
+        kt, total, curvature, _ = face.gather(work.response, t, t, kt)
         if curvature <= 0.0:
             return Correction(d if step else None, pairs, None)
         last = Direction(face, t, kt, curvature, total)
-        d, r = face.advance(face.product(r, t) / curvature, t, kt, total / face.size if centred else 0.0, d, r)
+        d, r = face.advance(slope / curvature, t, kt, total / face.size if centred else 0.0, d, r)
     return Correction(d, pairs, last)

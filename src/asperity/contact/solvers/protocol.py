@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.engine import Engine
 from ...core.progress import NoProgress, Progress
 from ...core.status import Outcome, Status
 from ..operators.protocol import Operator
@@ -69,7 +70,8 @@ class SolverState:
     ``pressure`` feasible pressure (Pa); ``deflection`` K·pressure (m); ``error`` its relative optimality error (see
     ``optimality.relative_error``); ``iterations`` and operator ``applications`` so far, and ``extra_pairs``, FFT pairs of the
     size of the grid that went into other work (preconditioner, coarser grids); ``exhausted`` when the method
-    cannot improve the iterate; ``memory`` what the method carries from step to step.
+    cannot improve the iterate; ``memory`` what the method carries from step to step; ``engine`` whose arrays pressure
+    and deflection are, None for NumPy arrays.
     """
 
     pressure: RealArray
@@ -80,6 +82,15 @@ class SolverState:
     extra_pairs: float = 0.0
     exhausted: bool = False
     memory: object = None
+    engine: Engine | None = None
+
+    @property
+    def finished(self) -> SolverState:
+        """The same as NumPy arrays, without the buffers of the method."""
+        if self.engine is None:
+            return replace(self, memory=None)
+        pressure, deflection = self.engine.numpy(self.pressure), self.engine.numpy(self.deflection)
+        return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None)
 
 
 class Solver(Protocol):
@@ -105,9 +116,9 @@ class Solver(Protocol):
         """State at the pressure ``start`` (Pa), made feasible, or at a first guess of the method; ``start`` is not changed."""
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
-        """Next state; ``state`` is left unchanged (a direct method solves the whole problem in one step).
+        """Next state (a direct method solves the whole problem in one step).
 
-        A method may reuse the arrays of the state before ``state``, and must say so.
+        ``state`` is left unchanged, but a method may go on in its arrays, and must say so.
         """
 
 
@@ -142,8 +153,7 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
         report.update(state.iterations, state.error, solver.tolerance)
         stagnated = state.exhausted or len(errors) - 1 - best_at >= patience
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
-            bare = replace(state, memory=None)  # buffers of the method are not needed any more
-            return Solution(bare, _status(solver, state, stagnated), tuple(errors))
+            return Solution(state.finished, _status(solver, state, stagnated), tuple(errors))
         state = solver.step(qp, state)
         errors.append(state.error)
         if state.error < errors[best_at]:

@@ -3,50 +3,86 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ...core.engine import Convolution, Engine
+from ...core.arrays import RealArray
+from ...core.engine import Cells, Convolution, Engine
+from .cells import hierarchies
 from .protocol import ContactQP, FixedOffset
+
+_OFF_CENTRE = 10.0
 
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
-    """Prepared convolutions and buffers of one problem. Lengths are in m, the kernels over ``scale`` (m/Pa)."""
+    """Prepared convolutions and buffers of one problem. Lengths are in m, the kernels over ``scale`` (m/Pa).
 
+    ``pressure`` and ``deflection`` are the iterate, changed in place; ``field`` and ``response`` go through ``fast``,
+    in the precision ``dtype`` of the corrections; ``exact`` is the convolution that makes the deflection.
+    """
+
+    qp: ContactQP
     engine: Engine
+    state_dtype: str
+    dtype: str
     heights: Any
     cap: Any
-    double: Convolution
+    exact: Convolution
     fast: Convolution
-    preconditioner: Convolution
     scale: float
     field: Any
     response: Any
-    pressures: tuple[Any, Any]
-    deflections: tuple[Any, Any]
+    pressure: Any
+    deflection: Any
+
+    @cached_property
+    def cells(self) -> Cells:
+        """Nested cells that follow the compliance."""
+        operator = self.qp.operator
+        nested = hierarchies(operator.compliance, operator.grid)
+        return self.engine.cells(operator.grid.shape, nested, self.dtype)
+
+    @cached_property
+    def inverse(self) -> Convolution:
+        """Convolution whose ``solve`` divides by the compliance, nearly."""
+        return self.qp.operator.preconditioner(self.fast, self.dtype, self.scale)
 
 
-def workspace(qp: ContactQP, precision: str) -> Workspace:
-    """Workspace of ``qp`` with corrections in single (``"mixed"``) or double precision (``"double"``)."""
+def workspace(qp: ContactQP, precision: str, start: RealArray) -> Workspace:
+    """Workspace of ``qp`` with the pressure ``start`` (Pa), which it may take over.
+
+    ``precision`` is ``"double"``, ``"single"``, or ``"mixed"`` for corrections in single and the rest in double.
+    """
     operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
+    state = "float32" if precision == "single" else "float64"
     dtype = "float64" if precision == "double" else "float32"
-    kernel = operator.kernel
-    scale = float(kernel.max()) or 1.0
-    datum = -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else 0.0
-    heights = qp.profile + datum if datum else qp.profile - qp.profile.mean()
-    fast = operator.convolution(dtype, scale)
+    scale = float(operator.kernel.max()) or 1.0
+    pressure, deflection = engine.array(start, state), engine.zeros(shape, state)
+    exact = operator.convolution(state)
+    exact.apply(pressure, deflection)
     return Workspace(
+        qp=qp,
         engine=engine,
-        heights=engine.array(heights, "float64"),
-        cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), "float64"),
-        double=operator.convolution("float64"),
-        fast=fast,
-        preconditioner=operator.preconditioner(fast, dtype, scale),
+        state_dtype=state,
+        dtype=dtype,
+        heights=engine.array(_centred(qp, always=precision == "single"), state),
+        cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), state),
+        exact=exact,
+        fast=operator.convolution(dtype, scale),
         scale=scale,
         field=engine.field(shape, dtype),
         response=engine.field(shape, dtype),
-        pressures=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
-        deflections=(engine.zeros(shape, "float64"), engine.zeros(shape, "float64")),
+        pressure=pressure,
+        deflection=deflection,
     )
+
+
+def _centred(qp: ContactQP, *, always: bool) -> RealArray:
+    """Heights from the prescribed position; at prescribed load any level serves, and a copy is made only where it pays."""
+    if isinstance(qp.constraint, FixedOffset):
+        return qp.profile - qp.constraint.offset if qp.constraint.offset else qp.profile
+    mean = float(qp.profile.mean())
+    return qp.profile - mean if always or abs(mean) > _OFF_CENTRE * qp.height_scale else qp.profile

@@ -2,6 +2,20 @@
 
 from .cpu import CpuEngine
 from .generic import ArrayEngine
-from .protocol import Convolution, Engine, Face, Totals, Violation
+from .protocol import Cells, Convolution, Engine, Face, Hierarchy, Load, Merge, Products, Survey, Totals, Violation
 
-__all__ = ["ArrayEngine", "Convolution", "CpuEngine", "Engine", "Face", "Totals", "Violation"]
+__all__ = [
+    "ArrayEngine",
+    "Cells",
+    "Convolution",
+    "CpuEngine",
+    "Engine",
+    "Face",
+    "Hierarchy",
+    "Load",
+    "Merge",
+    "Products",
+    "Survey",
+    "Totals",
+    "Violation",
+]

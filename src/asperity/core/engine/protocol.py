@@ -6,7 +6,7 @@ Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from ..arrays import RealArray
 
@@ -15,7 +15,8 @@ from ..arrays import RealArray
 class Totals:
     """Sums over one iterate, with r = u - h: p; p·r; p·h; p and p·r strictly between the bounds; and bounds of the level.
 
-    ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf).
+    ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf);
+    without a cap, where it matters only if nothing is loaded, min r.
     """
 
     pressure: float
@@ -35,6 +36,43 @@ class Violation:
     above: float
     below: float
     deepest: float
+
+
+@dataclass(frozen=True)
+class Load:
+    """Sums over the points of a working set: p; p strictly between the bounds; and the number of points below the cap."""
+
+    pressure: float
+    movable: float
+    below: int
+
+
+class Products(NamedTuple):
+    """Vector of a working set, its sum, and its products with two others."""
+
+    vector: Any
+    total: float
+    first: float
+    second: float
+
+
+@dataclass(frozen=True)
+class Merge:
+    """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
+
+    ``offset_x`` and ``offset_y`` (0 or 1) say whether the first cell stands alone; ``weight`` is the deflection that a
+    unit load on a merged cell adds to all of its points, over that of a point under its own load.
+    """
+
+    x: bool
+    y: bool
+    offset_x: int
+    offset_y: int
+    weight: float
+
+
+Hierarchy: TypeAlias = tuple[Merge, ...]
+"""Nested cells from single points up."""
 
 
 class Convolution(Protocol):
@@ -59,31 +97,61 @@ class Face(Protocol):
         """Number of points that enter from a bound."""
 
     def residual(self, *, centred: bool) -> Any:
-        """Vector (level - r) / scale, freed of its mean if ``centred``; also laid out in the field."""
+        """Vector (level - r) / scale, freed of its mean if ``centred``."""
 
     def zeros(self) -> Any:
         """Vector of zeros."""
 
-    def lay(self, values: Any) -> None:
-        """Lay the vector ``values`` out in the field."""
+    def lay(self, values: Any, field: Any) -> None:
+        """Lay the vector ``values`` out in the field of the convolution."""
 
-    def copied(self, values: Any) -> Any:
-        """Copy of the vector ``values`` that later calls leave alone (``gather`` reuses its memory)."""
+    def lay_change(self, old: Any, values: Any, field: Any) -> None:
+        """Lay ``values`` - ``old`` out in the field, ``old`` being what ``pick`` gave of ``values`` before a change."""
 
-    def product(self, a: Any, b: Any) -> float:
-        """Sum of a b, two vectors."""
+    def gather(self, field: Any, a: Any, b: Any, out: Any) -> Products:
+        """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
 
-    def gather(self, field: Any, other: Any) -> tuple[Any, tuple[float, float]]:
-        """Vector of ``field``, with its sum and its product with the vector ``other``."""
-
-    def direct(self, z: Any, mean: float, ratio: float, t: Any) -> Any:
-        """Vector (z - mean) + ratio t, laid out in the field."""
+    def direct(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """Vector (z - mean) + ratio t, laid out in the field, and its product with r; ``t`` may be overwritten."""
 
     def advance(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
-        """Vectors d + length t and r - length (kt - mean), the latter laid out in the field."""
+        """Vectors d + length t and r - length (kt - mean); ``d`` and ``r`` may be overwritten."""
 
-    def pressure(self, p: Any, d: Any, scale: float, cap: Any, out: Any) -> tuple[float, int]:
-        """Write p + scale d, clipped to [0, cap], into ``out``; return the change of its sum and the points clipped."""
+    def pick(self, values: Any) -> tuple[Any, float]:
+        """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
+
+    def blend(self, old: Any, share: float, values: Any) -> None:
+        """Set the array ``values`` on the face to old + share (values - old)."""
+
+    def move(self, p: Any, d: Any, scale: float, cap: Any) -> tuple[Load, int]:
+        """p + scale d on the face, clipped to [0, cap], in place; the load, and the number of points clipped."""
+
+    def scale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
+        """factor p + shift where p is below the cap, clipped to it, in place; the load afterwards."""
+
+    def segment(self, old: Any, p: Any, u: Any, h: Any, level: float, field: Any) -> tuple[float, float]:
+        """Products of the change of pressure since ``old`` with u - h - level and with the field."""
+
+
+class Cells(Protocol):
+    """Exact inverse of a compliance of nested cells on a working set; the mean over several hierarchies."""
+
+    def restrict(self, face: Face) -> None:
+        """Prepare for the points of ``face``."""
+
+    def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
+        """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where that can be."""
+
+
+class Survey(Protocol):
+    """One iterate seen as a whole."""
+
+    @property
+    def totals(self) -> Totals:
+        """Sums over it."""
+
+    def face(self, level: float, scale: float, dtype: str) -> Face:
+        """Working set at ``level``, with vectors of the precision ``dtype``."""
 
 
 class Engine(Protocol):
@@ -100,7 +168,7 @@ class Engine(Protocol):
         """``values`` as a NumPy array."""
 
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
-        """Field of zeros."""
+        """Array of zeros."""
 
     def field(self, shape: tuple[int, int], dtype: str) -> Any:
         """Field of zeros for convolutions and faces, in whatever memory layout suits the transforms."""
@@ -113,26 +181,24 @@ class Engine(Protocol):
     ) -> Convolution:
         """Free convolution: fields of ``shape`` zero-padded to ``padded``, where ``kernel`` lives."""
 
-    def totals(self, p: Any, u: Any, h: Any, cap: Any) -> Totals:
-        """Sums over an iterate; ``cap`` is None for no cap."""
+    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> Cells:
+        """Nested cells on points of ``shape``, for vectors of the precision ``dtype``."""
+
+    def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
+        """Pressure on the points of ``heights`` from the one on half as many per side, all NumPy arrays.
+
+        Where the ``coarse`` one is not zero, ``stiffness`` times what the coarse heights do not show is added, down to
+        zero.
+        """
+
+    def survey(self, p: Any, u: Any, h: Any, cap: Any) -> Survey:
+        """Survey of an iterate; ``cap`` is None for no cap."""
 
     def violation(self, p: Any, u: Any, h: Any, cap: Any, level: float) -> Violation:
         """How far an iterate is from the contact conditions at ``level``."""
 
-    def face(self, p: Any, u: Any, h: Any, cap: Any, level: float, scale: float, field: Any) -> Face:
-        """Working set at ``level``; ``field`` (working precision) must be zero outside the previous face."""
+    def add(self, field: Any, factor: float, values: Any) -> None:
+        """Add ``factor`` times a field to the array ``values``."""
 
     def release(self, face: Face, field: Any) -> None:
         """Set ``field`` to zero on ``face`` again."""
-
-    def rescale(self, p: Any, factor: float) -> None:
-        """p *= factor in place."""
-
-    def copy(self, source: Any, out: Any) -> None:
-        """out[...] = source."""
-
-    def segment(self, p: Any, q: Any, u: Any, v: Any, h: Any) -> tuple[float, float]:
-        """Slope (u - h)·(q - p) and curvature (v - u)·(q - p) of the energy from p to q."""
-
-    def blend(self, a: Any, b: Any, weight: float) -> None:
-        """b = a + weight (b - a) in place."""

@@ -1,0 +1,70 @@
+"""Compliance of nested cells: a model of the half-space whose exact inverse on any set of points costs no transform.
+
+The wavelengths of a surface are sorted into octaves: differences between the parts of a cell of side H deflect by the
+compliance at q = pi / H (the mean over the Haar functions of the cell, to one percent, for 1/q), so
+
+    B = sum over levels l of c(pi / H_l) (P_l - P_l+1),     P_l: means over the cells of level l,
+
+which is a sum of constants over nested cells. Two hierarchies, shifted against each other by a third of a cell at every
+level, hide where the cells meet.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.engine import Hierarchy, Merge
+from ...core.grid import Grid
+from ...solids.compliance.protocol import Compliance
+
+_SQUARE = 1.5
+
+
+def hierarchies(compliance: Compliance, grid: Grid) -> tuple[Hierarchy, Hierarchy]:
+    """Nested cells on ``grid`` that follow the normal ``compliance``, as square as its pixels allow."""
+    merges = _merges(grid)
+    sides, points = _octaves(grid, merges)
+    detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
+    weights = np.diff(detail) / points[1:] / detail[0]
+    first, second = (
+        tuple(
+            Merge(x, y, int(x and (level + start) % 2 == 0), int(y and (level + start) % 2 == 1), float(weight))
+            for level, ((x, y), weight) in enumerate(zip(merges, weights, strict=True))
+        )
+        for start in (0, 1)
+    )
+    return first, second
+
+
+def pixel_compliance(compliance: Compliance, grid: Grid) -> float:
+    """Deflection (m/Pa) of a point of ``grid`` under its own pressure, in the model of nested cells."""
+    sides, _ = _octaves(grid, _merges(grid))
+    return float(np.asarray(compliance.spectral(np.pi / sides[:1]))[0])
+
+
+def _merges(grid: Grid) -> list[tuple[bool, bool]]:
+    """Axes along which the cells of each level merge in pairs, until one cell is left."""
+    counts, sides = list(grid.shape), list(grid.spacing)
+    merges: list[tuple[bool, bool]] = []
+    while max(counts) > 1 or not merges:
+        x = counts[0] > 1 and (counts[1] == 1 or sides[0] <= _SQUARE * sides[1])
+        y = counts[1] > 1 and (counts[0] == 1 or sides[1] <= _SQUARE * sides[0])
+        merges.append((x, y))
+        for axis, pairs in enumerate((x, y)):
+            if pairs:
+                counts[axis], sides[axis] = -(-counts[axis] // 2), 2.0 * sides[axis]
+    return merges
+
+
+def _octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, RealArray]:
+    """Side (m) of the cells of every level along the axes in which they merge, and their number of points."""
+    cell, points, sides, numbers = list(grid.spacing), 1.0, [], []
+    for x, y in (*merges, merges[-1]):
+        merged = [side for side, pairs in zip(cell, (x, y), strict=True) if pairs] or cell
+        sides.append(float(np.prod(merged)) ** (1.0 / len(merged)))
+        numbers.append(points)
+        for axis, pairs in enumerate((x, y)):
+            if pairs:
+                cell[axis], points = 2.0 * cell[axis], 2.0 * points
+    return np.array(sides), np.array(numbers)

@@ -1,0 +1,62 @@
+"""Approximate inverses of the compliance on a working set."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from ...core.engine import Face, Products
+from .workspace import Workspace
+
+_NEARLY_FULL = 0.95
+
+
+class Preconditioner(Protocol):
+    """Approximate inverse, symmetric and positive definite, on one working set."""
+
+    @property
+    def pairs(self) -> float:
+        """FFT pairs of the grid that one use costs."""
+
+    def solve(self, r: Any, other: Any, out: Any) -> Products:
+        """Vector z = inverse times r, its sum, z·r and z·other; in the memory of ``out`` where that can be."""
+
+
+class NestedCells:
+    """Inverse of the compliance of nested cells (see ``cells``)."""
+
+    pairs = 0.0
+
+    def __init__(self, work: Workspace, face: Face) -> None:
+        self._cells = work.cells
+        self._face = face
+        self._cells.restrict(face)
+
+    def solve(self, r: Any, other: Any, out: Any) -> Products:
+        """Inverse times ``r``."""
+        return self._cells.solve(self._face, r, other, out)
+
+
+class RestrictedInverse:
+    """Inverse of the compliance of the whole grid in Fourier space, restricted to the set: exact in full contact."""
+
+    pairs = 1.0
+
+    def __init__(self, work: Workspace, face: Face) -> None:
+        self._work = work
+        self._face = face
+
+    def solve(self, r: Any, other: Any, out: Any) -> Products:
+        """Inverse times ``r``."""
+        work = self._work
+        self._face.lay(r, work.field)
+        work.inverse.solve(work.field, work.response)
+        return self._face.gather(work.response, r, other, out)
+
+
+def preconditioner(work: Workspace, face: Face, points: int) -> Preconditioner:
+    """The better one for a ``face`` of a grid of ``points``.
+
+    Measured at 512² on self-affine surfaces, reduction of the residual per FFT pair: nested cells 0.45 to 0.54 at any
+    area; the restricted inverse 0.73 at 38 % of the area, 0.57 at 97 %, 0.41 at 99.8 %.
+    """
+    return RestrictedInverse(work, face) if face.size > _NEARLY_FULL * points else NestedCells(work, face)

@@ -1,0 +1,135 @@
+"""Compiled sweeps over nested cells: loads summed up the levels, deflections spread down again.
+
+The compliance of nested cells is B = 1 + sum over cells of w 1 1^T, in units of the deflection of a point under its own
+load. Its inverse on any set of points follows from the Sherman-Morrison formula, cell by cell: with S the sum over the
+parts of a cell of what they pass up, T the same for unit loads, and g = 1 / (1 + w T), a cell passes up g S and down
+the deflection D = g (D of its parent + w S).
+
+``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
+the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets. Level 0 are the points.
+Cells are stored with a rim of empty ones, so sums need no special case at the edges.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .kernels import compiled
+
+START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y = range(8)
+
+
+@compiled
+def _collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
+    """First level of cells: s = sum of the values of its points; unit values where ``values`` is empty."""
+    unit = values.size == 0
+    one = s.dtype.type(1.0)
+    for cell in range(level[ROWS]):
+        base = level[START] + cell * level[STRIDE]
+        s[base : base + level[COLUMNS]] = 0.0
+        first = (cell << level[MERGE_X]) - level[OFFSET_X]
+        for row in range(max(first, 0), min(first + 1 + level[MERGE_X], shape[0])):
+            shift = level[OFFSET_Y] - row * shape[1]
+            for k in range(rows[row], rows[row + 1]):
+                place = base + ((index[k] + shift) >> level[MERGE_Y])
+                s[place] += one if unit else values[k]
+
+
+@compiled
+def _sum_up(below, level, g, s):  # type: ignore[no-untyped-def]
+    """s of a level = sum of g s over the parts of its cells."""
+    for cell in range(level[ROWS]):
+        base = level[START] + cell * level[STRIDE]
+        part = below[START] + ((cell << level[MERGE_X]) - level[OFFSET_X]) * below[STRIDE] - level[OFFSET_Y]
+        other = part + below[STRIDE]
+        n = level[COLUMNS]
+        if level[MERGE_X] and level[MERGE_Y]:
+            for j in range(n):
+                a, b = part + 2 * j, other + 2 * j
+                s[base + j] = g[a] * s[a] + g[a + 1] * s[a + 1] + g[b] * s[b] + g[b + 1] * s[b + 1]
+        elif level[MERGE_Y]:
+            for j in range(n):
+                a = part + 2 * j
+                s[base + j] = g[a] * s[a] + g[a + 1] * s[a + 1]
+        elif level[MERGE_X]:
+            for j in range(n):
+                s[base + j] = g[part + j] * s[part + j] + g[other + j] * s[other + j]
+        else:
+            for j in range(n):
+                s[base + j] = g[part + j] * s[part + j]
+
+
+@compiled
+def _spread_down(above, level, weight, g, s):  # type: ignore[no-untyped-def]
+    """s = g (deflection of the parent + weight s), the parent's standing in its own s."""
+    for cell in range(level[ROWS]):
+        base = level[START] + cell * level[STRIDE]
+        parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
+        for j in range(level[COLUMNS]):
+            d = s[parent + ((j + above[OFFSET_Y]) >> above[MERGE_Y])]
+            s[base + j] = g[base + j] * (d + weight * s[base + j])
+
+
+@compiled
+def _top_down(level, weight, g, s):  # type: ignore[no-untyped-def]
+    """s = g weight s on the coarsest level, which has no parent."""
+    for cell in range(level[ROWS]):
+        base = level[START] + cell * level[STRIDE]
+        for j in range(base, base + level[COLUMNS]):
+            s[j] *= g[j] * weight
+
+
+@compiled
+def stiffen(span, levels, weights, shape, rows, index, nothing, g, s):  # type: ignore[no-untyped-def]
+    """g = 1 / (1 + w T) in the hierarchies of the span, for the points of ``index`` that begin each row at ``rows``."""
+    for hierarchy in range(span[0], span[1]):
+        last = levels.shape[1] - 1
+        for depth in range(1, last + 1):
+            level = levels[hierarchy, depth]
+            if depth == 1:
+                _collect(level, shape, rows, index, nothing, s)
+            else:
+                _sum_up(levels[hierarchy, depth - 1], level, g, s)
+            weight = weights[depth]
+            for cell in range(level[ROWS]):
+                base = level[START] + cell * level[STRIDE]
+                for j in range(base, base + level[COLUMNS]):
+                    g[j] = 1.0 / (1.0 + weight * s[j])
+
+
+@compiled
+def deflect(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
+    """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads ``values``."""
+    for hierarchy in range(span[0], span[1]):
+        last = levels.shape[1] - 1
+        _collect(levels[hierarchy, 1], shape, rows, index, values, s)
+        for depth in range(2, last + 1):
+            _sum_up(levels[hierarchy, depth - 1], levels[hierarchy, depth], g, s)
+        _top_down(levels[hierarchy, last], weights[last], g, s)
+        for depth in range(last - 1, 0, -1):
+            _spread_down(levels[hierarchy, depth + 1], levels[hierarchy, depth], weights[depth], g, s)
+
+
+@compiled
+def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
+    """out = values - mean over hierarchies of the deflections in s; per row of points: sums of out, with values, other."""
+    share = s.dtype.type(1.0 / levels.shape[0])
+    for row in range(span[0], span[1]):
+        first, last = rows[row], rows[row + 1]
+        for hierarchy in range(levels.shape[0]):
+            level = levels[hierarchy, 1]
+            base = level[START] + ((row + level[OFFSET_X]) >> level[MERGE_X]) * level[STRIDE]
+            shift = level[OFFSET_Y] - row * shape[1]
+            given = values if hierarchy == 0 else out
+            for k in range(first, last):
+                out[k] = given[k] - share * s[base + ((index[k] + shift) >> level[MERGE_Y])]
+        total = 0.0
+        with_values = 0.0
+        with_other = 0.0
+        for k in range(first, last):
+            total += out[k]
+            with_values += np.float64(out[k]) * values[k]
+            with_other += np.float64(out[k]) * other[k]
+        sums[row, 0] = total
+        sums[row, 1] = with_values
+        sums[row, 2] = with_other

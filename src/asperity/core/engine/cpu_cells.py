@@ -1,0 +1,69 @@
+"""Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import RealArray
+from .blocks import Blocks
+from .cpu_face import CpuFace
+from .protocol import Face, Hierarchy, Products
+
+_MANY = 1 << 15
+"""Points below which handing work to another thread costs more than it saves."""
+
+
+class CpuCells:
+    """Exact inverse of nested cells on a working set (see ``cell_kernels``), a hierarchy per thread."""
+
+    def __init__(self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> None:
+        self._blocks = blocks
+        self._shape = shape
+        self._levels, size = _layout(shape, hierarchies)
+        self._weights = np.array([1.0, *(merge.weight for merge in hierarchies[0])], dtype)
+        self._g = np.ones(size, dtype)
+        self._s = np.zeros(size, dtype)
+        self._nothing = np.empty(0, dtype)
+
+    def restrict(self, face: Face) -> None:
+        """Prepare for the points of ``face``."""
+        self._sweep("stiffen", face, self._nothing)
+
+    def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """Inverse times ``r``."""
+        assert isinstance(face, CpuFace)
+        self._sweep("deflect", face, r)
+        sums = np.zeros((self._shape[0], 3))
+        arguments = (self._levels, self._shape, face.rows, face.index, r, other, self._s, out, sums)
+        relieve = self._blocks.cell_kernels.relieve
+        self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < _MANY)
+        total, first, second = (float(value) for value in sums.sum(axis=0))
+        return Products(out, total, first, second)
+
+    def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
+        assert isinstance(face, CpuFace)
+        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, self._g, self._s)
+        call = getattr(self._blocks.cell_kernels, kernel)
+        self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < _MANY)
+
+
+def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...]) -> tuple[Any, int]:
+    """Table ``levels`` of ``cell_kernels`` (hierarchy, level, column) and the memory in elements."""
+    levels = np.zeros((len(hierarchies), len(hierarchies[0]) + 1, 8), np.int64)
+    end = 0
+    for hierarchy, merges in enumerate(hierarchies):
+        nx, ny = shape
+        for depth, merge in enumerate(merges, start=1):
+            nx, ny = merged(nx, merge.x, merge.offset_x), merged(ny, merge.y, merge.offset_y)
+            stride = ny + 2
+            flags = merge.x, merge.y, merge.offset_x, merge.offset_y
+            levels[hierarchy, depth] = end + stride + 1, nx, ny, stride, *flags
+            end += (nx + 2) * stride
+    return levels, end
+
+
+def merged(n: int, pairs: bool, offset: int) -> int:
+    """Number of cells that ``n`` cells form in ``pairs`` (or stay), the first alone if ``offset`` is 1."""
+    return ((n - 1 + offset) >> 1) + 1 if pairs else n

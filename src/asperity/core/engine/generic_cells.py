@@ -1,0 +1,84 @@
+"""Nested cells of the array-API engine: whole arrays per level (see ``cell_kernels`` for the algorithm)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .generic_face import ArrayFace
+from .library import Library
+from .protocol import Face, Hierarchy, Merge, Products
+
+
+class ArrayCells:
+    """Exact inverse of nested cells on a working set."""
+
+    def __init__(self, library: Library, hierarchies: tuple[Hierarchy, ...], dtype: str) -> None:
+        self._library = library
+        self._hierarchies = hierarchies
+        self._dtype = dtype
+        self._stiff: tuple[list[Any], ...] = ()
+
+    def restrict(self, face: Face) -> None:
+        """Prepare for the points of ``face``."""
+        assert isinstance(face, ArrayFace)
+        xp = self._library.xp
+        unit = xp.astype(face.inside, getattr(xp, self._dtype))
+        self._stiff = tuple(self._stiffened(hierarchy, unit) for hierarchy in self._hierarchies)
+
+    def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
+        """Inverse times ``r``."""
+        assert isinstance(face, ArrayFace)
+        deflection = self._library.xp.zeros_like(r)
+        for hierarchy, g in zip(self._hierarchies, self._stiff, strict=True):
+            deflection = deflection + self._deflected(hierarchy, g, r)
+        z = r - self._library.select(face.inside, deflection) / float(len(self._hierarchies))
+        return face.products(z, r, other)
+
+    def _stiffened(self, hierarchy: Hierarchy, passed: Any) -> list[Any]:
+        """g = 1 / (1 + w T) on every level of the hierarchy, from the sums ``passed`` up by single points."""
+        levels = []
+        for merge in hierarchy:
+            total = self._summed(passed, merge)
+            levels.append(1.0 / (1.0 + merge.weight * total))
+            passed = levels[-1] * total
+        return levels
+
+    def _deflected(self, hierarchy: Hierarchy, g: list[Any], passed: Any) -> Any:
+        """Deflection of the points by the cells they lie in under the loads ``passed`` up by the points."""
+        sums, shapes = [], []
+        for merge, stiff in zip(hierarchy, g, strict=True):
+            shapes.append(passed.shape)
+            sums.append(self._summed(passed, merge))
+            passed = stiff * sums[-1]
+        deflection = self._library.xp.zeros_like(passed)
+        for merge, stiff, total, shape in reversed(list(zip(hierarchy, g, sums, shapes, strict=True))):
+            deflection = _spread(self._library.xp, stiff * (deflection + merge.weight * total), merge, shape)
+        return deflection
+
+    def _summed(self, values: Any, merge: Merge) -> Any:
+        """Sums over the parts of every cell."""
+        xp = self._library.xp
+        for axis, pairs, offset in ((0, merge.x, merge.offset_x), (1, merge.y, merge.offset_y)):
+            if not pairs:
+                continue
+            n = values.shape[axis]
+            before, after = offset, (n + offset) % 2
+            values = xp.concat([_rim(xp, values, axis, before), values, _rim(xp, values, axis, after)], axis=axis)
+            halves = (n + before + after) // 2
+            split = (halves, 2, values.shape[1]) if axis == 0 else (values.shape[0], halves, 2)
+            values = xp.sum(xp.reshape(values, split), axis=axis + 1)
+        return values
+
+
+def _rim(xp: Any, values: Any, axis: int, width: int) -> Any:
+    shape = (width, values.shape[1]) if axis == 0 else (values.shape[0], width)
+    return xp.zeros(shape, dtype=values.dtype, device=values.device)
+
+
+def _spread(xp: Any, values: Any, merge: Merge, shape: tuple[int, int]) -> Any:
+    """Value of every cell on each of its parts, which are of ``shape``."""
+    if merge.x:
+        values = xp.repeat(values, 2, axis=0)[merge.offset_x : merge.offset_x + shape[0], :]
+    if merge.y:
+        values = xp.repeat(values, 2, axis=1)[:, merge.offset_y : merge.offset_y + shape[1]]
+    return values
