@@ -57,9 +57,9 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
     r = deflection - qp.profile
     at = level(qp, p, r)
     sharpest = best_level(p, r, qp.cap)
-    total = float(p.sum())
+    total = float(p.sum(dtype=np.float64))
     bound = duality_gap(p, r, qp.cap, sharpest)
-    energy = abs(0.5 * float((p * deflection).sum()) - float((p * (qp.profile + at)).sum()))
+    energy = abs(0.5 * float(np.multiply(p, deflection, dtype=np.float64).sum()) - float((p * (qp.profile + at)).sum()))
     overlap = np.where(p < qp.cap, np.maximum(at - r, 0.0), 0.0)
     target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
     return Certificate(

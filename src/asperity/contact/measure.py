@@ -1,4 +1,4 @@
-"""Measures of a contact: true area, perimeter, spots, energies, stiffness."""
+"""Measures of a contact: true area, perimeter, spots, distributions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
-from .operators.protocol import Operator
 
 PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""
@@ -94,28 +93,3 @@ def distribution(values: RealArray, bins: int = 50) -> Distribution:
         raise InputError("values of a distribution must hold at least one number, but are empty.")
     density, edges = np.histogram(values, bins, range=(0.0, float(values.max()) or 1.0), density=True)
     return Distribution(edges, density)
-
-
-def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealArray) -> float:
-    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the elastic contact.
-
-    Infinite for full contact on a periodic half-space, zero without elastic contact points, NaN if the linear solve
-    does not converge. Points at the cap yield and carry no increment (loading).
-    """
-    from scipy.sparse.linalg import LinearOperator, cg
-
-    elastic = (pressure > 0.0) & (pressure < cap)
-    n = int(np.count_nonzero(elastic))
-    if n == 0:
-        return 0.0
-    if n == elastic.size and operator.zero_mean_mode:
-        return math.inf
-
-    def on_contact(values: RealArray) -> RealArray:
-        field = np.zeros(elastic.shape)
-        field[elastic] = np.ravel(values)
-        return operator.apply(field)[elastic]
-
-    matrix = LinearOperator((n, n), matvec=on_contact, dtype=np.float64)  # type: ignore[call-overload,unused-ignore]
-    increment, failed = cg(matrix, np.ones(n), rtol=1e-6, maxiter=5000)
-    return math.nan if failed else float(increment.sum()) / elastic.size

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Face, Load, Survey, Totals
-from .correction import Direction, carried, correction
+from .correction import Direction, Effort, carried, correction
 from .feasible import feasible_start
 from .nested import nested_start
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
@@ -20,9 +20,12 @@ from .workspace import Workspace, workspace
 _COARSE_ITERATIONS = 30
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 14
+_SETTLING_STEPS = 8
 _REDUCTION = 0.3
+_SETTLING_REDUCTION = 0.05
 _SMALLEST_REDUCTION = 1e-4
 _MARGIN = 0.8
+_FEW = 0.003
 _CARRIED = 0.1
 _LEAST_SHARE = 0.1
 _MOST_SETBACKS = 4
@@ -99,27 +102,30 @@ class ActiveSet:
         memory = state.memory
         assert isinstance(memory, _Memory)
         work, level = memory.work, _level(qp, memory.survey.totals)
-        face = memory.survey.face(level, qp.height_scale, work.dtype)
-        d, pairs, last = correction(qp, work, face, _carried(memory, face), *self._effort(memory, face, state.error))
-        work.engine.release(face, work.field)
+        tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
+        face = memory.survey.face(level, qp.height_scale, tools.dtype)
+        r, last = face.residual(centred=centred), _carried(memory, face)
+        effort = self._effort(memory, face, state.error)
+        d, pairs, last, _ = correction(tools, face, r, last, effort, centred=centred)
+        work.engine.release(face, tools.field)
         spent = replace(state, iterations=state.iterations + 1, extra_pairs=state.extra_pairs + pairs)
         if d is None:
             return self._gradient_step(memory, spent)
         p = work.pressure
         old, load = face.pick(p)
-        found, clipped = face.move(p, d, qp.height_scale / work.scale, work.cap)
-        if isinstance(qp.constraint, FixedMean):
+        found, clipped = face.move(p, d, qp.height_scale / tools.scale, work.cap)
+        if centred:
             _restore_load(face, p, work.cap, found, load)
-        face.lay_change(old, p, work.field)
-        work.fast.apply(work.field, work.response)
-        work.engine.release(face, work.field)
+        face.lay_change(old, p, tools.field)
+        tools.fast.apply(tools.field, tools.response)
+        work.engine.release(face, tools.field)
         spent = replace(spent, applications=spent.applications + 1)
-        share = _share(*face.segment(old, p, work.deflection, work.heights, level, work.response), work.scale)
+        share = _share(*face.segment(old, p, work.deflection, work.heights, level, tools.response), tools.scale)
         if share < 1.0:
             face.blend(old, share if share >= _LEAST_SHARE else 0.0, p)
         if share < _LEAST_SHARE:
             return self._gradient_step(memory, spent)
-        work.engine.add(work.response, share * work.scale, work.deflection)
+        work.engine.add(tools.response, share * tools.scale, work.deflection)
         return self._state(_Memory(work, _survey(work), memory.computed_at, clipped, last, memory.setbacks), spent)
 
     def _gradient_step(self, memory: _Memory, spent: SolverState) -> SolverState:
@@ -129,7 +135,7 @@ class ActiveSet:
         work.exact.apply(work.pressure, work.deflection)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))
-        work.pressure[...] = engine.array(lower.pressure, work.state_dtype)
+        work.pressure[...] = engine.array(lower.pressure, work.dtype)
         work.exact.apply(work.pressure, work.deflection)
         spent = replace(spent, applications=lower.applications + 3, exhausted=lower.exhausted)
         memory = _Memory(work, _survey(work), memory.computed_at, clipped=1, setbacks=memory.setbacks + 1)
@@ -153,23 +159,26 @@ class ActiveSet:
         p, u = work.pressure, work.deflection
         return replace(spent, pressure=p, deflection=u, error=error, memory=memory, engine=work.engine)
 
-    def _effort(self, memory: _Memory, face: Face, error: float) -> tuple[float, int]:
-        """Relative residual at which to stop a correction, and the largest number of its steps.
+    def _effort(self, memory: _Memory, face: Face, error: float) -> Effort:
+        """When to stop a correction.
 
-        Accuracy is wasted on a set that will change: only once no point enters or leaves is the system solved to what
-        the tolerance asks for.
+        Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
+        once none does is the system solved to what the tolerance asks for.
         """
-        if face.entering or memory.clipped:
-            return _REDUCTION, _UNSETTLED_STEPS << min(memory.setbacks, _MOST_SETBACKS)
+        changed = face.entering + memory.clipped
+        if changed > _FEW * face.size:
+            return Effort(_REDUCTION, _UNSETTLED_STEPS << min(memory.setbacks, _MOST_SETBACKS))
+        if changed:
+            return Effort(_SETTLING_REDUCTION, _SETTLING_STEPS)
         wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
-        return min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _SETTLED_STEPS
+        return Effort(min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _SETTLED_STEPS)
 
 
 def _carried(memory: _Memory, face: Face) -> Direction | None:
     """Last search direction on the new ``face``, if the set has changed so little that it still helps."""
     if memory.last is None or memory.clipped + face.entering > _CARRIED * face.size:
         return None
-    return carried(memory.work, face, memory.last)
+    return carried(memory.work.bench, face, memory.last)
 
 
 def _share(slope: float, reaction: float, scale: float) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Cells, Convolution, Engine
+from ..operators.protocol import Operator
 from .cells import hierarchies
 from .protocol import ContactQP, FixedOffset
 
@@ -17,38 +18,64 @@ _OFF_CENTRE = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Workspace:
-    """Prepared convolutions and buffers of one problem. Lengths are in m, the kernels over ``scale`` (m/Pa).
+class Bench:
+    """What linear systems on a working set are solved with, in the precision ``dtype``.
 
-    ``pressure`` and ``deflection`` are the iterate, changed in place; ``field`` and ``response`` go through ``fast``,
-    in the precision ``dtype`` of the corrections; ``exact`` is the convolution that makes the deflection.
+    ``fast`` is the product with the compliance over ``scale`` (m/Pa), from ``field`` to ``response``.
     """
 
-    qp: ContactQP
-    engine: Engine
-    state_dtype: str
+    operator: Operator
     dtype: str
-    heights: Any
-    cap: Any
-    exact: Convolution
-    fast: Convolution
     scale: float
+    fast: Convolution
     field: Any
     response: Any
-    pressure: Any
-    deflection: Any
+
+    @property
+    def engine(self) -> Engine:
+        """Machine that does it."""
+        return self.operator.engine
 
     @cached_property
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
-        operator = self.qp.operator
-        nested = hierarchies(operator.compliance, operator.grid)
-        return self.engine.cells(operator.grid.shape, nested, self.dtype)
+        nested = hierarchies(self.operator.compliance, self.operator.grid)
+        return self.engine.cells(self.operator.grid.shape, nested, self.dtype)
 
     @cached_property
     def inverse(self) -> Convolution:
         """Convolution whose ``solve`` divides by the compliance, nearly."""
-        return self.qp.operator.preconditioner(self.fast, self.dtype, self.scale)
+        return self.operator.preconditioner(self.fast, self.dtype, self.scale)
+
+
+def bench(operator: Operator, dtype: str, scale: float) -> Bench:
+    """Bench of ``operator`` with buffers of its own."""
+    engine, shape = operator.engine, operator.grid.shape
+    fields = engine.field(shape, dtype), engine.field(shape, dtype)
+    return Bench(operator, dtype, scale, operator.convolution(dtype, scale), *fields)
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """Arrays of one problem and the bench for its corrections.
+
+    ``pressure`` and ``deflection`` (Pa, m; in the precision ``dtype``) are the iterate, changed in place; ``exact`` is
+    the convolution that makes the one from the other.
+    """
+
+    qp: ContactQP
+    bench: Bench
+    dtype: str
+    heights: Any
+    cap: Any
+    exact: Convolution
+    pressure: Any
+    deflection: Any
+
+    @property
+    def engine(self) -> Engine:
+        """Machine it is on."""
+        return self.bench.engine
 
 
 def workspace(qp: ContactQP, precision: str, start: RealArray) -> Workspace:
@@ -58,23 +85,17 @@ def workspace(qp: ContactQP, precision: str, start: RealArray) -> Workspace:
     """
     operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
     state = "float32" if precision == "single" else "float64"
-    dtype = "float64" if precision == "double" else "float32"
-    scale = float(operator.kernel.max()) or 1.0
     pressure, deflection = engine.array(start, state), engine.zeros(shape, state)
     exact = operator.convolution(state)
     exact.apply(pressure, deflection)
+    scale = float(operator.kernel.max()) or 1.0
     return Workspace(
         qp=qp,
-        engine=engine,
-        state_dtype=state,
-        dtype=dtype,
+        bench=bench(operator, "float64" if precision == "double" else "float32", scale),
+        dtype=state,
         heights=engine.array(_centred(qp, always=precision == "single"), state),
         cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), state),
         exact=exact,
-        fast=operator.convolution(dtype, scale),
-        scale=scale,
-        field=engine.field(shape, dtype),
-        response=engine.field(shape, dtype),
         pressure=pressure,
         deflection=deflection,
     )
