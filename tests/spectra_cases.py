@@ -1,9 +1,8 @@
-"""Random surfaces with a given spectrum for tests: Gaussian amplitudes, or fixed ones that meet it exactly."""
+"""The spectrum of the gold film, and surfaces that meet a spectrum exactly, for tests."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,23 +18,6 @@ GOLD = SpectralModel(
 
 GOLD_GRID = Grid((512, 512), (1500.0 / 512.0, 1500.0 / 512.0))
 """Grid of its scan, in nm."""
-
-
-@dataclass(frozen=True)
-class FullSquare:
-    """A spectrum on all modes of the grid, the corners beyond the last complete ring included."""
-
-    model: SpectralModel
-
-    def lattice_psd(self, grid: Grid) -> RealArray:
-        q = grid.wavenumber()
-        q[0, 0] = 1.0
-        psd = self.model.psd(q)
-        psd[0, 0] = 0.0
-        return psd
-
-    def describe(self, grid: Grid) -> str:
-        return "all modes"
 
 
 def with_fixed_amplitudes(psd: RealArray, grid: Grid, seed: int) -> Surface:

@@ -35,9 +35,10 @@ from .solids.interface import Bonded, Frictionless
 from .solids.layers import Layer, Layered, RigidBase
 from .solids.library import material, materials
 from .solids.strength import Strength
-from .surfaces import generate
+from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
+from .surfaces.characterise.summary import Characterisation, characterise
 from .surfaces.pair import composite, turned_over
 from .surfaces.prepare.crop import cropped
 from .surfaces.prepare.fill import filled
@@ -55,6 +56,7 @@ __all__ = [
     "ArrayEngine",
     "AsperityError",
     "Bonded",
+    "Characterisation",
     "ContactProblem",
     "ContactResult",
     "ConvergenceError",
@@ -91,6 +93,7 @@ __all__ = [
     "__version__",
     "advise",
     "channels",
+    "characterise",
     "cite",
     "composite",
     "contact_modulus",
@@ -114,6 +117,7 @@ __all__ = [
     "review",
     "rms_height",
     "rms_slope",
+    "roughness",
     "save",
     "save_plots",
     "save_surface_plot",

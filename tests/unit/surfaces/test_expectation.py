@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pytest
 from reference_data import FOLDER, reference
-from spectra_cases import FullSquare
 
 import asperity as asp
 from asperity.core.errors import InputError
@@ -161,12 +160,6 @@ def test_effective_samples_of_white_noise_and_of_a_flat():
     noise = asp.Surface(np.random.default_rng(8).standard_normal((128, 96)), 1.0, periodic=True)
     assert effective_samples(power_spectrum(noise)) == pytest.approx(128 * 96, rel=0.05)
     assert math.isnan(effective_samples(power_spectrum(asp.Surface(np.zeros((8, 8)), 1.0))))
-
-
-def test_full_square_and_disc_differ_by_the_corners():
-    grid = asp.Grid((64, 64), (1.0, 1.0))
-    model = SpectralModel(level=1.0, rolloff_wavelength=16.0, exponents=(2.0,))
-    assert np.count_nonzero(FullSquare(model).lattice_psd(grid)) > np.count_nonzero(model.lattice_psd(grid))
 
 
 def test_refusals():

@@ -41,7 +41,9 @@ def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
     k, moved = lag
     h = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
-        return np.roll(h, (-k, -moved), axis=(0, 1)) - h
+        there = _wrapped(_wrapped(h, 0, k), 1, moved)
+        wrapped: RealArray = there - h
+        return wrapped
     if abs(k) >= surface.shape[0] or abs(moved) >= surface.shape[1]:
         raise InputError(
             f"lag of a difference must be shorter than the map of {surface.shape[0]} x {surface.shape[1]} points, "
@@ -49,32 +51,29 @@ def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
         )
     first = tuple(slice(max(0, -s), n - max(0, s)) for s, n in zip((k, moved), h.shape, strict=True))
     second = tuple(slice(max(0, s), n - max(0, -s)) for s, n in zip((k, moved), h.shape, strict=True))
-    differences: RealArray = h[second] - h[first]
-    return differences
+    inside: RealArray = h[second] - h[first]
+    return inside
 
 
-def second_differences(surface: Surface, axis: str, step: int = 1) -> RealArray:
-    """h(x + s) - 2 h(x) + h(x - s) in m for the distance s of ``step`` pixels along ``axis``; NaN as in increments.
+def second_differences(surface: Surface, axis: str) -> RealArray:
+    """h(i+1) - 2 h(i) + h(i-1) in m along ``axis``; NaN as in :func:`increments`.
 
-    A periodic surface wraps; otherwise the array is 2 ``step`` shorter along the axis.
+    A periodic surface wraps; otherwise the array is two points shorter along the axis.
 
     Raises
     ------
     InputError
-        If the map is too small for one such triple.
+        If the map has fewer than three points along the axis.
     """
     number, h = axis_index(axis), surface.heights.astype(np.float64, copy=False)
-    n = h.shape[number]
     if surface.periodic:
-        return np.roll(h, -step, axis=number) + np.roll(h, step, axis=number) - 2.0 * h
-    if n <= 2 * step:
+        h = np.concatenate([h[_part(number, slice(-1, None))], h, h[_part(number, slice(0, 1))]], axis=number)
+    elif h.shape[number] < 3:
         raise InputError(
-            f"surface must have more than {2 * step} points along {axis} for a second difference over {step} pixels, "
-            f"but has {n}."
+            f"surface must have three points or more along {axis} for a second difference, but has {h.shape[number]}."
         )
-    before, middle, after = (_part(number, slice(start, n - 2 * step + start)) for start in (0, step, 2 * step))
-    differences: RealArray = h[after] - h[middle] - (h[middle] - h[before])
-    return differences
+    second: RealArray = np.diff(h, n=2, axis=number)
+    return second
 
 
 def mean_square(values: RealArray, what: str) -> float:
@@ -105,6 +104,17 @@ def mean_of(values: RealArray, what: str) -> float:
             f"surface must have neighbouring valid points for a {what}, but has none. Fill the missing points first."
         )
     return total / values.size
+
+
+def _wrapped(h: RealArray, axis: int, shift: int) -> RealArray:
+    """``h`` moved by ``shift`` points towards lower indices, what leaves coming back at the other end."""
+    shift %= h.shape[axis]
+    if shift == 0:
+        return h
+    moved: RealArray = np.concatenate(
+        [h[_part(axis, slice(shift, None))], h[_part(axis, slice(None, shift))]], axis=axis
+    )
+    return moved
 
 
 def _part(axis: int, part: slice) -> tuple[slice, slice]:

@@ -60,7 +60,13 @@ class FractalParameters:
         return _is_fractal(self.dimension)
 
 
-def fractal_parameters(surface: Surface, *, axis: str = "x", lags: Sequence[int] | None = None) -> FractalParameters:
+def fractal_parameters(
+    surface: Surface,
+    *,
+    axis: str = "x",
+    lags: Sequence[int] | None = None,
+    structure: StructureFunction | None = None,
+) -> FractalParameters:
     """Fit the structure function of ``surface`` along ``axis`` by a power law.
 
     Parameters
@@ -72,6 +78,8 @@ def fractal_parameters(surface: Surface, *, axis: str = "x", lags: Sequence[int]
     lags
         Lags of the fit in pixels; by default geometrically spaced from 4 pixels to a tenth of the map, or to where
         the structure function reaches the mean square height (half of its limit) if that is shorter.
+    structure
+        Structure function along the axis, if it is known already; its lags in the default range are fitted.
 
     Raises
     ------
@@ -81,11 +89,14 @@ def fractal_parameters(surface: Surface, *, axis: str = "x", lags: Sequence[int]
     number = axis_index(axis)
     if lags is not None:
         return fitted_fractal(structure_function(surface, axis=axis, lags=lags), surface.grid.spacing[number])
-    steps = [lag for lag in geometric_lags(surface.shape[number] // 10) if lag >= _FIRST_LAG]
-    curve = structure_function(surface, axis=axis, lags=steps)
-    below = int(np.argmax(np.append(curve.value > rms_height(surface) ** 2, True)))
-    part = StructureFunction(axis, curve.lag[:below], curve.value[:below])
-    return fitted_fractal(part, surface.grid.spacing[number])
+    spacing, points = surface.grid.spacing[number], surface.shape[number]
+    if structure is None:
+        steps = [lag for lag in geometric_lags(points // 10) if lag >= _FIRST_LAG]
+        structure = structure_function(surface, axis=axis, lags=steps)
+    pixels = structure.lag / spacing
+    below = int(np.argmax(np.append(structure.value > rms_height(surface) ** 2, True)))
+    part = (pixels > _FIRST_LAG - 0.5) & (pixels < points // 10 + 0.5) & (np.arange(pixels.size) < below)
+    return fitted_fractal(StructureFunction(axis, structure.lag[part], structure.value[part]), spacing)
 
 
 def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParameters:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import RealArray
-from ..generate.spectra import mode_sum
+from ..generate.modes import mode_sum
 from ..surface import Surface
 from .differences import mean_of
 from .heights import rms_height

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...core.arrays import RealArray
 from ..surface import Surface
 from .differences import axis_index, increments, mean_of, mean_square, second_differences
+from .stencils import stencil_sums
 
 
 def forward_slopes(surface: Surface) -> tuple[RealArray, RealArray]:
@@ -44,9 +47,7 @@ def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
     InputError
         If the axis is unknown or no two neighbours are valid.
     """
-    number = axis_index(axis)
-    lag = (1, 0) if number == 0 else (0, 1)
-    return float(np.sqrt(mean_square(increments(surface, lag), "slope"))) / surface.grid.spacing[number]
+    return math.sqrt(stencil_sums(surface, axis, 1, 1).square) / surface.grid.spacing[axis_index(axis)]
 
 
 def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
@@ -60,9 +61,7 @@ def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
     InputError
         If the axis is unknown or no three neighbours are valid.
     """
-    number = axis_index(axis)
-    mean = mean_square(second_differences(surface, axis), "curvature")
-    return float(np.sqrt(mean)) / surface.grid.spacing[number] ** 2
+    return math.sqrt(stencil_sums(surface, axis, 2, 1).square) / surface.grid.spacing[axis_index(axis)] ** 2
 
 
 def rms_laplacian(surface: Surface) -> float:

@@ -57,7 +57,7 @@ class SpectralFit:
     @property
     def has_rolloff(self) -> bool:
         """Whether the scan shows a plateau; without one, its roll-off lies beyond the scan."""
-        return self.model.plateau
+        return self.model.has_plateau
 
     @property
     def hurst_error(self) -> float:
@@ -101,7 +101,7 @@ def fit_spectrum(
     found = _solutions(rings, (plateau, slopes, floor))
     criteria = {item.shape.name: _criterion(item, rings, lost) for item in found}
     best = min(found, key=lambda item: criteria[item.shape.name])
-    model = replace(best.model(), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
+    model = replace(best.model(2.0 * math.pi / rings.low[0]), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
     ratios = _ratios(model, rings)
     return SpectralFit(
         model,
@@ -170,5 +170,5 @@ def _plateau_is_seen(item: Solution, rings: RadialSpectrum) -> bool:
     """Whether a plateau, if the shape has one, is held by enough modes."""
     if not item.shape.plateau:
         return True
-    on_plateau = rings.modes[rings.q < 2.0 * math.pi / item.model().rolloff_wavelength]
+    on_plateau = rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength]
     return bool(on_plateau.sum() >= _PLATEAU_MODES)

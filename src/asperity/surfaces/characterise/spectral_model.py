@@ -1,9 +1,10 @@
-"""Isotropic spectra made of a plateau and power laws, and their moments."""
+"""The form that spectra are fitted with: a plateau, one or two power laws and a floor."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -12,33 +13,32 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
-
-_ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exactly on it is kept
+from ..generate.power_laws import PowerLaws
 
 
 @dataclass(frozen=True, kw_only=True)
 class SpectralModel:
-    """C(q) = C0 (plateau) up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a floor.
+    """C(q) = C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a floor.
 
-    Zero below ``longest`` and beyond ``shortest`` waves; convention of Jacobs, Junge & Pastewka (2017). It serves
-    ``asperity.generate.gaussian`` as a spectrum.
+    Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its roll-off. Convention of
+    Jacobs, Junge & Pastewka (2017). It serves ``asperity.generate.gaussian`` as a spectrum.
 
     Parameters
     ----------
     level
         C0 in m⁴, the value at the roll-off.
     rolloff_wavelength
-        λ_r = 2π/q_r in m; without a plateau merely the wavelength at which ``level`` is stated.
+        λ_r = 2π/q_r in m.
     exponents
         (a1,) or (a1, a2), any real numbers; a = 2 + 2H of a self-affine surface with the Hurst exponent H.
     crossover_wavelength
         λ_c = 2π/q_c <= λ_r in m where the exponent changes; needed with two exponents.
-    plateau
-        Whether C is constant below q_r; otherwise the first power law goes on.
     floor
         Constant C_n in m⁴ that is added: white noise of the mean square height C_n/(dx dy).
-    shortest_wavelength, longest_wavelength
-        Limits in m of the spectrum, 0 and infinity if there is none.
+    shortest_wavelength
+        Shortest wave in m; 0 for all that a grid holds.
+    longest_wavelength
+        Longest wave in m, at least λ_r; equal to it, there is no plateau.
 
     Raises
     ------
@@ -50,7 +50,6 @@ class SpectralModel:
     rolloff_wavelength: float
     exponents: tuple[float, ...]
     crossover_wavelength: float = math.nan
-    plateau: bool = True
     floor: float = 0.0
     shortest_wavelength: float = 0.0
     longest_wavelength: float = math.inf
@@ -65,103 +64,71 @@ class SpectralModel:
             require.finite(exponent, "exponent of a spectrum")
         if len(self.exponents) == 2:
             require.at_most(self.crossover_wavelength, self.rolloff_wavelength, "crossover wavelength (m)")
-        if not self.shortest_wavelength < self.longest_wavelength:
+        if not self.shortest_wavelength < self.rolloff_wavelength <= self.longest_wavelength:
             raise InputError(
-                f"shortest wave of a spectrum must be below the longest, {self.longest_wavelength:g} m, "
-                f"but is {self.shortest_wavelength:g} m."
+                "wavelengths of a spectrum must satisfy shortest < roll-off <= longest, but are "
+                f"{self.shortest_wavelength:g}, {self.rolloff_wavelength:g} and {self.longest_wavelength:g} m."
             )
+
+    @property
+    def has_plateau(self) -> bool:
+        """Whether there are waves longer than the roll-off."""
+        return self.rolloff_wavelength < self.longest_wavelength
 
     @property
     def hurst(self) -> tuple[float, ...]:
         """(a - 2)/2 for each exponent; a Hurst exponent only if it lies between 0 and 1."""
         return tuple(0.5 * (exponent - 2.0) for exponent in self.exponents)
 
+    @cached_property
+    def law(self) -> PowerLaws:
+        """Shape of the spectrum without its floor."""
+        bends = [self.rolloff_wavelength] + [self.crossover_wavelength] * (len(self.exponents) - 1)
+        shortest = 2.0 * math.pi / self.shortest_wavelength if self.shortest_wavelength > 0.0 else math.inf
+        longest = 2.0 * math.pi / self.longest_wavelength
+        return PowerLaws(tuple(2.0 * math.pi / bend for bend in bends), self.exponents, longest, shortest)
+
+    @property
+    def correlation_range(self) -> float:
+        """Distance in m beyond which heights are taken as uncorrelated: two roll-off wavelengths."""
+        return 2.0 * self.rolloff_wavelength
+
     def psd(self, q: RealArray | float) -> RealArray:
-        """C(q) in m⁴ at the wavenumbers ``q`` > 0 (rad/m, any shape)."""
+        """C(q) in m⁴ at the wavenumbers ``q`` (rad/m, any shape), zero at q = 0."""
         number = np.asarray(q, dtype=float)
-        with np.errstate(divide="ignore"):
-            log_q = np.log(number * self.rolloff_wavelength / (2.0 * np.pi))
-        bent = np.maximum(log_q, 0.0) if self.plateau else log_q
-        decay = self.exponents[0] * bent
-        if len(self.exponents) == 2:
-            bend = math.log(self.rolloff_wavelength / self.crossover_wavelength)
-            decay = decay + (self.exponents[1] - self.exponents[0]) * np.maximum(log_q - bend, 0.0)
-        longest, shortest = 2.0 * np.pi / self.longest_wavelength, self._shortest_wavenumber
-        inside = (number >= longest * (1.0 - _ROUNDING)) & (number <= shortest * (1.0 + _ROUNDING)) & (number > 0.0)
-        values: RealArray = np.where(inside, self.level * np.exp(np.where(inside, -decay, 0.0)) + self.floor, 0.0)
+        relative = self.law.relative(number.ravel()).reshape(number.shape)
+        values: RealArray = np.where(relative > 0.0, self.level * relative + self.floor, 0.0)
         return values
 
     def moments(self, shortest_wavelength: float = 0.0, longest_wavelength: float = math.inf) -> tuple[float, ...]:
         """Profile moments m0 (m²), m2, m4 (1/m²) of the continuous surface between two wavelengths (m), without floor.
 
-        m0 = (1/2π) ∫ q C dq, m2 = (1/4π) ∫ q³ C dq, m4 = (3/16π) ∫ q⁵ C dq, piece by piece in closed form. Infinite
-        where an integral diverges.
+        m0 = (1/2π) ∫ q C dq, m2 = (1/4π) ∫ q³ C dq, m4 = (3/16π) ∫ q⁵ C dq. Infinite where an integral diverges.
         """
-        low = 2.0 * np.pi / min(longest_wavelength, self.longest_wavelength)
-        shortest = max(shortest_wavelength, self.shortest_wavelength)
-        high = 2.0 * np.pi / shortest if shortest > 0.0 else math.inf
-        factors = (1.0 / (2.0 * np.pi), 1.0 / (4.0 * np.pi), 3.0 / (16.0 * np.pi))
-        return tuple(
-            factor * self._integral(order + 1, low, high) for factor, order in zip(factors, (0, 2, 4), strict=True)
-        )
+        high = min(self.law.high, 2.0 * math.pi / shortest_wavelength if shortest_wavelength > 0.0 else math.inf)
+        law = replace(self.law, low=max(self.law.low, 2.0 * math.pi / longest_wavelength), high=high)
+        factors = ((1.0, 0.5), (3.0, 0.25), (5.0, 0.1875))  # power and factor of 1/π
+        return tuple(self.level * factor / math.pi * law.integral(power) for power, factor in factors)
 
     def lattice_psd(self, grid: Grid) -> RealArray:
-        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0 and beyond the last complete ring.
+        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
         Raises
         ------
         InputError
             If the grid holds no mode of the spectrum.
         """
-        q = grid.wavenumber()
-        values: RealArray = np.where(q <= np.pi / max(grid.spacing) * (1.0 + _ROUNDING), self.psd(q), 0.0)
+        values = self.psd(grid.wavenumber())
         if not values.any():
             raise InputError(
-                f"grid of {grid.size[0]:g} x {grid.size[1]:g} m must hold waves of the spectrum, but has none."
+                f"grid of {grid.size[0]:g} x {grid.size[1]:g} m must hold waves of the spectrum, but has none. Change its size."
             )
         return values
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         laws = " and ".join(f"q^-{exponent:.4g}" for exponent in self.exponents)
-        start = "plateau" if self.plateau else "level"
+        start = "plateau" if self.has_plateau else "no plateau"
         bend = f", crossover {self.crossover_wavelength:.4g} m" if len(self.exponents) == 2 else ""
         floor = f", floor {self.floor:.4g} m^4" if self.floor > 0.0 else ""
-        return f"{start} {self.level:.4g} m^4 at {self.rolloff_wavelength:.4g} m, {laws}{bend}{floor}"
-
-    @property
-    def _shortest_wavenumber(self) -> float:
-        return 2.0 * math.pi / self.shortest_wavelength if self.shortest_wavelength > 0.0 else math.inf
-
-    def _integral(self, power: int, low: float, high: float) -> float:
-        """∫ q^power C dq between two wavenumbers, without the floor."""
-        q_r = 2.0 * math.pi / self.rolloff_wavelength
-        bounds, exponents = [q_r], [0.0 if self.plateau else self.exponents[0], self.exponents[0]]
-        if len(self.exponents) == 2:
-            bounds.append(2.0 * math.pi / self.crossover_wavelength)
-            exponents.append(self.exponents[1])
-        edges = [0.0, *bounds, math.inf]
-        total, at_edge = 0.0, self.level  # C at the reference wavenumber of each piece
-        for number, exponent in enumerate(exponents):
-            reference = edges[max(1, number)]
-            if number > 1:
-                at_edge *= math.pow(reference / edges[number - 1], -exponents[number - 1])
-            a, b = max(low, edges[number]), min(high, edges[number + 1])
-            if b > a:
-                total += (
-                    at_edge
-                    * _power_integral(power - exponent, a / reference, b / reference)
-                    * math.pow(reference, power + 1)
-                )
-        return total
-
-
-def _power_integral(power: float, a: float, b: float) -> float:
-    """∫_a^b x^power dx, infinite where it diverges."""
-    if abs(power + 1.0) < 1e-12:
-        return math.inf if a == 0.0 or math.isinf(b) else math.log(b / a)
-    if (power < -1.0 and a == 0.0) or (power > -1.0 and math.isinf(b)):
-        return math.inf
-    upper = 0.0 if math.isinf(b) else math.pow(b, power + 1.0)
-    lower = 0.0 if a == 0.0 else math.pow(a, power + 1.0)
-    return (upper - lower) / (power + 1.0)
+        return f"{start}, {self.level:.4g} m^4 at {self.rolloff_wavelength:.4g} m, {laws}{bend}{floor}"

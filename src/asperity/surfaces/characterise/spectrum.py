@@ -15,7 +15,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, line_transform, thread_count
-from ..generate.spectra import mode_sum
+from ..generate.modes import mode_sum
 from ..prepare.steps import require_complete
 from ..surface import Surface
 from .differences import axis_index

@@ -13,7 +13,8 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ..surface import Surface
-from .differences import axis_index, increments, mean_square, second_differences
+from .differences import axis_index, increments, mean_square
+from .stencils import stencil_sums
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,17 +74,30 @@ def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int]
     """
     number = axis_index(axis)
     steps = geometric_lags(surface.shape[number] // 2) if lags is None else tuple(lags)
-    for step in steps:
-        require.integer(step, 1, "lag of a structure function (pixels)")
-    values = [mean_square_increment(surface, (step, 0) if number == 0 else (0, step)) for step in steps]
+    values = [stencil_sums(surface, axis, 1, step).square for step in steps]
     return StructureFunction(axis, np.array(steps) * surface.grid.spacing[number], np.array(values))
 
 
-def scale_dependence(surface: Surface, *, axis: str = "x", steps: Sequence[int] | None = None) -> ScaleDependence:
+def scale_dependence(
+    surface: Surface,
+    *,
+    axis: str = "x",
+    steps: Sequence[int] | None = None,
+    structure: StructureFunction | None = None,
+) -> ScaleDependence:
     """Scale-dependent slope and curvature of ``surface`` along ``axis``.
 
-    ``steps``: distances between neighbouring points of the stencils in pixels; by default geometric, five per factor
-    of two, up to a quarter of the map. Missing points need no filling; a periodic surface wraps.
+    Parameters
+    ----------
+    surface
+        Surface; missing points are left out, a periodic surface wraps.
+    axis
+        ``x`` or ``y``.
+    steps
+        Distances between neighbouring points of the stencils in pixels; by default geometric, five per factor of two,
+        up to a quarter of the map.
+    structure
+        Structure function along the axis, from which the slopes follow, if it is known already.
 
     Raises
     ------
@@ -92,14 +106,17 @@ def scale_dependence(surface: Surface, *, axis: str = "x", steps: Sequence[int] 
     """
     number = axis_index(axis)
     chosen = geometric_lags(surface.shape[number] // 4) if steps is None else tuple(steps)
-    structure = structure_function(surface, axis=axis, lags=chosen)
-    lengths, root_means, least = structure.lag, [], []
-    for step in chosen:
-        second = second_differences(surface, axis, step) / (step * surface.grid.spacing[number]) ** 2
-        root_means.append(math.sqrt(mean_square(second, "curvature")))
-        least.append(float(np.nanmin(second)))
+    known = structure_function(surface, axis=axis, lags=chosen) if structure is None else structure
+    spacing = surface.grid.spacing[number]
+    sums = [stencil_sums(surface, axis, 2, step) for step in chosen]
+    areas = (spacing * np.array(chosen)) ** 2
     return ScaleDependence(
-        axis, lengths, np.sqrt(structure.value) / lengths, 2.0 * lengths, np.array(root_means), np.array(least)
+        axis,
+        slope_length=known.lag,
+        slope=np.sqrt(known.value) / known.lag,
+        curvature_length=2.0 * spacing * np.array(chosen),
+        curvature=np.sqrt([found.square for found in sums]) / areas,
+        sharpest=np.array([found.least for found in sums]) / areas,
     )
 
 
@@ -133,7 +150,10 @@ def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float 
 
 
 def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
-    """Whole numbers from 1 to ``largest``, ``per_octave`` to a factor of two where there are so many; 1 at least."""
+    """Whole numbers up to ``largest`` (1 at least), ``per_octave`` to a factor of two where there are so many.
+
+    The same numbers for every ``largest``, so that curves of different reach share their points.
+    """
     count = 1 + math.ceil(per_octave * math.log2(max(1, largest)))
-    spaced = np.rint(np.geomspace(1, max(1, largest), count)).astype(int)
-    return tuple(int(lag) for lag in np.unique(spaced))
+    spaced = np.unique(np.rint(2.0 ** (np.arange(count) / per_octave)).astype(int))
+    return tuple(int(lag) for lag in spaced if lag <= max(1, largest))

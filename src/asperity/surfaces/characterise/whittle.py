@@ -52,17 +52,21 @@ class Solution:
     unit: tuple[float, float]
     deviance: float
 
-    def model(self) -> SpectralModel:
-        """The spectrum with these parameters."""
+    def model(self, longest: float) -> SpectralModel:
+        """The spectrum with these parameters; without a plateau it begins at the ``longest`` wave (m)."""
         log_level, log_r, log_c, exponents, log_floor = _split(self.shape, self.values)
         unit_q, unit_c = self.unit
+        if not self.shape.plateau:  # the level is stated at q = unit
+            log_r = math.log(2.0 * math.pi / (longest * unit_q))
+            log_level -= exponents[0] * log_r
+        rolloff = 2.0 * math.pi / (unit_q * math.exp(log_r))
         return SpectralModel(
             level=unit_c * math.exp(log_level),
-            rolloff_wavelength=2.0 * math.pi / (unit_q * math.exp(log_r)),
+            rolloff_wavelength=rolloff,
             exponents=exponents,
             crossover_wavelength=2.0 * math.pi / (unit_q * math.exp(log_c)),
-            plateau=self.shape.plateau,
             floor=unit_c * math.exp(log_floor),
+            longest_wavelength=math.inf if self.shape.plateau else rolloff,
         )
 
     def errors(self, rings: RadialSpectrum, lost: float) -> dict[str, float]:
@@ -97,8 +101,8 @@ def fitted_shape(rings: RadialSpectrum, shape: Shape) -> Solution:
     scale = float(rings.modes.sum())
     starts = sorted(_starts(shape, log_q, measured, rings.modes), key=lambda values: deviance(values)[0])[:_STARTS]
     bounds = _bounds(shape, log_q, measured)
-    options: Any = {"maxiter": 500, "ftol": 1e-13, "gtol": 1e-8}
-    found = [minimize(deviance, start, jac=True, bounds=bounds, method="L-BFGS-B", options=options) for start in starts]
+    options: Any = {"maxfun": 2000, "ftol": 1e-13, "gtol": 1e-8}
+    found = [minimize(deviance, start, jac=True, bounds=bounds, method="TNC", options=options) for start in starts]
     best = min(found, key=lambda item: float(item.fun))
     return Solution(shape, np.asarray(best.x), unit, float(best.fun) * scale)
 
@@ -111,17 +115,12 @@ def _names(shape: Shape) -> list[str]:
 
 
 def _split(shape: Shape, values: RealArray) -> tuple[float, float, float, tuple[float, ...], float]:
-    """ln C0, ln q_r, ln q_c, exponents and ln C_n; the level of a spectrum without plateau is stated at ln q = 0.
-
-    A crossover below that wavenumber moves the statement there, along the first power law.
-    """
+    """ln C0, ln q_r, ln q_c, exponents and ln C_n; the level of a spectrum without plateau is stated at ln q = 0."""
     rest = [float(v) for v in values]
     log_level = rest.pop(0)
     log_r = rest.pop(0) if shape.plateau else 0.0
     log_c = log_r + rest.pop(0) if shape.slopes == 2 else math.nan
     exponents = tuple(rest.pop(0) for _ in range(shape.slopes))
-    if not shape.plateau and shape.slopes == 2 and log_c < 0.0:
-        log_r, log_level = log_c, log_level - exponents[0] * log_c
     return log_level, log_r, log_c, exponents, rest.pop(0) if shape.floor else -math.inf
 
 

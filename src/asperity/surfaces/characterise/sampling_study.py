@@ -1,0 +1,224 @@
+"""How the measured numbers depend on the size of the scan and on the sampling interval (Poon & Bhushan 1995)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ..prepare.level import levelled
+from ..surface import Origin, Surface
+from .autocorrelation import DROP_1E, DROP_TENTH, autocovariance
+from .fractal import fractal_parameters
+from .heights import height_parameters
+from .moments import nayak_parameter
+from .slopes import rms_profile_curvature, rms_profile_slope
+from .summits import summit_statistics, summits
+
+STUDIED = (
+    "Sq", "Sp", "Sz", "m2_x", "m2_y", "m4_x", "m4_y", "alpha_x", "alpha_y", "beta_e_x", "beta_e_y", "beta_01_x",
+    "beta_01_y", "dimension_x", "dimension_y", "summit_density", "summit_radius",
+)  # fmt: skip
+"""Quantities of a study, in SI units: heights, mean square slopes and curvatures, Nayak's parameter, correlation lengths,
+fractal dimension, density (1/m²) and radius 1/<κ> (m) of the summits."""
+
+MODES = ("pick", "average")
+"""How points are thinned out: every n-th is picked (which aliases), or blocks are averaged (which removes variance)."""
+
+
+@dataclass(frozen=True, eq=False)
+class SamplingStudy:
+    """Quantities of parts of one surface against their ``length`` (m): the scan size or the sampling interval.
+
+    ``kind`` and ``form`` (what was removed from every part) in words; ``length`` increasing; ``parts`` number of parts
+    behind each; ``mean`` and ``scatter`` (standard deviation over the parts) by name of the quantity, see ``STUDIED``,
+    NaN where it is not defined on any part.
+    """
+
+    kind: str
+    form: str
+    length: RealArray
+    parts: RealArray
+    mean: dict[str, RealArray]
+    scatter: dict[str, RealArray]
+    citation_keys: ClassVar[tuple[str, ...]] = ("Poon1995",)
+
+    def independent_range(self, name: str, tolerance: float = 0.05) -> tuple[float, float]:
+        """Longest range of lengths (m) over which the means of ``name`` differ by ``tolerance`` at most.
+
+        NaN twice if there is none: then the quantity depends on the scan and has no value of its own.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown.
+        """
+        values = self.mean[require.one_of(name, self.mean, "quantity of a study")]
+        best = (0, 0)
+        for start in range(values.size):
+            end = start
+            while end + 1 < values.size and _spread(values[start : end + 2]) <= tolerance:
+                end += 1
+            best = max(best, (start, end), key=lambda span: span[1] - span[0])
+        if best[0] == best[1]:
+            return math.nan, math.nan
+        return float(self.length[best[0]]), float(self.length[best[1]])
+
+
+def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16, most: int = 64) -> SamplingStudy:
+    """Study of windows of size L/2^k at all positions that do not overlap, at the sampling interval of the map.
+
+    Parameters
+    ----------
+    surface
+        Measured surface; missing points are left out.
+    form
+        What is removed from every window: ``mean``, ``plane`` or ``quadratic``.
+    smallest
+        Least number of points along a side of a window.
+    most
+        Largest number of windows of one size; if there are more, evenly spread ones are taken.
+
+    Raises
+    ------
+    InputError
+        If the form is unknown or the map has fewer points than ``smallest`` along a side.
+    """
+    least = require.integer(smallest, 4, "least number of points along a side")
+    sides = _halvings(min(surface.shape), least)
+    lengths, levels = [], []
+    for power in reversed(sides):
+        shape = tuple(n >> power for n in surface.shape)
+        lengths.append(math.sqrt(shape[0] * surface.dx * shape[1] * surface.dy))
+        levels.append([_measured(window, form) for window in _windows(surface, (shape[0], shape[1]), most)])
+    return _study("scan size", form, lengths, levels)
+
+
+def sampling_interval_study(
+    surface: Surface, *, mode: str = "pick", form: str = "plane", smallest: int = 16, most: int = 16
+) -> SamplingStudy:
+    """Study of the map at 1, 2, 4, … times its sampling interval, over its full size.
+
+    Parameters
+    ----------
+    surface
+        Measured surface; an average over a block with a missing point is missing.
+    mode
+        ``pick`` takes every n-th point, with all offsets; ``average`` takes the means of blocks of n x n points.
+    form
+        What is removed from every map: ``mean``, ``plane`` or ``quadratic``.
+    smallest
+        Least number of points along a side.
+    most
+        Largest number of offsets; if there are more, evenly spread ones are taken.
+
+    Raises
+    ------
+    InputError
+        If the mode or form is unknown or the map has fewer points than ``smallest`` along a side.
+    """
+    require.one_of(mode, MODES, "mode of a sampling-interval study")
+    least = require.integer(smallest, 4, "least number of points along a side")
+    thinned = _picked if mode == "pick" else _averaged
+    lengths, levels = [], []
+    for power in _halvings(min(surface.shape), least):
+        lengths.append(math.sqrt(surface.grid.pixel_area) * 2**power)
+        levels.append([_measured(part, form) for part in thinned(surface, 2**power, most)])
+    return _study(f"sampling interval, {mode}", form, lengths, levels)
+
+
+def _halvings(points: int, least: int) -> list[int]:
+    if points < least:
+        raise InputError(f"surface must have at least {least} points along each side for a study, but has {points}.")
+    return list(range(int(math.log2(points / least)) + 1))
+
+
+def _windows(surface: Surface, shape: tuple[int, int], most: int) -> Iterator[Surface]:
+    """Windows of ``shape`` points that do not overlap, at most ``most``, spread evenly; too empty ones are left out."""
+    starts = [(i, j) for i in _starts(surface.shape[0], shape[0]) for j in _starts(surface.shape[1], shape[1])]
+    for i, j in _spread_evenly(starts, most):
+        part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
+        whole = shape == surface.shape
+        if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
+            yield _like(surface, surface.heights[part], 1, periodic=surface.periodic and whole)
+
+
+def _starts(points: int, width: int) -> range:
+    return range(0, points - width + 1, width)
+
+
+def _picked(surface: Surface, step: int, most: int) -> Iterator[Surface]:
+    for i, j in _spread_evenly([(i, j) for i in range(step) for j in range(step)], most):
+        wraps = all(n % step == 0 for n in surface.shape)
+        yield _like(surface, surface.heights[i::step, j::step], step, periodic=surface.periodic and wraps)
+
+
+def _averaged(surface: Surface, step: int, most: int) -> Iterator[Surface]:
+    count = tuple(n // step for n in surface.shape)
+    part = surface.heights[: count[0] * step, : count[1] * step].astype(np.float64, copy=False)
+    means = part.reshape(count[0], step, count[1], step).mean(axis=(1, 3))
+    wraps = all(n % step == 0 for n in surface.shape)
+    yield _like(surface, means, step, periodic=surface.periodic and wraps)
+
+
+def _like(surface: Surface, heights: RealArray, step: int, *, periodic: bool) -> Surface:
+    return Surface(
+        heights, step * surface.dx, step * surface.dy, periodic=periodic, origin=Origin(surface.origin.source)
+    )
+
+
+def _spread_evenly(items: list[tuple[int, int]], most: int) -> list[tuple[int, int]]:
+    if len(items) <= most:
+        return items
+    return [items[round(k)] for k in np.linspace(0, len(items) - 1, most)]
+
+
+def _measured(part: Surface, form: str) -> dict[str, float]:
+    flat = levelled(part, form)
+    heights, covariance = height_parameters(flat), autocovariance(flat)
+    values = {"Sq": heights.Sq, "Sp": heights.Sp, "Sz": heights.Sz}
+    for axis in "xy":
+        m2 = _or_nan(partial(rms_profile_slope, flat, axis=axis)) ** 2
+        m4 = _or_nan(partial(rms_profile_curvature, flat, axis=axis)) ** 2
+        values |= {f"m2_{axis}": m2, f"m4_{axis}": m4, f"alpha_{axis}": nayak_parameter(heights.Sq**2, m2, m4)}
+        values[f"beta_e_{axis}"] = covariance.correlation_length(DROP_1E, axis=axis)
+        values[f"beta_01_{axis}"] = covariance.correlation_length(DROP_TENTH, axis=axis)
+        values[f"dimension_{axis}"] = _or_nan(partial(_dimension, flat, axis))
+    found = summit_statistics(summits(flat))
+    return values | {"summit_density": found.density, "summit_radius": found.radius}
+
+
+def _dimension(surface: Surface, axis: str) -> float:
+    return fractal_parameters(surface, axis=axis).dimension
+
+
+def _or_nan(measure: Callable[[], float]) -> float:
+    try:
+        return measure()
+    except InputError:  # not defined on a part this small or this full of holes
+        return math.nan
+
+
+def _study(kind: str, form: str, lengths: list[float], levels: list[list[dict[str, float]]]) -> SamplingStudy:
+    mean, scatter = {}, {}
+    for name in STUDIED:
+        columns = [np.array([values[name] for values in level]) for level in levels]
+        defined = [column[np.isfinite(column)] for column in columns]
+        mean[name] = np.array([column.mean() if column.size else math.nan for column in defined])
+        scatter[name] = np.array([column.std(ddof=1) if column.size > 1 else math.nan for column in defined])
+    parts = np.array([float(len(level)) for level in levels])
+    return SamplingStudy(kind, form, np.array(lengths), parts, mean, scatter)
+
+
+def _spread(values: RealArray) -> float:
+    """Largest relative difference of ``values``; infinite where one is not defined."""
+    if not np.all(np.isfinite(values)):
+        return math.inf
+    return float((values.max() - values.min()) / max(abs(values.max()), abs(values.min()), np.finfo(float).tiny))
