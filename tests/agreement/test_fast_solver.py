@@ -412,3 +412,33 @@ def test_single_precision_corrections_give_pressures_to_1e_5(n: int, load: float
     assert_sound(qp, found, 1e-6)
     best = precise.state.pressure
     assert np.linalg.norm(found.state.pressure - best) <= 1e-5 * np.linalg.norm(best)
+
+
+@pytest.mark.parametrize("load", [0.01, 0.05, 0.2])
+@pytest.mark.parametrize("n", [128, 256])
+def test_single_precision_alone_gives_pressures_to_1e_5_and_can_be_polished(n: int, load: float) -> None:
+    """Gaps are known to some roundings of the height scale, 2^-24 each: tolerances of 1e-6 are within reach."""
+    qp = posed(self_affine(n) + 1e3, asp.Periodic(), load)  # heights far from zero: they are centred in double precision
+    precise = run(ActiveSet(tolerance=1e-10, precision="double"), qp)
+    found = run(ActiveSet(tolerance=2e-6, precision="single"), qp)
+    assert found.status.converged, found.status.message
+    assert found.state.pressure.dtype == np.float32
+    best = precise.state.pressure
+    assert np.linalg.norm(found.state.pressure - best) <= 1e-5 * np.linalg.norm(best)
+    polished = run(ActiveSet(tolerance=1e-9), qp, found.state.pressure)
+    assert_sound(qp, polished, 1e-9)
+    assert pairs(qp, polished) < 0.7 * pairs(qp, run(ActiveSet(tolerance=1e-9), qp))
+
+
+def test_a_result_in_single_precision_is_as_good_as_it_says() -> None:
+    surface = asp.Surface(1e-9 * self_affine(128), 1e-9, periodic=True)
+    problem = asp.ContactProblem(surface, asp.Elastic(2e11, 0.3))
+    single, double = (
+        asp.solve(problem, asp.MeanPressure(1e10), solver=ActiveSet(tolerance=1e-5, precision=precision))
+        for precision in ("single", "double")
+    )
+    assert single.pressure.dtype == np.float32
+    assert single.certificate.field_error <= 2e-5  # the certificate is computed anew, in double precision
+    assert single.certificate.load_imbalance <= 1e-6
+    for name in ("area_fraction", "approach", "mean_gap", "elastic_energy", "normal_stiffness", "max_pressure"):
+        assert getattr(single, name) == pytest.approx(getattr(double, name), rel=1e-3)

@@ -114,8 +114,9 @@ class ActiveSet:
         p = work.pressure
         old, load = face.pick(p)
         found, clipped = face.move(p, d, qp.height_scale / tools.scale, work.cap)
-        if centred:
-            _restore_load(face, p, work.cap, found, load)
+        if isinstance(qp.constraint, FixedMean):
+            missing = qp.constraint.mean_pressure * qp.profile.size - memory.survey.totals.pressure
+            _restore_load(face, p, work.cap, found, max(load + missing, 0.0))
         face.lay_change(old, p, tools.field)
         tools.fast.apply(tools.field, tools.response)
         work.engine.release(face, tools.field)

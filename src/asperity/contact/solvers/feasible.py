@@ -11,8 +11,9 @@ _SWEEPS = 100
 
 
 def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
-    """Feasible pressure (Pa) near ``start``; without one, a uniform pressure or a rough guess from the overlap."""
+    """Feasible pressure (Pa, float64) near ``start``; without one, a uniform pressure or a rough guess from the overlap."""
     given = start is not None and bool(start.any())
+    start = None if start is None else np.asarray(start, dtype=np.float64)
     if isinstance(qp.constraint, FixedMean):
         mean = qp.constraint.mean_pressure
         guess = np.maximum(start, 0.0) if start is not None and given else np.full(qp.profile.shape, mean)
