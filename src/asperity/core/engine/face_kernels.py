@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .kernels import BLOCK, compiled
+from .protocol import NEAR_CAP
 
 
 @compiled
@@ -118,7 +119,9 @@ def scale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-
             i = index[k]
             value = np.float64(p[i])
             if value < cap[i * each]:
-                value = min(factor * value + shift, np.float64(cap[i * each]))
+                value = factor * value + shift
+                if value >= NEAR_CAP * cap[i * each]:  # a point within rounding of its cap is at it
+                    value = np.float64(cap[i * each])
                 p[i] = value
             free = int(value < cap[i * each])
             total += value

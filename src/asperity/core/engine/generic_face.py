@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .library import Library, bound
-from .protocol import Load, Products
+from .protocol import NEAR_CAP, Load, Products
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +83,8 @@ class ArrayFace:
         moved = float(factor) * p + float(shift)
         if cap is not None:
             most = bound(self.library, cap, p)
-            moved = self.library.xp.where(p < most, self.library.xp.minimum(moved, most), p)
+            moved = self.library.xp.where(moved < NEAR_CAP * most, moved, most)
+            moved = self.library.xp.where(p < most, moved, p)
         self._put(moved, p)
         return self._load(p, cap)
 

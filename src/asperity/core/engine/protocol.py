@@ -11,6 +11,10 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 from ..arrays import RealArray
 
 
+NEAR_CAP = 1.0 - 1e-14
+"""Share of its cap from which on a pressure that is scaled counts as being at the cap."""
+
+
 @dataclass(frozen=True)
 class Totals:
     """Sums over one iterate, with r = u - h: p; p·r; p·h; p and p·r strictly between the bounds; and bounds of the level.
