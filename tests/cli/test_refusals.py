@@ -54,6 +54,7 @@ def refused(run: Runner, *arguments: object) -> str:
         ((*BODY, *LOAD, "--hardness", "5"), "--hardness must have a unit"),
         (("--body", "E=1GPa,nu=0.3", *LOAD, "--hardness", "body"), "hardness must be known for at least one body"),
         ((*BODY, *LOAD, "--boundary", "open"), "--boundary must be 'periodic' or 'free', but is 'open'."),
+        ((*BODY, *LOAD, "--precision", "half"), "--precision must be 'mixed', 'double' or 'single', but is 'half'"),
         ((*BODY, *LOAD, "--solver", "magic"), "--solver must be one of active_set, conjugate_gradient"),
         ((*BODY, *LOAD, "--tolerance", "0"), "--tolerance must be greater than 0"),
         ((*BODY, *LOAD, "--threads", "0"), "--threads must be a whole number of at least 1"),

@@ -42,6 +42,7 @@ NAMES = MappingProxyType(
         "solver.method": "--solver",
         "solver.tolerance": "--tolerance",
         "solver.max_iterations": "--max-iterations",
+        "solver.precision": "--precision",
         "solver.threads": "--threads",
     }
 )
@@ -85,7 +86,7 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions)
     if given:
         result["control"] = given
     settings = {"method": solve.solver, "tolerance": solve.tolerance}
-    settings |= {"max_iterations": solve.max_iterations, "threads": solve.threads}
+    settings |= {"max_iterations": solve.max_iterations, "precision": solve.precision, "threads": solve.threads}
     stated = {key: value for key, value in settings.items() if value is not None}
     before = table.get("solver", {})
     if stated and isinstance(before, dict):

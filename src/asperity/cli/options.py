@@ -105,6 +105,9 @@ class SolveOptions:
     max_iterations: Annotated[int | None, _option("--max-iterations", "Iterations after which to give up.", SOLVER)] = (
         None
     )
+    precision: Annotated[
+        str | None, _option("--precision", "Arithmetic of active_set: mixed (default), double or single.", SOLVER)
+    ] = None
     threads: Annotated[int | None, _option("--threads", "Threads of the transforms; all cores by default.", SOLVER)] = (
         None
     )

@@ -102,7 +102,8 @@ def build_control(table: ControlTable) -> Control:
 def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:
     """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``."""
     chosen = default_solver(problem)
-    return solver_by_name(table.method or chosen.name, table.tolerance, table.max_iterations)
+    name = table.method or chosen.name
+    return solver_by_name(name, table.tolerance, table.max_iterations, precision=table.precision)
 
 
 def _pressure(text: str | None) -> float:

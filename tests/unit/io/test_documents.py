@@ -137,6 +137,7 @@ SOLVERS = st.fixed_dictionaries(
         "method": st.sampled_from(["conjugate_gradient", "nnls"]),
         "tolerance": st.floats(1e-15, 0.99),
         "max_iterations": COUNTS,
+        "precision": st.sampled_from(["mixed", "double", "single"]),
         "threads": COUNTS,
     },
 )

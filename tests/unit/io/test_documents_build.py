@@ -23,6 +23,7 @@ from asperity import (
     Rigid,
     Surface,
 )
+from asperity.contact.solvers import ActiveSet
 from asperity.io.build import build
 from asperity.io.documents import checked
 from asperity.io.schemas.surfaces import Shape
@@ -135,6 +136,10 @@ def test_solver_settings() -> None:
     assert (case.solver.name, case.solver.tolerance, case.solver.max_iterations) == ("steepest_descent", 1e-3, 7)
     assert case.threads == 1
     assert build(checked(table())).solver.name == "active_set"
+    single = build(checked(table(solver={"precision": "single"}))).solver
+    assert single == ActiveSet(precision="single")
+    with pytest.raises(InputError, match="precision must not be given for the solver nnls"):
+        build(checked(table(solver={"method": "nnls", "precision": "double"})))
 
 
 def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:

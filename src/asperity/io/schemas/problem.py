@@ -95,6 +95,7 @@ class SolverTable(Table):
     method: Method | None = None
     tolerance: Fraction | None = None
     max_iterations: Count | None = None
+    precision: Literal["mixed", "double", "single"] | None = None
     threads: Count | None = None
 
 
