@@ -30,6 +30,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.contact.path.solve_path": "the choices of solve, for a sequence of controls",
         "asperity.contact.path.steps": "the choices of solve, for a sequence of controls",
         "asperity.contact.solve.solve": "independent keyword-only choices of the user, each with a default",
+        "asperity.stress.compute.stress": "independent keyword-only choices of the user, each with a default",
+        "asperity.stress.compute.stress_planes": "independent keyword-only choices of the user, each with a default",
     },
     "public methods": {
         "asperity.core.engine.cpu_face.CpuFace": "the passes of the protocol",

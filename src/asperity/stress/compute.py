@@ -1,0 +1,227 @@
+"""Stresses of a contact result: plane by plane in Fourier space, kept as one field or handed out as a stream."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any, Literal, Protocol, TypeAlias
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
+from .field import StressField
+from .free import FreePlanes
+from .mean_mode import require_held
+from .periodic import PeriodicPlanes
+from .regions import Plane, planes, stack
+from .tractions import Shear, ShearTraction, Sliding, Tractions
+from .where import Everywhere, Where, selection
+
+Direction: TypeAlias = float | tuple[float, float]
+"""Angle in rad from +x towards +y, or a vector (x, y) of any length."""
+
+Of: TypeAlias = Literal["body", "counter_body"]
+"""Which of the two bodies of a contact."""
+
+
+class Loaded(Protocol):
+    """What stresses need of a contact result: its pressure (nx, ny) in Pa, and the problem.
+
+    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. A result with an attribute
+    ``shear`` (as of ``solve_sliding``) brings its own shear traction on ``body``.
+    """
+
+    @property
+    def pressure(self) -> RealArray:
+        """Contact pressure."""
+
+    @property
+    def problem(self) -> Any:
+        """The contact problem."""
+
+
+class Planes(Protocol):
+    """Fields on one plane after the other, for one kind of boundary."""
+
+    def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
+        """Stress on ``plane``."""
+
+    def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
+        """Displacement of ``plane``."""
+
+
+def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
+    """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
+    require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
+    shear = _shear(getattr(result, "shear", Sliding(0.0)) if friction is None else friction, direction)
+    if of == "counter_body":
+        if isinstance(shear, Sliding):
+            shear = Sliding(shear.coefficient, shear.direction + math.pi)
+        else:
+            shear = ShearTraction(-shear.x, -shear.y)
+    problem = result.problem
+    return Tractions(problem.grid, result.pressure, shear, problem.boundary.name)
+
+
+def stress(
+    result: Loaded,
+    depths: Iterable[float],
+    *,
+    on: Where = Everywhere(),
+    friction: float | Shear | None = None,
+    direction: Direction = 0.0,
+    of: Of = "body",
+    displacement: bool = False,
+    dtype: str = "float64",
+    threads: int | None = None,
+) -> StressField:
+    """Stress inside a body of a contact, on planes parallel to its surface.
+
+    Parameters
+    ----------
+    result
+        Result of ``solve`` (or anything with its pressure and problem).
+    depths
+        Depths of the planes in m, >= 0; the depth of an interface gives the stress on both of its sides.
+    on
+        Points of the planes: ``Everywhere()``, a vertical ``Section(y="max")``, or a ``DepthProfile(x, y)``. Whatever
+        is not asked for is not kept.
+    friction
+        Friction coefficient μ of a sliding contact, whose shear traction is μ times the pressure; or a
+        ``ShearTraction(qx, qy)`` of fields. The pressure is taken as it is (``solve_sliding`` couples the two).
+    direction
+        Direction of the shear traction on ``body`` where ``friction`` is a number: angle in rad from +x, or a vector.
+    of
+        ``"body"``, or ``"counter_body"``, whose z axis points into it, away from the body, and on which the shear
+        traction acts the other way.
+    displacement
+        Whether to compute the displacements, too.
+    dtype
+        ``"float64"`` or ``"float32"``.
+    threads
+        Number of threads; ASPERITY_THREADS or all cores by default.
+
+    Notes
+    -----
+    Periodic boundary: exact for the trigonometric interpolation of the tractions, no mean lateral strain, displacements
+    relative to the mean of the surface (or to a rigid base). Free boundary: exact for constant tractions on pixels, to
+    rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity.
+    Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
+
+    Raises
+    ------
+    InputError
+        If the body is rigid, a depth negative or below a rigid base, a position outside the grid, or shear acts above a
+        frictionless interface.
+    """
+    loads = tractions_on(result, friction, direction, of)
+    job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)
+    return job.whole(displacement=displacement)
+
+
+def stress_planes(
+    result: Loaded,
+    depths: Iterable[float],
+    *,
+    on: Where = Everywhere(),
+    friction: float | Shear | None = None,
+    direction: Direction = 0.0,
+    of: Of = "body",
+    displacement: bool = False,
+    dtype: str = "float64",
+    threads: int | None = None,
+) -> Iterator[StressField]:
+    """The planes of ``stress`` one by one, each a field of one plane: a volume need not fit in memory.
+
+    Arguments and errors as for ``stress``; give the planes to ``save_stress`` or ``export_stress_vtk`` to write a volume.
+    """
+    loads = tractions_on(result, friction, direction, of)
+    job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)
+    return job.each(displacement=displacement)
+
+
+class StressPlanes:
+    """Stress under any ``tractions`` on a body, ready to be computed; arguments and errors as for ``stress``."""
+
+    def __init__(
+        self,
+        tractions: Tractions,
+        body: object,
+        depths: Iterable[float],
+        *,
+        on: Where = Everywhere(),
+        dtype: str = "float64",
+        threads: int | None = None,
+    ) -> None:
+        require.one_of(dtype, ("float64", "float32"), "precision of stresses")
+        self.planes = planes(body, depths)
+        require_held(tractions, body)
+        self._place = selection(on, tractions.grid, tractions.pressure)
+        self._source = _source(tractions, body, dtype, threads)
+        self._dtype = dtype
+        self._grid = tractions.grid
+        self.citation_keys = _citation_keys(tractions, body)
+
+    def each(self, *, displacement: bool = False) -> Iterator[StressField]:
+        """One field after the other, each of one plane."""
+        part = self._place.index
+        all_points = part == (slice(None), slice(None))
+        scratch = None if all_points else StressTensor(*_arrays(len(STRESSES), self._grid.shape, self._dtype))
+        for plane in self.planes:
+            tensor = self._source.stress(plane, scratch).map(lambda c: c[part][None].copy() if scratch else c[None])
+            moved = self._source.displacement(plane).map(lambda c: c[part][None].copy()) if displacement else None
+            yield self._field((plane,), tensor, moved)
+
+    def whole(self, *, displacement: bool = False) -> StressField:
+        """All planes in one field; needs the memory of the field and of one plane."""
+        shape = len(self.planes), *self._place.shape
+        tensor = StressTensor(*_arrays(len(STRESSES), shape, self._dtype))
+        moved = Displacement(*_arrays(len(AXES), shape, self._dtype)) if displacement else None
+        for number, field in enumerate(self.each(displacement=displacement)):
+            _copy(field.tensor, tensor, number)
+            if moved is not None and field.displacement is not None:
+                _copy(field.displacement, moved, number)
+        return self._field(self.planes, tensor, moved)
+
+    def _field(self, sections: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
+        place = self._place
+        return StressField(sections, tensor, moved, place.x, place.y, ("plane", *place.dims), self.citation_keys)
+
+
+def _source(tractions: Tractions, body: object, dtype: str, threads: int | None) -> Planes:
+    if tractions.boundary == "periodic":
+        return PeriodicPlanes(tractions, body, dtype=dtype, threads=threads)
+    return FreePlanes(tractions, body, dtype=dtype, threads=threads)
+
+
+def _shear(friction: float | Shear, direction: Direction) -> Shear:
+    if isinstance(friction, Sliding | ShearTraction):
+        return friction
+    if isinstance(direction, tuple):
+        x, y = require.two(direction, "direction of sliding", "Write an angle in rad or a vector (x, y).")
+        angle = math.atan2(require.finite(y, "direction of sliding"), require.finite(x, "direction of sliding"))
+        if x == y == 0.0:
+            raise InputError("direction of sliding must be a vector of some length, but is (0, 0).")
+        return Sliding(friction, angle)
+    return Sliding(friction, direction)
+
+
+def _arrays(count: int, shape: tuple[int, ...], dtype: str) -> list[RealArray]:
+    return [np.empty(shape, dtype) for _ in range(count)]
+
+
+def _copy(source: StressTensor | Displacement, target: StressTensor | Displacement, number: int) -> None:
+    for name, component in vars(source).items():
+        getattr(target, name)[number] = component[0]
+
+
+def _citation_keys(tractions: Tractions, body: object) -> tuple[str, ...]:
+    keys = {"Johnson1985"}
+    if stack(body).layers:
+        keys |= {"Burmister1945", "Tan2006"}
+    if tractions.boundary == "free":
+        keys |= {"Liu2002", "Love1929"} | ({"Cerruti1882"} if tractions.sheared else set())
+    return tuple(sorted(keys))

@@ -1,0 +1,205 @@
+"""Stresses that were computed: components by plane, derived stresses, maxima with their places, interfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.tensor import Displacement, StressTensor
+from . import invariants
+from .regions import Plane, Region
+
+
+@dataclass(frozen=True)
+class Peak:
+    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``."""
+
+    value: float
+    x: float
+    y: float
+    depth: float
+    region: Region
+    side: str
+
+
+@dataclass(frozen=True, eq=False)
+class InterfaceStress:
+    """Tractions an interface must carry, arrays over its points.
+
+    ``shear`` is the magnitude of the shear traction in Pa, ``peel`` the normal one, positive in tension.
+    """
+
+    above: Region
+    below: Region | None
+    depth: float
+    shear: RealArray
+    peel: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class StressField:
+    """Stress inside a body on planes parallel to its surface; arrays (n, …) over planes and their points, in Pa.
+
+    Attributes
+    ----------
+    planes
+        The n planes in order of depth; the depth of an interface appears twice, above and below it.
+    tensor
+        Components xx, yy, zz, xy, xz, yz, tension positive. x and y are those of the contact, z points into the body.
+    displacement
+        Components x, y, z in m, or None where not asked for.
+    x, y
+        Coordinates of the points in m.
+    dims
+        Names of the axes of the arrays: "plane", then "x" and "y" as far as they are left.
+    citation_keys
+        Keys of the papers the numbers rest on.
+    """
+
+    planes: tuple[Plane, ...]
+    tensor: StressTensor
+    displacement: Displacement | None
+    x: RealArray
+    y: RealArray
+    dims: tuple[str, ...]
+    citation_keys: tuple[str, ...] = ()
+
+    @property
+    def depth(self) -> RealArray:
+        """Depth of each plane in m, (n,)."""
+        return np.array([plane.depth for plane in self.planes])
+
+    @property
+    def region(self) -> RealArray:
+        """Number of the region of each plane, 0 the outermost layer, (n,)."""
+        return np.array([plane.region.index for plane in self.planes])
+
+    @property
+    def regions(self) -> tuple[Region, ...]:
+        """The regions that have planes, from the surface down."""
+        return tuple(dict.fromkeys(plane.region for plane in self.planes))
+
+    @property
+    def normal_xx(self) -> RealArray:
+        """σ_xx."""
+        return self.tensor.xx
+
+    @property
+    def normal_yy(self) -> RealArray:
+        """σ_yy."""
+        return self.tensor.yy
+
+    @property
+    def normal_zz(self) -> RealArray:
+        """σ_zz."""
+        return self.tensor.zz
+
+    @property
+    def shear_xy(self) -> RealArray:
+        """σ_xy."""
+        return self.tensor.xy
+
+    @property
+    def shear_xz(self) -> RealArray:
+        """σ_xz."""
+        return self.tensor.xz
+
+    @property
+    def shear_yz(self) -> RealArray:
+        """σ_yz."""
+        return self.tensor.yz
+
+    @property
+    def von_mises(self) -> RealArray:
+        """√(3 J2), see ``invariants``."""
+        return invariants.von_mises(self.tensor)
+
+    @property
+    def sqrt_J2(self) -> RealArray:
+        """√J2."""
+        return invariants.sqrt_J2(self.tensor)
+
+    @property
+    def tresca(self) -> RealArray:
+        """σ1 - σ3."""
+        return invariants.tresca(self.tensor)
+
+    @property
+    def max_shear(self) -> RealArray:
+        """(σ1 - σ3)/2."""
+        return invariants.max_shear(self.tensor)
+
+    @property
+    def max_shear_normal(self) -> RealArray:
+        """Unit normal of a plane of largest shear, (3, n, …)."""
+        return invariants.max_shear_normal(self.tensor)
+
+    @property
+    def principal(self) -> RealArray:
+        """σ1 >= σ2 >= σ3, (3, n, …)."""
+        return invariants.principal_stresses(self.tensor)
+
+    @property
+    def max_principal(self) -> RealArray:
+        """σ1."""
+        largest: RealArray = self.principal[0]
+        return largest
+
+    @property
+    def principal_tensile(self) -> RealArray:
+        """Larger principal stress within planes parallel to the surface (Peng 2001, eq. 3.34)."""
+        return invariants.principal_tensile(self.tensor)
+
+    @property
+    def hydrostatic(self) -> RealArray:
+        """Mean normal stress."""
+        return invariants.hydrostatic(self.tensor)
+
+    @property
+    def interfaces(self) -> tuple[InterfaceStress, ...]:
+        """Tractions on the interfaces that have a plane."""
+        found = []
+        for number, plane in enumerate(self.planes):
+            if plane.side == "above":
+                below = next((p.region for p in self.planes if p.region.index == plane.region.index + 1), None)
+                shear = np.hypot(self.tensor.xz[number], self.tensor.yz[number])
+                found.append(InterfaceStress(plane.region, below, plane.depth, shear, self.tensor.zz[number]))
+        return tuple(found)
+
+    def within(self, region: int | str) -> StressField:
+        """The planes of one region, by its number or name.
+
+        Raises
+        ------
+        InputError
+            If no plane lies in such a region.
+        """
+        keep = [k for k, plane in enumerate(self.planes) if region in (plane.region.index, plane.region.name)]
+        if not keep:
+            names = ", ".join(f"{part.index} ({part.name})" for part in self.regions)
+            raise InputError(f"region of a stress field must be one of {names}, but is {region!r}.")
+        pick = np.array(keep)
+        moved = None if self.displacement is None else self.displacement.map(lambda component: component[pick])
+        planes = tuple(self.planes[k] for k in keep)
+        return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[pick]), displacement=moved)
+
+    def peak(self, values: RealArray) -> Peak:
+        """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place.
+
+        Raises
+        ------
+        InputError
+            If ``values`` has another shape than the components of the field.
+        """
+        if values.shape != self.tensor.xx.shape:
+            raise InputError(
+                f"values of a peak must have the shape {self.tensor.xx.shape} of the field, but have {values.shape}."
+            )
+        index = np.unravel_index(int(np.argmax(values)), values.shape)
+        plane = self.planes[int(index[0])]
+        at = dict(zip(self.dims[1:], index[1:], strict=True))
+        x, y = (float(line[at[axis]]) if axis in at else float(line) for axis, line in (("x", self.x), ("y", self.y)))
+        return Peak(float(values[index]), x, y, plane.depth, plane.region, plane.side)

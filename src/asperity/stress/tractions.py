@@ -1,0 +1,136 @@
+"""What loads a body: pressure and shear traction on its surface, and what lies outside the grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.grid import Grid
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """Shear traction of a sliding contact: friction ``coefficient`` times pressure, along ``direction``.
+
+    Parameters
+    ----------
+    coefficient
+        μ >= 0.
+    direction
+        Angle in rad from +x towards +y of the traction on the body, which is that in which the other body moves.
+
+    Raises
+    ------
+    InputError
+        If the coefficient is negative or a value is not finite.
+    """
+
+    coefficient: float
+    direction: float = 0.0
+
+    def __post_init__(self) -> None:
+        mu = require.finite(self.coefficient, "friction coefficient")
+        require.finite(self.direction, "direction of sliding (rad)")
+        if mu < 0.0:
+            raise InputError(
+                f"friction coefficient must be at least zero, but is {mu:g}. Turn the direction by pi instead."
+            )
+
+    @property
+    def ratios(self) -> tuple[float, float]:
+        """Shear traction along x and along y over the pressure; exact for multiples of a right angle."""
+        c, s = math.cos(self.direction), math.sin(self.direction)
+        c, s = (0.0 if abs(v) < 1e-15 else v for v in (c, s))
+        return self.coefficient * c, self.coefficient * s
+
+
+@dataclass(frozen=True, eq=False)
+class ShearTraction:
+    """Shear traction on the body given as fields (nx, ny) in Pa along +x and along +y.
+
+    Raises
+    ------
+    InputError
+        If a field is no two-dimensional array of numbers, or the two differ in shape.
+    """
+
+    x: RealArray
+    y: RealArray
+
+    def __post_init__(self) -> None:
+        x = require.field(self.x, "shear traction along x (Pa)")
+        object.__setattr__(self, "x", x)
+        object.__setattr__(self, "y", require.field(self.y, "shear traction along y (Pa)", x.shape))
+
+
+Shear: TypeAlias = Sliding | ShearTraction
+"""Shear traction on the body."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tractions:
+    """Tractions on the surface of one body.
+
+    Parameters
+    ----------
+    grid
+        Grid of the tractions.
+    pressure
+        (nx, ny) in Pa, positive in compression; of either sign.
+    shear
+        ``Sliding(...)`` or ``ShearTraction(...)``; none by default.
+    boundary
+        ``"periodic"``: the load repeats, and is the trigonometric interpolation of its values. ``"free"``: nothing
+        loads the surface outside the grid, and each pixel carries a constant traction.
+
+    Raises
+    ------
+    InputError
+        If a field has another shape than the grid or the boundary another name.
+    """
+
+    grid: Grid
+    pressure: RealArray
+    shear: Shear = Sliding(0.0)
+    boundary: Literal["periodic", "free"] = "periodic"
+
+    def __post_init__(self) -> None:
+        require.one_of(self.boundary, ("periodic", "free"), "boundary of tractions")
+        pressure = require.field(self.pressure, "pressure of tractions (Pa)", self.grid.shape)
+        object.__setattr__(self, "pressure", pressure)
+        if not isinstance(self.shear, Sliding | ShearTraction):
+            raise InputError(f"shear traction must be Sliding(...) or ShearTraction(qx, qy), but is {self.shear!r}.")
+        if isinstance(self.shear, ShearTraction):
+            require.field(self.shear.x, "shear traction along x (Pa)", self.grid.shape)
+
+    @property
+    def sheared(self) -> bool:
+        """Whether there is any shear traction."""
+        if isinstance(self.shear, Sliding):
+            return self.shear.coefficient != 0.0
+        return bool(np.any(self.shear.x) or np.any(self.shear.y))
+
+    @property
+    def shear_x(self) -> RealArray:
+        """Shear traction along x in Pa, (nx, ny)."""
+        return self.shear.x if isinstance(self.shear, ShearTraction) else self.shear.ratios[0] * self.pressure
+
+    @property
+    def shear_y(self) -> RealArray:
+        """Shear traction along y in Pa, (nx, ny)."""
+        return self.shear.y if isinstance(self.shear, ShearTraction) else self.shear.ratios[1] * self.pressure
+
+    @property
+    def means(self) -> tuple[float, float, float]:
+        """Means of the shear along x, along y and of the pressure, in Pa."""
+        pressure = float(self.pressure.mean(dtype=np.float64))
+        if isinstance(self.shear, Sliding):
+            x, y = self.shear.ratios
+            return x * pressure, y * pressure, pressure
+        return float(self.shear.x.mean(dtype=np.float64)), float(self.shear.y.mean(dtype=np.float64)), pressure
