@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..solids.body import materials_of, surface_material
-from ..surfaces.characterise.slopes import rms_slope
+from ..surfaces.characterise.slopes import rms_profile_slope
 from ..surfaces.surface import Surface
 from .control import Control, Force, MeanPressure, mean_pressure
 from .finding import Advice
@@ -69,7 +69,10 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
 
 
 def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
-    slope = rms_slope(Surface(profile, *problem.grid.spacing))
+    surface = Surface(profile, *problem.grid.spacing)
+    slope = math.hypot(
+        *(rms_profile_slope(surface, axis=name) for name, n in zip("xy", profile.shape, strict=True) if n > 1)
+    )
     if slope > LARGEST_SLOPE:
         yield Advice(
             "warning",

@@ -20,11 +20,19 @@ from .point_kernel import Limits, wavenumber_grid
 
 @dataclass(frozen=True, eq=False)
 class LineKernel:
-    """``descent``, the integral of L/x, and ``moment``, the integral of L, both from 0 (1/Pa, m/Pa), over x in m."""
+    """``descent``, the integral of L/x, and ``moment``, the integral of L, both from 0 (1/Pa, m/Pa), over x in m.
+
+    ``infinity`` is the distance (m) that serves as datum on a rigid base; infinite on a half-space, where none serves.
+    """
 
     descent: LogTable
     moment: LogTable
-    datum_at_infinity: bool
+    infinity: float
+
+
+_DIED_OUT = 1e4
+"""Distance over thickness of the layers at which displacements on a rigid base are zero: they fall exponentially, over 30
+thicknesses where a film is a million times stiffer than what it lies on."""
 
 
 def line_kernel(values: RealArray, limits: Limits) -> LineKernel:
@@ -41,7 +49,7 @@ def line_kernel(values: RealArray, limits: Limits) -> LineKernel:
     start = float(x[0])
     moment = log_table(start, slope * x).integral()
     moment.coefficients[0] += slope[0] * moment.start
-    return LineKernel(log_table(start, slope).integral(), moment, datum_at_infinity=limits.low == 0.0)
+    return LineKernel(log_table(start, slope).integral(), moment, infinity=np.inf if limits.low else _DIED_OUT * d)
 
 
 def strip_coefficients(kernel: LineKernel, grid: Grid, datum: float) -> RealArray:
@@ -50,7 +58,7 @@ def strip_coefficients(kernel: LineKernel, grid: Grid, datum: float) -> RealArra
     It is relative to that at the distance ``datum`` (m) from a line load; on a rigid base relative to the base.
     With the descent D and the moment M, the integral of u from 0 to X is [X (D(datum) - D(X)) + M(X)]/pi.
     """
-    zero = kernel.descent(np.array([kernel.descent.end if kernel.datum_at_infinity else datum]))
+    zero = kernel.descent(np.array([datum if kernel.infinity == np.inf else kernel.infinity]))
     edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
     integral: RealArray = (edge * (zero - kernel.descent(edge)) + kernel.moment(edge)) / np.pi
     return _between_edges(integral)

@@ -1,0 +1,57 @@
+"""Advice on layers: thinner than a pixel, thicker than the period can show."""
+
+import numpy as np
+from contact_cases import rough
+from solid_cases import elastic, on_half_space
+
+import asperity as asp
+
+
+def found(body, *, counter=asp.Rigid(), boundary=asp.Periodic(), pressure=1e-6):
+    problem = asp.ContactProblem(rough((32, 32), power=3.0), body, counter_body=counter, boundary=boundary)
+    return {a.criterion: a for a in asp.advise(problem, asp.MeanPressure(pressure)) if "layer" in a.criterion}
+
+
+def test_layers_that_suit_the_grid_get_no_advice():
+    assert found(on_half_space(2.0, 4.0)) == {}
+    assert found(elastic(1.0, 0.3)) == {}
+
+
+def test_layer_thinner_than_a_pixel():
+    advice = found(on_half_space(2.0, 0.25))
+    assert set(advice) == {"layer against pixel"}
+    assert "thinnest 0.25 pixels" in advice["layer against pixel"].message
+    assert advice["layer against pixel"].level == "note"
+    both = asp.Layered([asp.Layer(elastic(2.0, 0.3), 0.5), asp.Layer(elastic(3.0, 0.3), 0.2)], elastic(1.0, 0.3))
+    assert "2 layers are thinner than a pixel (the thinnest 0.2" in found(both)["layer against pixel"].message
+    assert set(found(elastic(1.0, 0.3), counter=on_half_space(2.0, 0.25))) == {"layer against pixel"}
+    assert found(on_half_space(2.0, 0.0)) == {}
+
+
+def test_layers_too_thick_for_the_period():
+    assert set(found(on_half_space(2.0, 17.0))) == {"layer against period"}
+    assert found(on_half_space(2.0, 15.0)) == {}
+    assert found(on_half_space(2.0, 17.0), boundary=asp.Free()) == {}
+    assert found(on_half_space(1.0, 17.0)) == {}, "a base of the same material makes no difference"
+    assert set(found(asp.Layered([asp.Layer(elastic(1.0, 0.3), 17.0)], asp.RigidBase()))) == {"layer against period"}
+
+
+def test_load_is_measured_by_the_softest_material():
+    """A soft layer under a stiff one is strained by the mean pressure, whatever the surface material."""
+    soft = asp.Layered([asp.Layer(elastic(1e3, 0.3), 2.0), asp.Layer(elastic(1e-3, 0.3), 2.0)], elastic(1e3, 0.3))
+    problem = asp.ContactProblem(rough((32, 32), power=3.0), soft)
+    advice = {a.criterion: a for a in asp.advise(problem, asp.MeanPressure(1e-3))}
+    assert "load" in advice
+    assert np.isclose(problem.contact_modulus, 1e3 / 0.91)
+
+
+def test_hardness_is_that_of_the_surface_material():
+    weak = asp.Elastic(1.0, 0.3, asp.Strength(hardness=1e-3), name="varnish")
+    strong = asp.Elastic(1.0, 0.3, asp.Strength(hardness=1e3), name="steel")
+    for layers, base, warned in (([weak], strong, True), ([strong], weak, False)):
+        body = asp.Layered([asp.Layer(m, 2.0) for m in layers], base)
+        result = asp.solve(asp.ContactProblem(rough((16, 16), power=3.0), body), asp.MeanPressure(0.01))
+        advice = {a.criterion: a for a in asp.review(result)}
+        assert ("hardness" in advice) == warned
+        if warned:
+            assert "varnish" in advice["hardness"].message

@@ -1,0 +1,123 @@
+"""Layered bodies as data: what they refuse, what they leave out, and what others ask them."""
+
+import math
+
+import numpy as np
+import pytest
+from solid_cases import elastic
+
+import asperity as asp
+from asperity.solids.body import materials_of, surface_material
+from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solids.compliance.two_bodies import contact_compliance
+
+HARD, SOFT, BASE = elastic(400e9, 0.2), elastic(3e9, 0.4), elastic(200e9, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: asp.Layer("DLC", 1e-9), r"material of a layer must be of type Elastic.*material\(\"DLC\"\)"),
+        (lambda: asp.Layer(HARD, -1e-9), r"thickness of a layer \(m\) must be at least zero, but is -1e-09"),
+        (lambda: asp.Layer(HARD, math.nan), r"thickness of a layer \(m\) must be a finite number"),
+        (lambda: asp.Layer(HARD, "5 nm"), r"thickness of a layer \(m\) must be a number, but is '5 nm'"),
+        (lambda: asp.Layer(HARD, 1.0, "bonded"), r"interface of a layer must be Bonded\(\) or Frictionless\(\)"),
+        (lambda: asp.Layered(asp.Layer(HARD, 1.0), BASE), r"a list of Layer, but is a single Layer; write \[layer\]"),
+        (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body must be of type Layer"),
+        (lambda: asp.Layered([], asp.Rigid()), r"base of a Layered body must be .*RigidBase\(\), but is Rigid"),
+        (lambda: asp.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer"),
+        (lambda: asp.graded(HARD, SOFT, 0.0), r"thickness of a graded layer \(m\) must be greater than zero"),
+        (lambda: asp.graded(HARD, SOFT, math.inf), r"thickness of a graded layer \(m\) must be a finite"),
+        (lambda: asp.graded(HARD, SOFT, 1.0, sublayers=0), "number of sublayers of a graded layer"),
+        (lambda: asp.graded(HARD, SOFT, 1.0, grading="linear"), r"grading must be LinearGrading\(\)"),
+        (lambda: asp.PowerGrading(-1.0), "exponent of a graded layer must be greater than zero"),
+    ],
+)
+def test_refusals(make, message):
+    with pytest.raises(asp.InputError, match=message):
+        make()
+
+
+def test_layers_are_frozen_and_equal_by_value():
+    body = asp.Layered([asp.Layer(HARD, 5e-9), asp.Layer(SOFT, 1e-8)], BASE)
+    again = asp.Layered((asp.Layer(HARD, 5e-9), asp.Layer(SOFT, 1e-8)), BASE)
+    assert body == again
+    assert hash(body) == hash(again)
+    assert contact_compliance(body, asp.Rigid()) == contact_compliance(again, asp.Rigid())
+    assert body.thickness == pytest.approx(1.5e-8, rel=1e-15)
+
+
+def test_what_takes_part():
+    body = asp.Layered(
+        [asp.Layer(SOFT, 0.0), asp.Layer(HARD, 1e-9), asp.Layer(SOFT, math.inf), asp.Layer(HARD, 1.0)], BASE
+    )
+    assert body.reduced == asp.Layered([asp.Layer(HARD, 1e-9)], SOFT)
+    assert materials_of(body) == (HARD, SOFT)
+    assert surface_material(body) == HARD
+    assert surface_material(asp.Layered([], BASE)) == BASE
+    assert surface_material(asp.Rigid()) is None
+    assert surface_material(asp.Layered([asp.Layer(HARD, 0.0)], asp.RigidBase())) is None
+    assert materials_of(asp.Layered([asp.Layer(HARD, 1.0)], asp.RigidBase())) == (HARD,)
+
+
+def test_contact_modulus_is_that_of_the_surface_materials():
+    body = asp.Layered([asp.Layer(HARD, 5e-9)], BASE)
+    assert asp.contact_modulus(body, asp.Rigid()) == asp.contact_modulus(HARD, asp.Rigid())
+    assert asp.contact_modulus(SOFT, body) == asp.contact_modulus(SOFT, HARD)
+    stiff_as_stone = asp.Layered([], asp.RigidBase())
+    assert asp.contact_modulus(stiff_as_stone, SOFT) == asp.contact_modulus(asp.Rigid(), SOFT)
+    with pytest.raises(asp.InputError, match="must not both be rigid"):
+        asp.contact_modulus(stiff_as_stone, asp.Rigid())
+
+
+def test_bodies_without_layers_are_half_spaces():
+    """Exactly, so that old results do not change by rounding."""
+    endless = asp.Layered([asp.Layer(HARD, math.inf)], BASE)
+    for body in (asp.Layered([], HARD), endless, asp.Layered([asp.Layer(SOFT, 0.0)], HARD)):
+        assert contact_compliance(body, SOFT) == HalfSpace(asp.contact_modulus(HARD, SOFT))
+
+
+def test_sum_of_compliances():
+    body = asp.Layered([asp.Layer(HARD, 5e-9)], BASE)
+    on_rock = asp.Layered([asp.Layer(SOFT, 1e-6)], asp.RigidBase())
+    q = np.geomspace(1e5, 1e10, 7)
+    pairs = [(body, SOFT), (body, body), (on_rock, on_rock), (asp.Rigid(), body), (SOFT, on_rock)]
+    for pair in pairs:
+        both = contact_compliance(*pair)
+        single = [contact_compliance(part, asp.Rigid()) for part in pair if part != asp.Rigid()]
+        np.testing.assert_allclose(both.spectral(q), sum(part.spectral(q) for part in single), rtol=1e-14)
+        np.testing.assert_allclose(
+            both.line_influence(asp.Grid((4, 1), (1e-7, 1.0)), 1e-6),
+            sum(part.line_influence(asp.Grid((4, 1), (1e-7, 1.0)), 1e-6) for part in single),
+            rtol=1e-13,
+        )
+    assert (
+        contact_compliance(on_rock, on_rock).mean_mode() == 2.0 * contact_compliance(on_rock, asp.Rigid()).mean_mode()
+    )
+    assert contact_compliance(on_rock, asp.Rigid()).mean_mode() > 0.0
+    assert contact_compliance(on_rock, SOFT).mean_mode() == 0.0, (
+        "the datum is the mean wherever a half-space takes part"
+    )
+
+
+def test_grading():
+    coating = asp.graded(HARD, SOFT, 8e-9, grading=asp.LinearGrading(), sublayers=4, interface=asp.Frictionless())
+    assert [layer.thickness for layer in coating] == [2e-9] * 4
+    assert [layer.interface for layer in coating] == [asp.Bonded()] * 3 + [asp.Frictionless()]
+    shares = (0.125, 0.375, 0.625, 0.875)
+    for layer, share in zip(coating, shares, strict=True):
+        assert layer.material.youngs_modulus == pytest.approx(400e9 - 397e9 * share, rel=1e-14)
+        assert layer.material.poisson_ratio == pytest.approx(0.2 + 0.2 * share, rel=1e-14)
+    first = asp.graded(HARD, SOFT, 1e-9, sublayers=1)[0].material.youngs_modulus
+    assert first == pytest.approx(math.sqrt(400e9 * 3e9), rel=1e-14)
+    cubed = asp.graded(HARD, SOFT, 1e-9, grading=asp.PowerGrading(3.0), sublayers=1)[0].material.youngs_modulus
+    assert cubed == pytest.approx(400e9 - 397e9 / 8.0, rel=1e-14)
+
+
+def test_strength_of_a_graded_coating_where_both_ends_are_known():
+    hard = asp.Elastic(4e11, 0.2, asp.Strength(hardness=30e9), name="DLC")
+    soft = asp.Elastic(2e11, 0.3, asp.Strength(hardness=10e9, yield_stress=3e9), name="steel")
+    middle = asp.graded(hard, soft, 1e-9, sublayers=1)[0].material
+    assert middle.strength.hardness == pytest.approx(20e9, rel=1e-14)
+    assert math.isnan(middle.strength.yield_stress)
+    assert middle.name == "graded DLC - steel"
