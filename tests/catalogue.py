@@ -13,12 +13,17 @@ from asperity import (
     Elastic,
     Force,
     Free,
+    FreeLine,
+    Frictionless,
     Grid,
     Hardness,
     HardWall,
+    Layer,
+    Layered,
     MeanGap,
     MeanPressure,
     Periodic,
+    RigidBase,
     Surface,
 )
 from asperity.contact.boundary import Boundary
@@ -41,11 +46,28 @@ from asperity.contact.solvers import (
 )
 from asperity.contact.solvers.feasible import scaled_to_load
 from asperity.core.arrays import RealArray
+from asperity.solids.body import Body
 
 MODULUS = 100e9
 """Contact modulus of every case, Pa."""
 
 BODY = Elastic(MODULUS * (1.0 - 0.3**2), 0.3)
+
+HARD = Elastic(10.0 * MODULUS, 0.2)
+SOFT = Elastic(0.05 * MODULUS, 0.45)
+RUBBER = Elastic(0.05 * MODULUS, 0.5)
+
+COATED = Layered([Layer(HARD, 0.2e-6)], BODY)
+"""A stiff layer two pixels thick."""
+
+LAYERS = Layered([Layer(HARD, 0.05e-6), Layer(SOFT, 0.3e-6, Frictionless()), Layer(HARD, 0.1e-6)], BODY)
+"""Stiff on soft on stiff, the soft one slipping."""
+
+ON_ROCK = Layered([Layer(SOFT, 0.5e-6)], RigidBase())
+"""A compressible layer on a rigid base: the mean displacement is defined."""
+
+RUBBER_ON_ROCK = Layered([Layer(RUBBER, 0.5e-6)], RigidBase())
+"""An incompressible one, whose compliance falls to zero at long wavelengths."""
 
 SOLVERS: dict[str, Solver] = {
     solver.name: solver
@@ -74,10 +96,11 @@ class Case:
     control: Control
     boundary: Boundary = Periodic()
     law: Callable[[], InterfaceLaw] = HardWall
+    body: Body = BODY
 
     @property
     def problem(self) -> ContactProblem:
-        return ContactProblem(self.surface(), BODY, boundary=self.boundary, law=self.law())
+        return ContactProblem(self.surface(), self.body, boundary=self.boundary, law=self.law())
 
 
 def solved(case: Case, solver: Solver) -> tuple[ContactQP, Solution]:
@@ -206,6 +229,23 @@ CASES: tuple[Case, ...] = (
     Case("very low load hardness", rough, MeanPressure(1.0), Free(), hardness),
     Case("mean pressure just below the hardness", rough, MeanPressure(0.1998e9), law=soft),
     Case("mean pressure just below the hardness free", rough, MeanPressure(0.1998e9), Free(), soft),
+    Case("coated periodic load", rough, MeanPressure(200e6), body=COATED),
+    Case("coated periodic mean gap", oblong, MeanGap(0.8e-9), body=COATED),
+    Case("coated free force", rough, Force(5e-5), Free(), body=COATED),
+    Case("coated free hardness approach", rough, Approach(3e-9), Free(), soft, COATED),
+    Case("three layers periodic load", rough, MeanPressure(100e6), body=LAYERS),
+    Case("three layers free approach", oblong, Approach(3e-9), Free(), body=LAYERS),
+    Case("soft layer on a rigid base load", rough, MeanPressure(5e6), body=ON_ROCK),
+    Case("soft layer on a rigid base approach", rough, Approach(1.5e-9), body=ON_ROCK),
+    Case("soft layer on a rigid base free", rough, Force(1e-6), Free(), body=ON_ROCK),
+    Case("soft layer on a rigid base full contact", rough, Approach(6e-9), body=ON_ROCK),
+    Case("rubber on a rigid base load", rough, MeanPressure(5e6), body=RUBBER_ON_ROCK),
+    Case("rubber on a rigid base approach", rough, Approach(1e-9), body=RUBBER_ON_ROCK),
+    Case("rubber on a rigid base free", rough, Force(2e-6), Free(), body=RUBBER_ON_ROCK),
+    Case("line load", lambda: line((48, 1)), MeanPressure(50e6), FreeLine()),
+    Case("line approach", lambda: line((40, 1)), Approach(2e-9), FreeLine(), body=COATED),
+    Case("line hardness", lambda: line((40, 1)), MeanPressure(60e6), FreeLine(1e-3), soft, COATED),
+    Case("line on a rigid base", lambda: line((40, 1)), Approach(1e-9), FreeLine(), body=ON_ROCK),
 )
 """Every case; small, so that the exact solvers take milliseconds."""
 
