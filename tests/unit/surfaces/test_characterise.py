@@ -23,7 +23,7 @@ MEASURES = {
     "Sz": hp.peak_to_valley,
     "Ssk": hp.skewness,
     "Sku": hp.kurtosis,
-    "rms_gradient_fwd_cell": sl.rms_slope,
+    "Sdq_pairs": sl.rms_slope,
     "m2x_fd": lambda surface: sl.rms_profile_slope(surface, axis="x") ** 2,
     "m2y_fd": lambda surface: sl.rms_profile_slope(surface, axis="y") ** 2,
 }

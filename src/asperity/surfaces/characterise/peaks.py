@@ -11,7 +11,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from ..surface import Surface
 from .differences import axis_index
-from .heights import mean_height
+from .heights import mean_height, rms_height
 
 
 @dataclass(frozen=True)
@@ -47,13 +47,15 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
         If the axis is neither x nor y.
     """
     number = axis_index(axis)
-    d = surface.grid.spacing[number]
+    d, variance = surface.grid.spacing[number], rms_height(surface) ** 2
     z = _lines(surface, number)
     left, middle, right = z[:-2], z[1:-1], z[2:]
     curvature = (middle - left) - (right - middle)
     triples = int(np.count_nonzero(~np.isnan(curvature)))
     peak = (middle > left) & (middle > right)
     heights, curvatures = middle[peak], curvature[peak] / d**2
+    products = [_products(surface, z, lag) for lag in (1, 2)]
+    crossings = np.mean(products[0] < 0.0) if products[0].size else math.nan
     return ProfilePeaks(
         axis,
         density=heights.size / (triples * d) if triples else math.nan,
@@ -61,9 +63,9 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
         height_deviation=float(heights.std()) if heights.size else math.nan,
         mean_curvature=_mean(curvatures),
         curvature_deviation=float(curvatures.std()) if curvatures.size else math.nan,
-        zero_crossings=_zero_crossings(middle, right) / d,
-        rho_1=_correlation(surface, z, 1),
-        rho_2=_correlation(surface, z, 2),
+        zero_crossings=float(crossings) / d,
+        rho_1=_mean(products[0]) / variance if variance > 0.0 else math.nan,
+        rho_2=_mean(products[1]) / variance if variance > 0.0 else math.nan,
     )
 
 
@@ -71,24 +73,18 @@ def _lines(surface: Surface, number: int) -> RealArray:
     """Heights about their mean with the profiles along the first axis, two points longer where they wrap."""
     z = surface.heights.astype(np.float64, copy=False) - mean_height(surface)
     z = z if number == 0 else z.T
-    return np.concatenate([z, z[:2]]) if surface.periodic else z
+    if not surface.periodic:
+        return z
+    longer: RealArray = z[np.arange(z.shape[0] + 2) % z.shape[0]]
+    return longer
 
 
-def _zero_crossings(first: RealArray, second: RealArray) -> float:
-    """Share of neighbouring pairs on opposite sides of the mean plane."""
-    product = first * second
-    pairs = int(np.count_nonzero(~np.isnan(product)))
-    return float(np.count_nonzero(product < 0.0)) / pairs if pairs else math.nan
-
-
-def _correlation(surface: Surface, z: RealArray, lag: int) -> float:
-    if z.shape[0] <= lag:
-        return math.nan
-    end = z.shape[0] - (2 if surface.periodic else lag)  # a periodic line is two points longer
-    product = z[:end] * z[lag : lag + end]
-    variance = float(np.nanmean(np.square(z[: z.shape[0] - 2] if surface.periodic else z)))
-    valid = product[~np.isnan(product)]
-    return float(valid.mean()) / variance if valid.size and variance > 0.0 else math.nan
+def _products(surface: Surface, z: RealArray, lag: int) -> RealArray:
+    """Products of the heights of all valid pairs ``lag`` points apart."""
+    starts = max(0, z.shape[0] - (2 if surface.periodic else lag))
+    products = z[:starts] * z[lag : lag + starts]
+    valid: RealArray = products[~np.isnan(products)]
+    return valid
 
 
 def _mean(values: RealArray) -> float:

@@ -70,7 +70,7 @@ QUANTITIES = (
     Quantity("spatial.beta_e_y", "β_e,y", "correlation length 1/e along y", "m", "the same along y", _PEAKS),
     Quantity("spatial.beta_01_x", "β*_x", "correlation length 0.1 along x", "m", "first lag with R/R(0) = 0.1", "Peng & Bhushan (2001)"),
     Quantity("spatial.beta_01_y", "β*_y", "correlation length 0.1 along y", "m", "the same along y", "Peng & Bhushan (2001)"),
-    Quantity("hybrid.Sdq", "Sdq", "rms gradient", "1", "sqrt(<h_x² + h_y²>), forward differences where both exist", _ISO),
+    Quantity("hybrid.Sdq", "Sdq", "rms gradient", "1", "sqrt(<h_x²> + <h_y²>), forward differences, all valid pairs of each direction", _ISO),
     Quantity("hybrid.Sdr", "Sdr", "developed area ratio", "1", "surface area over projected area less 1, mean of both triangulations of each cell", _ISO),
     Quantity("hybrid.Ssc", "Ssc", "mean summit curvature", "m**-1", "mean of -(h_xx + h_yy)/2 over the summits above 8 neighbours", "McCool (1987)"),
     Quantity("functional.Sk", "Sk", "core height", "m", "height of the equivalent line through the 40 % of the material ratio curve with the least slope", _ISO),

@@ -22,19 +22,18 @@ def forward_slopes(surface: Surface) -> tuple[RealArray, RealArray]:
 
 
 def rms_slope(surface: Surface) -> float:
-    """Sdq, the rms gradient sqrt(<(∂h/∂x)² + (∂h/∂y)²>), dimensionless.
+    """Sdq, the rms gradient sqrt(<(∂h/∂x)²> + <(∂h/∂y)²>), dimensionless.
 
-    Scheme: forward differences [h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy at the nodes where both exist with
-    valid points only; a periodic surface wraps. Waves shorter than about eight pixels are underestimated
-    (McCool 1987; Jacobs, Junge & Pastewka 2017).
+    Scheme: forward differences [h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy, averaged over all valid pairs of each
+    direction; a periodic surface wraps. Waves shorter than about eight pixels are underestimated (McCool 1987; Jacobs,
+    Junge & Pastewka 2017).
 
     Raises
     ------
     InputError
-        If no node has both differences.
+        If no two neighbours along x or along y are valid.
     """
-    along_x, along_y = forward_slopes(surface)
-    return float(np.sqrt(mean_of(np.square(along_x) + np.square(along_y), "slope")))
+    return math.hypot(rms_profile_slope(surface, axis="x"), rms_profile_slope(surface, axis="y"))
 
 
 def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:

@@ -55,7 +55,8 @@ def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilS
         count += values.size
     if count == 0:
         raise InputError(
-            f"surface must have valid points {step} pixels apart along {axis}, but has none. Fill the missing points first."
+            f"surface must have neighbouring valid points, {step} pixels apart along {axis}, for a slope or curvature, "
+            "but has none. Fill the missing points first."
         )
     return StencilSums(total / count, least, count)
 
