@@ -16,7 +16,7 @@ from surfaces import BODY, self_affine
 
 import asperity as asp
 from asperity.contact.path import solve_path
-from asperity.core.spectral import thread_count
+from asperity.core.spectral import PaddedTransform, RealTransform, fast_length, thread_count
 
 _LEAST, _MOST = 0.01, 0.2
 _KEEP = asp.Keep(stiffness=False)
@@ -68,6 +68,22 @@ def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, thre
     return f"{periodic:>9.3f} {free:>9.3f} {free / periodic:>6.2f} {pairs['periodic']:>9.0f} {pairs['free']:>9.0f}"
 
 
+def compare_pruning(n: int, threads: int, repeats: int = 15) -> str:
+    """Row: medians of a pair on the padded grid with all rows and with those that hold data only (float32), ratio."""
+    padded = fast_length(2 * n - 1), fast_length(2 * n - 1)
+    whole, pruned = RealTransform(padded, threads), PaddedTransform((n, n), padded, threads)
+    spectrum = np.empty(whole.spectrum_shape, np.complex64)
+    small, large = np.ones((n, n), np.float32), np.zeros(padded, np.float32)
+    seconds: dict[str, list[float]] = {"whole": [], "pruned": []}
+    for _ in range(repeats):
+        for name, transform, field in (("whole", whole, large), ("pruned", pruned, small)):
+            started = time.perf_counter()
+            transform.backward(transform.forward(field, spectrum), field)
+            seconds[name].append(time.perf_counter() - started)
+    full, part = (statistics.median(seconds[name]) for name in ("whole", "pruned"))
+    return f"{1e3 * full:>9.2f} {1e3 * part:>9.2f} {part / full:>6.2f}"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
@@ -89,6 +105,10 @@ def main() -> None:
     for n in given.sizes:
         row = compare_boundaries(self_affine(n), given.load, given.tolerance, given.threads, given.repeats)
         print(f"{n:>5} {row}", flush=True)
+    print("pruning of the padded transforms of the free boundary: milliseconds a pair, ratio")
+    print("    n     whole    pruned  ratio")
+    for n in given.sizes:
+        print(f"{n:>5} {compare_pruning(n, given.threads)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from typing import Any
 from surfaces import BODY, self_affine
 
 import asperity as asp
-from asperity.core.engine.cpu import Blocks
+from asperity.core.engine.blocks import Blocks
 from asperity.core.spectral import RealTransform, thread_count
 
 
@@ -25,7 +25,7 @@ def watched(spent: dict[str, list[float]]) -> Iterator[None]:
     originals = [
         (RealTransform, "forward", lambda transform, *_: f"transform {transform.shape[0]}"),
         (RealTransform, "backward", lambda transform, *_: f"transform {transform.shape[0]}"),
-        (Blocks, "run", lambda _, kernel, size, *__: f"pass {kernel.__name__}"),
+        (Blocks, "share", lambda _, kernel, parts, *__: f"pass {kernel.__name__}"),
     ]
     saved = [(owner, name, getattr(owner, name)) for owner, name, _ in originals]
     for owner, name, label in originals:
@@ -38,9 +38,9 @@ def watched(spent: dict[str, list[float]]) -> Iterator[None]:
 
 
 def _timed(method: Callable[..., Any], label: Callable[..., str], spent: dict[str, list[float]]) -> Callable[..., Any]:
-    def wrapper(*arguments: Any) -> Any:
+    def wrapper(*arguments: Any, **options: Any) -> Any:
         started = time.perf_counter()
-        answer = method(*arguments)
+        answer = method(*arguments, **options)
         spent[label(*arguments)].append(time.perf_counter() - started)
         return answer
 

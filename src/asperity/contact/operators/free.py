@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from functools import cached_property
 
-import numpy as np
-
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.grid import Grid
-from ...core.spectral import RealTransform, fast_length
+from ...core.spectral import RealTransform, fast_length, wrapped
 from ...solids.compliance.protocol import Compliance
 from ..boundary import Free, FreeLine
 from .application import displacement
@@ -54,12 +52,7 @@ class FreeOperator:
     @cached_property
     def kernel(self) -> RealArray:
         """Transform of the influence coefficients (m/Pa) on the padded grid."""
-        (nx, ny), padded = self.grid.shape, self._padded
-        wrapped = np.zeros(padded)
-        wrapped[:nx, :ny] = self._influence
-        wrapped[padded[0] - nx + 1 :, :ny] = self._influence[:0:-1, :]
-        wrapped[:, padded[1] - ny + 1 :] = wrapped[:, ny - 1 : 0 : -1]
-        return RealTransform(padded).forward(wrapped).real.copy()
+        return RealTransform(self._padded).forward(wrapped(self._influence, self._padded)).real.copy()
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""

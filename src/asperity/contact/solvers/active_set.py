@@ -12,12 +12,13 @@ from ...core.arrays import RealArray
 from ...core.engine import Face, Load, Survey, Totals
 from .correction import Direction, Effort, carried, correction
 from .feasible import feasible_start
-from .nested import nested_start
+from .nested import COARSEST, nested_start
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 from .steepest_descent import descend, levelling_step
 from .workspace import Workspace, workspace
 
 _COARSE_ITERATIONS = 30
+_POOR = 0.2
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 14
 _SETTLING_STEPS = 8
@@ -83,15 +84,22 @@ class ActiveSet:
         require.one_of(self.precision, ("mixed", "double", "single"), "precision of the solver active_set")
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
-        """State at ``start``, or at the solution on coarser grids."""
-        if start is None or not start.any():
+        """State at ``start``, or at the solution on coarser grids where there is no start or a worse one."""
+        if start is not None and start.any():
+            state = self._begun(qp, feasible_start(qp, start), 1, 0.0)
+            if state.error <= _POOR or min(qp.profile.shape) <= COARSEST:
+                return state
             begin, pairs = nested_start(qp, self)
-        else:
-            begin, pairs = feasible_start(qp, start), 0.0
+            return self._begun(qp, begin, 2, pairs)
+        begin, pairs = nested_start(qp, self)
+        return self._begun(qp, begin, 1, pairs)
+
+    def _begun(self, qp: ContactQP, begin: RealArray, applications: int, pairs: float) -> SolverState:
+        """State at the feasible pressure ``begin``, with the work it has cost."""
         work = workspace(qp, self.precision, begin)
         survey = _survey(work)
         memory = _Memory(work, survey, _relative_error(work, survey.totals), clipped=1)
-        return self._state(memory, SolverState(begin, begin, np.inf, applications=1, extra_pairs=pairs))
+        return self._state(memory, SolverState(begin, begin, np.inf, applications=applications, extra_pairs=pairs))
 
     def loosened(self, tolerance: float) -> Self:
         """Same solver for a first guess: to ``tolerance``, and not for long."""

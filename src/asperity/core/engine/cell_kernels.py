@@ -7,7 +7,7 @@ the deflection D = g (D of its parent + w S).
 
 ``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
 the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets. Level 0 are the points.
-Cells are stored with a rim of empty ones, so sums need no special case at the edges.
+Cells are stored with a rim of empty ones (g = s = 0), so the edges are no special case.
 """
 
 from __future__ import annotations
@@ -61,13 +61,19 @@ def _sum_up(below, level, g, s):  # type: ignore[no-untyped-def]
 
 @compiled
 def _spread_down(above, level, weight, g, s):  # type: ignore[no-untyped-def]
-    """s = g (deflection of the parent + weight s), the parent's standing in its own s."""
+    """s = g (deflection of the parent + weight s), the parent's standing in its own s. On the rim g, and so s, is 0."""
     for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
         parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
-        for j in range(level[COLUMNS]):
-            d = s[parent + ((j + above[OFFSET_Y]) >> above[MERGE_Y])]
-            s[base + j] = g[base + j] * (d + weight * s[base + j])
+        base = level[START] + cell * level[STRIDE] - above[OFFSET_Y]
+        if above[MERGE_Y]:
+            for j in range(above[COLUMNS]):
+                d = s[parent + j]
+                a = base + 2 * j
+                s[a] = g[a] * (d + weight * s[a])
+                s[a + 1] = g[a + 1] * (d + weight * s[a + 1])
+        else:
+            for j in range(above[COLUMNS]):
+                s[base + j] = g[base + j] * (s[parent + j] + weight * s[base + j])
 
 
 @compiled

@@ -80,7 +80,7 @@ class CpuEngine:
             pressure, work, height, weight, weighted = (float(v) for v in s[:, :5].sum(axis=0))
             bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
             totals = Totals(pressure, work, height, weight, weighted, *bounds)
-        return CpuSurvey(totals, self.blocks, (p.shape[0], p.shape[1]), *flat, bound(cap))
+        return CpuSurvey(totals, self.blocks, (p.shape[0], p.shape[1]), *flat, cap)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
@@ -109,14 +109,17 @@ class CpuSurvey:
     p: RealArray
     u: RealArray
     h: RealArray
-    cap: RealArray
+    cap: RealArray | None
 
     def face(self, level: float, scale: float, dtype: str) -> CpuFace:
         """Working set at ``level``."""
         kernels, size = self.blocks.kernels, self.p.size
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((-(-size // kernels.BLOCK), 2), dtype=np.int64)
-        self.blocks.run(kernels.mark_face, size, self.p, self.u, self.h, self.cap, level, mask, counts)
+        if self.cap is None:
+            self.blocks.run(kernels.mark_elastic, size, self.p, self.u, self.h, level, mask, counts)
+        else:
+            self.blocks.run(kernels.mark_face, size, self.p, self.u, self.h, bound(self.cap), level, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
         index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)

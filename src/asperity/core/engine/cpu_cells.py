@@ -23,7 +23,7 @@ class CpuCells:
         self._shape = shape
         self._levels, size = _layout(shape, hierarchies)
         self._weights = np.array([1.0, *(merge.weight for merge in hierarchies[0])], dtype)
-        self._g = np.ones(size, dtype)
+        self._g = np.zeros(size, dtype)
         self._s = np.zeros(size, dtype)
         self._nothing = np.empty(0, dtype)
 

@@ -127,6 +127,22 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 
 @compiled
+def mark_elastic(span, p, u, h, level, mask, counts):  # type: ignore[no-untyped-def]
+    """``mark_face`` without a cap. Numbers of points are sums of floats, which vectorise."""
+    for b in range(span[0], span[1]):
+        members = 0.0
+        loaded = 0.0
+        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
+            carries = 1.0 if p[i] > 0.0 else 0.0
+            member = 1.0 if u[i] - np.float64(h[i]) < level else carries
+            loaded += carries
+            members += member
+            mask[i] = np.uint8(1) if member > 0.5 else np.uint8(0)
+        counts[b, 0] = int(members)
+        counts[b, 1] = int(members - loaded)
+
+
+@compiled
 def mark_face(span, p, u, h, cap, level, mask, counts):  # type: ignore[no-untyped-def]
     """Mask of the working set; per block: number of its points, and of those entering it from a bound.
 
