@@ -10,6 +10,7 @@ from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
+from .contact.sliding import SlidingResult, solve_sliding
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .core.citations import cite
@@ -35,6 +36,10 @@ from .solids.interface import Bonded, Frictionless
 from .solids.layers import Layer, Layered, RigidBase
 from .solids.library import material, materials
 from .solids.strength import Strength
+from .stress.compute import stress, stress_planes
+from .stress.field import StressField
+from .stress.tractions import ShearTraction, Sliding
+from .stress.where import DepthProfile, Everywhere, Section
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
@@ -61,7 +66,9 @@ __all__ = [
     "ContactResult",
     "ConvergenceError",
     "CpuEngine",
+    "DepthProfile",
     "Elastic",
+    "Everywhere",
     "ExponentialGrading",
     "FileFormatError",
     "Flat",
@@ -87,7 +94,12 @@ __all__ = [
     "PowerGrading",
     "Rigid",
     "RigidBase",
+    "Section",
+    "ShearTraction",
+    "Sliding",
+    "SlidingResult",
     "Strength",
+    "StressField",
     "Surface",
     "UnitError",
     "__version__",
@@ -123,7 +135,10 @@ __all__ = [
     "save_surface_plot",
     "solve",
     "solve_path",
+    "solve_sliding",
     "solvers",
+    "stress",
+    "stress_planes",
     "tapered",
     "turned_over",
     "write_report",

@@ -19,6 +19,7 @@ REFERENCES = {
     "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",
     "Cottle1992": "Cottle, R. W., Pang, J.-S., Stone, R. E. (1992). The Linear Complementarity Problem. Academic Press, Boston.",
     "Dietrich1997": "Dietrich, C. R., Newsam, G. N. (1997). Fast and exact simulation of stationary Gaussian processes through circulant embedding of the covariance matrix. SIAM Journal on Scientific Computing 18, 1088-1107.",
+    "Dundurs1969": "Dundurs, J. (1969). Discussion of Edge-bonded dissimilar orthogonal elastic wedges under normal and shear loading. Journal of Applied Mechanics 36, 650-652.",
     "Eberly2014": "Eberly, D. (2014). A robust eigensolver for 3 x 3 symmetric matrices. Geometric Tools.",
     "Ganti1995": "Ganti, S., Bhushan, B. (1995). Generalized fractal analysis and its applications to engineering surfaces. Wear 180, 17-34.",
     "Greenwood1966": "Greenwood, J. A., Williamson, J. B. P. (1966). Contact of nominally flat surfaces. Proceedings of the Royal Society A 295, 300-319.",

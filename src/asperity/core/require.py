@@ -34,6 +34,14 @@ def positive(value: float, what: str, fix: str = "") -> float:
     return number
 
 
+def not_negative(value: float, what: str, fix: str = "") -> float:
+    """Return ``value`` as float if it is finite and >= 0."""
+    number = finite(value, what, fix)
+    if number < 0.0:
+        raise InputError(_sentence(what, "at least zero", value, fix))
+    return number
+
+
 def between(value: float, low: float, high: float, what: str, fix: str = "") -> float:
     """Return ``value`` as float if ``low < value < high``."""
     number = finite(value, what, fix)

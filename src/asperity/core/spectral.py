@@ -167,3 +167,18 @@ class PaddedTransform:
         )
         out[...] = rows[:, :ny]
         return out
+
+
+def wrapped(
+    coefficients: RealArray, padded: tuple[int, int], *, odd_x: bool = False, odd_y: bool = False
+) -> RealArray:
+    """Kernel of a cyclic convolution on the grid ``padded`` from coefficients at offsets (0…nx-1, 0…ny-1).
+
+    Those at negative offsets follow by symmetry; the kernel is zero at offsets that fields (nx, ny) never reach.
+    """
+    nx, ny = coefficients.shape
+    kernel = np.zeros(padded)
+    kernel[:nx, :ny] = coefficients
+    kernel[padded[0] - nx + 1 :, :ny] = (-1.0 if odd_x else 1.0) * coefficients[:0:-1, :]
+    kernel[:, padded[1] - ny + 1 :] = (-1.0 if odd_y else 1.0) * kernel[:, ny - 1 : 0 : -1]
+    return kernel

@@ -30,8 +30,8 @@ Of: TypeAlias = Literal["body", "counter_body"]
 class Loaded(Protocol):
     """What stresses need of a contact result: its pressure (nx, ny) in Pa, and the problem.
 
-    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. A result with an attribute
-    ``shear`` (as of ``solve_sliding``) brings its own shear traction on ``body``.
+    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. A result with ``friction``
+    and ``direction`` (as of ``solve_sliding``) brings its own shear traction on ``body``.
     """
 
     @property
@@ -56,7 +56,9 @@ class Planes(Protocol):
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
     """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
     require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
-    shear = _shear(getattr(result, "shear", Sliding(0.0)) if friction is None else friction, direction)
+    if friction is None:
+        friction, direction = getattr(result, "friction", 0.0), getattr(result, "direction", 0.0)
+    shear = _shear(friction, direction)
     if of == "counter_body":
         if isinstance(shear, Sliding):
             shear = Sliding(shear.coefficient, shear.direction + math.pi)
@@ -91,7 +93,8 @@ def stress(
         is not asked for is not kept.
     friction
         Friction coefficient μ of a sliding contact, whose shear traction is μ times the pressure; or a
-        ``ShearTraction(qx, qy)`` of fields. The pressure is taken as it is (``solve_sliding`` couples the two).
+        ``ShearTraction(qx, qy)`` of fields. By default none, or that of a ``SlidingResult``. The pressure is taken as it
+        is; ``solve_sliding`` couples the two.
     direction
         Direction of the shear traction on ``body`` where ``friction`` is a number: angle in rad from +x, or a vector.
     of

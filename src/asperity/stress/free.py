@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..core.arrays import ComplexArray, RealArray
-from ..core.spectral import PaddedTransform, RealTransform, fast_length, thread_count
+from ..core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .coefficients import PlaneCoefficients
 from .patch import Load
@@ -82,20 +82,12 @@ class FreePlanes:
             for spectrum, ratios in self._groups:
                 kernel = np.zeros(self._padded)
                 for load, ratio in ratios.items():
-                    kernel += ratio * self._wrapped(by_load[load][component], component + load)
+                    indices = component + load  # odd in each axis that they name an odd number of times
+                    odd_x, odd_y = (indices.count(axis) % 2 == 1 for axis in "xy")
+                    kernel += ratio * wrapped(by_load[load][component], self._padded, odd_x=odd_x, odd_y=odd_y)
                 product = self._whole.forward(np.ascontiguousarray(kernel, self.dtype))
                 product *= spectrum
                 total = product if total is None else np.add(total, product, out=total)
             assert total is not None
             self._transform.backward(total, field)
         return fields
-
-    def _wrapped(self, coefficients: RealArray, indices: str) -> RealArray:
-        """Coefficients at all offsets in the order of a cyclic convolution; odd in each axis named an odd number of times."""
-        nx, ny = self.tractions.grid.shape
-        sign_x, sign_y = (-1.0 if indices.count(axis) % 2 else 1.0 for axis in "xy")
-        wrapped = np.zeros(self._padded)
-        wrapped[:nx, :ny] = coefficients
-        wrapped[self._padded[0] - nx + 1 :, :ny] = sign_x * coefficients[:0:-1, :]
-        wrapped[:, self._padded[1] - ny + 1 :] = sign_y * wrapped[:, ny - 1 : 0 : -1]
-        return wrapped

@@ -35,12 +35,8 @@ class Sliding:
     direction: float = 0.0
 
     def __post_init__(self) -> None:
-        mu = require.finite(self.coefficient, "friction coefficient")
+        require.not_negative(self.coefficient, "friction coefficient", "Turn the direction by pi instead.")
         require.finite(self.direction, "direction of sliding (rad)")
-        if mu < 0.0:
-            raise InputError(
-                f"friction coefficient must be at least zero, but is {mu:g}. Turn the direction by pi instead."
-            )
 
     @property
     def ratios(self) -> tuple[float, float]:
