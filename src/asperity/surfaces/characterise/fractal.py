@@ -23,7 +23,7 @@ from .structure import StructureFunction, geometric_lags, structure_function
 GAMMA = 1.5
 """Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G (Majumdar & Bhushan 1990)."""
 
-_FIRST_LAG = 4  # pixels; below, the instrument and interpolation shape the structure function
+_FIRST_LAGS = (4, 2)  # pixels; below four the instrument and interpolation have a share, below two they rule
 _MARGIN = 0.04  # accuracy of D on sampled Weierstrass-Mandelbrot profiles; smooth profiles give 1 within it
 _FEWEST = 3  # lags of a line with a residual
 
@@ -76,8 +76,8 @@ def fractal_parameters(
     axis
         ``x`` or ``y``.
     lags
-        Lags of the fit in pixels; by default geometrically spaced from 4 pixels to a tenth of the map, or to where
-        the structure function reaches the mean square height (half of its limit) if that is shorter.
+        Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than three would remain) to
+        a tenth of the map, or to where the structure function reaches the mean square height, half of its limit.
     structure
         Structure function along the axis, if it is known already; its lags in the default range are fitted.
 
@@ -91,11 +91,12 @@ def fractal_parameters(
         return fitted_fractal(structure_function(surface, axis=axis, lags=lags), surface.grid.spacing[number])
     spacing, points = surface.grid.spacing[number], surface.shape[number]
     if structure is None:
-        steps = [lag for lag in geometric_lags(points // 10) if lag >= _FIRST_LAG]
-        structure = structure_function(surface, axis=axis, lags=steps)
+        structure = structure_function(surface, axis=axis, lags=geometric_lags(points // 10))
     pixels = structure.lag / spacing
     below = int(np.argmax(np.append(structure.value > rms_height(surface) ** 2, True)))
-    part = (pixels > _FIRST_LAG - 0.5) & (pixels < points // 10 + 0.5) & (np.arange(pixels.size) < below)
+    upper = (pixels < points // 10 + 0.5) & (np.arange(pixels.size) < below)
+    ranges = [upper & (pixels > first - 0.5) for first in _FIRST_LAGS]
+    part = next((chosen for chosen in ranges if np.count_nonzero(chosen) >= _FEWEST), ranges[-1])
     return fitted_fractal(StructureFunction(axis, structure.lag[part], structure.value[part]), spacing)
 
 
@@ -111,7 +112,7 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
     if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
         raise InputError(
             f"structure function must be positive at three lags or more for a fractal dimension, but has {curve.lag.size} "
-            f"along {curve.axis} between {_FIRST_LAG} pixels and the correlation length. Name the lags, or use a finer map."
+            f"along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. Name the lags, or use a finer map."
         )
     x, y = np.log(curve.lag / resolution), np.log(curve.value)
     centred = x - x.mean()

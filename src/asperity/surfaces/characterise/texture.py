@@ -66,7 +66,7 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     distances = _ray_distances(centre, angles)
     lengths = _crossings(centre, angles, distances, drop)
     found = np.isfinite(lengths)
-    if not found.any():
+    if not found.any() or autocovariance.mean_square == 0.0:
         return TextureLengths(math.nan, math.nan, math.nan, math.nan)
     shortest = int(np.nanargmin(lengths))
     Sal = float(lengths[shortest])
