@@ -40,11 +40,12 @@ def assert_same(found, expected, rtol):
 @many
 @given(stacks())
 def test_compliance_is_positive_definite(body):
+    """An incompressible layer that slips has a determinant of (alpha h)² only, which rounding may cover."""
     found = surface(body)
     for diagonal in (found.LL, found.zz, found.T):
         assert (diagonal > 0.0).all()
         assert np.isfinite(diagonal).all()
-    assert (found.LL * found.zz - found.Lz**2 > 0.0).all()
+    assert (found.LL * found.zz - found.Lz**2 > -1e-14 * found.LL * found.zz).all()
 
 
 @many

@@ -17,6 +17,16 @@ _BEFORE, _AFTER = 4, 5  # nodes below and above the node that starts a cell
 _CHUNK = 16384  # points whose temporaries stay in the second-level cache
 
 
+def _lagrange() -> RealArray:
+    """Coefficients (power, node) of the polynomials that are one at one node and zero at the others."""
+    nodes = np.arange(-_BEFORE, _AFTER + 1) - 0.5
+    others = [np.delete(nodes, k) for k in range(nodes.size)]
+    return np.transpose([polyfromroots(o) / np.prod(node - o) for node, o in zip(nodes, others, strict=True)])
+
+
+_LAGRANGE = _lagrange()
+
+
 @dataclass(frozen=True, eq=False)
 class LogTable:
     """Piecewise polynomial in ln x; ``coefficients[k, i]`` belongs to s^k in cell i, s = (ln x - ln start)/STEP - i - 1/2.
@@ -72,8 +82,9 @@ def log_grid(start: float, count: int) -> RealArray:
 
 def log_table(start: float, values: RealArray) -> LogTable:
     """Table through ``values`` at the nodes ``log_grid(start, len(values))``, at least ten."""
-    stencil = np.arange(-_BEFORE, _AFTER + 1) - 0.5
-    others = [np.delete(stencil, k) for k in range(stencil.size)]
-    lagrange = [polyfromroots(o) / np.prod(node - o) for node, o in zip(stencil, others, strict=True)]
-    windows = np.lib.stride_tricks.sliding_window_view(np.asarray(values, dtype=float), stencil.size)
-    return LogTable(float(start * np.exp(STEP * _BEFORE)), np.ascontiguousarray(np.transpose(lagrange) @ windows.T))
+    values = np.asarray(values, dtype=float)
+    cells = values.size - _LAGRANGE.shape[1] + 1
+    coefficients = np.zeros((_LAGRANGE.shape[0], cells))
+    for k, weights in enumerate(_LAGRANGE.T):
+        coefficients += weights[:, None] * values[k : k + cells]
+    return LogTable(float(start * np.exp(STEP * _BEFORE)), coefficients)

@@ -37,15 +37,17 @@ class LayerStack:
         """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         if wavenumber.size <= COUNT:
             return interface_compliances(self.body, wavenumber)[0].zz
-        return self._interpolated(self._samples.values.zz, wavenumber)
+        values = self._spectrum(wavenumber)
+        values /= wavenumber
+        return values
 
     def plane(self, wavenumber: RealArray) -> PlaneCompliance:
         """All components of C(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         if wavenumber.size <= COUNT:
             return interface_compliances(self.body, wavenumber)[0]
         values = self._samples.values
-        LL, zz, Lz, T = (self._interpolated(v, wavenumber) for v in (values.LL, values.zz, values.Lz, values.T))
-        return PlaneCompliance(LL, zz, Lz, T)
+        LL, Lz, T = (self._table(v)(wavenumber) / wavenumber for v in (values.LL, values.Lz, values.T))
+        return PlaneCompliance(LL, self.spectral(wavenumber), Lz, T)
 
     def mean_mode(self) -> float:
         """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose datum is the mean.
@@ -81,9 +83,10 @@ class LayerStack:
     def _line(self) -> LineKernel:
         return line_kernel(self._samples.values.zz, self._samples.limits(lambda c: c.zz))
 
-    def _interpolated(self, values: RealArray, wavenumber: RealArray) -> RealArray:
-        """C from the samples ``values`` of alpha C."""
-        table: LogTable = log_table(float(wavenumber_grid(self._samples.depth)[0]), values)
-        result = table(wavenumber)
-        result /= wavenumber
-        return result
+    @cached_property
+    def _spectrum(self) -> LogTable:
+        return self._table(self._samples.values.zz)
+
+    def _table(self, values: RealArray) -> LogTable:
+        """Table of the samples ``values`` of alpha C over the wavenumber."""
+        return log_table(float(wavenumber_grid(self._samples.depth)[0]), values)

@@ -1,0 +1,122 @@
+"""Layered bodies against the homogeneous half-space: time, FFT pairs and set-up of the same solver on the same surface.
+
+Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3]
+
+All bodies are solved once in every round, so that all see the same disturbances; medians are given. A layered kernel is
+an array of the grid like any other, so the time of a pair is that of the homogeneous body; what differs is the
+set-up and the number of pairs, which grows where a thin stiff film makes the problem ill-conditioned.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from dataclasses import dataclass, field
+
+from surfaces import BODY, self_affine
+
+import asperity as asp
+from asperity.core.spectral import thread_count
+
+_KEEP = asp.Keep(stiffness=False)
+_COARSEST = 32
+
+
+def bodies() -> dict[str, tuple[asp.Layered | asp.Elastic, asp.Layered | asp.Rigid]]:
+    """Pairs of bodies by name; thicknesses in pixels, moduli over that of the base."""
+
+    def coated(ratio: float, thickness: float) -> asp.Layered:
+        return asp.Layered([asp.Layer(asp.Elastic(ratio * BODY.youngs_modulus, 0.3), thickness)], BODY)
+
+    layer = asp.Elastic(2.0 * BODY.youngs_modulus, 0.3)
+    rubber = asp.Elastic(BODY.youngs_modulus, 0.49)
+    coating = asp.graded(layer, BODY, 20.0, sublayers=32)
+    single = {f"E {ratio:g}, h {h:g}": coated(ratio, h) for ratio in (0.5, 2.0, 10.0) for h in (4.0, 20.0, 100.0)}
+    return {
+        "homogeneous": (BODY, asp.Rigid()),
+        **{name: (body, asp.Rigid()) for name, body in single.items()},
+        "three layers": (
+            asp.Layered([asp.Layer(layer, 4.0), asp.Layer(rubber, 8.0), asp.Layer(layer, 20.0)], BODY),
+            asp.Rigid(),
+        ),
+        "graded, 32 sublayers": (asp.Layered(coating, BODY), asp.Rigid()),
+        "both coated": (coated(2.0, 20.0), coated(0.5, 20.0)),
+        "on a rigid base": (asp.Layered([asp.Layer(BODY, 50.0)], asp.RigidBase()), asp.Rigid()),
+    }
+
+
+@dataclass
+class Row:
+    """Rounds of one pair of bodies."""
+
+    setup: list[float] = field(default_factory=list)
+    total: list[float] = field(default_factory=list)
+    pairs: float = 0.0
+    area: float = 0.0
+
+
+def setup_seconds(problem: asp.ContactProblem, engine: asp.CpuEngine) -> float:
+    """Time of the kernels of the grid and of all coarser grids of the nested start."""
+    started = time.perf_counter()
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    while min(operator.grid.shape) > _COARSEST:
+        operator = operator.coarsened
+    return time.perf_counter() - started
+
+
+def once(row: Row, problem: asp.ContactProblem, load: float, tolerance: float, threads: int) -> None:
+    """One round of ``problem``: set-up alone, then preparation and solve together."""
+    engine, solver = asp.CpuEngine(threads), asp.solvers.ActiveSet(tolerance=tolerance)
+    row.setup.append(setup_seconds(problem, engine))
+    started = time.perf_counter()
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    prepared = time.perf_counter() - started
+    result = asp.solve(problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=_KEEP)
+    row.total.append(prepared + result.certificate.wall_time)
+    row.pairs, row.area = result.certificate.fft_pairs, result.area_fraction
+
+
+def compare(n: int, load: float, tolerance: float, threads: int, repeats: int) -> None:
+    """Table for n x n points."""
+    surface = self_affine(n)
+    problems = {
+        name: asp.ContactProblem(surface, body, counter_body=counter) for name, (body, counter) in bodies().items()
+    }
+    rows = {name: Row() for name in problems}
+    for _ in range(repeats):
+        for name, problem in problems.items():
+            once(rows[name], problem, load, tolerance, threads)
+    first = rows["homogeneous"]
+    base = statistics.median(first.total)
+    print(
+        f"| n = {n} | total (s) | × homogeneous | pairs | × pairs | per pair × | set-up (ms) | share of a solve | area |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|")
+    for name, row in rows.items():
+        total, setup = statistics.median(row.total), statistics.median(row.setup)
+        times, pairs = total / base, row.pairs / first.pairs
+        print(
+            f"| {name} | {total:.3f} | {times:.2f} | {row.pairs:.0f} | {pairs:.2f} | {times / pairs:.2f} | "
+            f"{1e3 * setup:.1f} | {100.0 * setup / base:.1f} % | {row.area:.3f} |",
+            flush=True,
+        )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
+    parser.add_argument("--load", type=float, default=0.05, help="mean pressure over the contact modulus of the base")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=thread_count())
+    parser.add_argument("--tolerance", type=float, default=1e-6)
+    given = parser.parse_args()
+    print(f"asperity {asp.__version__}, {given.threads} thread(s), tolerance {given.tolerance}, load {given.load}")
+    problem = asp.ContactProblem(self_affine(128), BODY)
+    once(Row(), problem, given.load, 1e-4, given.threads)  # compiles
+    for n in given.sizes:
+        compare(n, given.load, given.tolerance, given.threads, given.repeats)
+
+
+if __name__ == "__main__":
+    main()
