@@ -11,6 +11,8 @@ from .errors import UnitError
 DIMENSIONS = {
     "length": "m",
     "area": "m**2",
+    "density": "1/m**2",
+    "power spectrum": "m**4",
     "pressure": "Pa",
     "force": "N",
     "energy": "J",
@@ -120,4 +122,4 @@ def _compact_area(quantity: Any) -> Any:
     return quantity.to("nm**2")
 
 
-_EXAMPLES = {"length": "5 nm", "pressure": "50 kPa", "force": "1 mN", "area": "1 um**2", "angle": "10 deg"}
+_EXAMPLES = {"length": "5 nm", "pressure": "50 kPa", "force": "1 mN", "area": "1 um**2", "angle": "10 deg", "density": "1 um**-2", "power spectrum": "1e4 nm**4"}

@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from ..core.errors import FileFormatError, InputError
 from .atomic import atomic_file
 from .schemas.problem import ProblemDocument
+from .schemas.values import Table
 from .schemas.wording import problems
 
 __all__ = [
@@ -143,9 +144,8 @@ def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemD
         except ValueError:  # on Windows: another drive
             return str(found)
 
-    changed = {key: _with_paths(getattr(document, key), moved) for key in ("surface", "counter_surface")}
-    changed |= {key: _with_paths(getattr(document, key), moved) for key in ("body", "counter_body")}
-    return document.model_copy(update=changed)
+    elsewhere: ProblemDocument = _with_paths(document, moved)
+    return elsewhere
 
 
 def _tidy(table: dict[str, Any]) -> dict[str, Any]:
@@ -156,8 +156,17 @@ def _tidy(table: dict[str, Any]) -> dict[str, Any]:
 
 
 def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
-    paths = {key: moved(path) for key in ("path", "materials_file") if (path := getattr(table, key, None)) is not None}
-    return table.model_copy(update=paths) if paths else table
+    """``table`` with the file names in it and in the tables within it replaced."""
+    if not isinstance(table, Table):
+        return table
+    changed: dict[str, Any] = {}
+    for key in type(table).model_fields:
+        value = getattr(table, key)
+        if isinstance(value, Table):
+            changed[key] = _with_paths(value, moved)
+        elif value is not None and key in ("path", "materials_file"):
+            changed[key] = moved(value)
+    return table.model_copy(update=changed) if changed else table
 
 
 def _form(path: Path) -> str:

@@ -80,19 +80,44 @@ def generated(kind: str, **keys: st.SearchStrategy[Any]) -> st.SearchStrategy[di
     )
 
 
-SPECTRA = st.fixed_dictionaries(
-    {"kind": st.just("exponential"), "rms_height": LENGTHS, "correlation_length": LENGTHS},
-    optional={"drop": st.floats(0.01, 0.99), "correlation_length_y": LENGTHS},
-) | st.fixed_dictionaries(
-    {
-        "kind": st.just("self_affine"),
-        "rms_slope": POSITIVE,
-        "hurst": st.floats(0.01, 1.0),
-        "rolloff_wavelength": LENGTHS,
-        "shortest_wavelength": LENGTHS,
-    },
-    optional={"longest_wavelength": LENGTHS},
+SPECTRA = (
+    st.fixed_dictionaries(
+        {"kind": st.just("exponential"), "rms_height": LENGTHS, "correlation_length": LENGTHS},
+        optional={"drop": st.floats(0.01, 0.99), "correlation_length_y": LENGTHS},
+    )
+    | st.fixed_dictionaries(
+        {
+            "kind": st.just("self_affine"),
+            "rms_slope": POSITIVE,
+            "hurst": st.floats(0.01, 1.0),
+            "rolloff_wavelength": LENGTHS,
+            "shortest_wavelength": LENGTHS,
+        },
+        optional={"longest_wavelength": LENGTHS},
+    )
+    | st.fixed_dictionaries(
+        {
+            "kind": st.just("two_slopes"),
+            "plateau": quantities("nm**4", "m**4"),
+            "exponents": st.lists(POSITIVE, min_size=2, max_size=2),
+            "rolloff_wavelength": LENGTHS,
+            "crossover_wavelength": LENGTHS,
+        },
+        optional={"shortest_wavelength": LENGTHS | st.just("0 m")},
+    )
+    | st.fixed_dictionaries(
+        {
+            "kind": st.just("measured"),
+            "surface": st.fixed_dictionaries({"kind": st.just("file"), "path": TEXTS}),
+        },
+        optional={"isotropic": st.booleans(), "floor": quantities("nm**4")},
+    )
 )
+HEIGHTS = st.one_of(
+    st.fixed_dictionaries({"kind": st.just("moments")}, optional={"skewness": st.floats(-9, 9), "kurtosis": POSITIVE}),
+    st.fixed_dictionaries({"kind": st.just("two_levels"), "share": st.floats(0.01, 0.99), "separation": POSITIVE}),
+)
+SEEDS = st.integers(0, 2**63 - 1)
 FILES = st.fixed_dictionaries(
     {"kind": st.just("file"), "path": TEXTS},
     optional={
@@ -113,7 +138,21 @@ SURFACES = st.one_of(
     generated("sinusoid", amplitude=LENGTHS, wavelength=LENGTHS),
     generated("bisinusoid", amplitude=LENGTHS, wavelength=LENGTHS),
     generated("flat"),
-    generated("rough", seed=st.integers(0, 2**63 - 1), spectrum=SPECTRA, exact_rms=st.booleans()),
+    generated("rough", seed=SEEDS, spectrum=SPECTRA, exact_rms=st.booleans(), periodic=st.booleans()),
+    generated(
+        "laser_bumps",
+        pitch=st.lists(LENGTHS, min_size=2, max_size=2),
+        rim_height=LENGTHS,
+        rim_radius=LENGTHS,
+        rim_width=LENGTHS,
+    ),
+    generated("grooves", pitch=LENGTHS, width=LENGTHS, depth=LENGTHS, section=st.sampled_from(["vee", "cosine"])),
+    generated("digital_filter", seed=SEEDS, spectrum=SPECTRA, skewness=st.floats(-3, 3), kurtosis=POSITIVE),
+    generated("rank_ordered", seed=SEEDS, spectrum=SPECTRA, heights=HEIGHTS),
+    generated(
+        "two_process", seed=SEEDS, plateau=SPECTRA, valleys=SPECTRA, offset=st.sampled_from(["-3 nm", "0 m", "1um"])
+    ),
+    generated("particles", seed=SEEDS, matrix=SPECTRA, density=quantities("um**-2", "m**-2"), radius=LENGTHS),
 )
 BODIES = st.one_of(
     st.fixed_dictionaries({"material": TEXTS}, optional={"materials_file": TEXTS}),

@@ -24,12 +24,15 @@ from asperity import (
     Surface,
 )
 from asperity.contact.solvers import ActiveSet
+from asperity.core import units
 from asperity.io.build import build
-from asperity.io.documents import checked
-from asperity.io.schemas.surfaces import Shape
+from asperity.io.build_generated import FUNCTIONS, build_spectrum
+from asperity.io.documents import checked, relocated
+from asperity.io.schemas.surfaces import RandomSurface, Shape
 from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}
+EXPONENTIAL = {"kind": "exponential", "rms_height": "1 nm", "correlation_length": "0.5 um"}
 
 
 def table(**tables: Any) -> dict[str, Any]:
@@ -52,11 +55,72 @@ def table(**tables: Any) -> dict[str, Any]:
         {"kind": "bisinusoid", "amplitude": "1 nm", "wavelength": "2 um"},
         {"kind": "flat"},
         {"kind": "sphere", "radius": "20 um", "exact": True},
+        {"kind": "wedge", "slope": 0.1, "axis": "x"},
+        {"kind": "power_law", "exponent": 4.0, "radius": "2 um", "height": "10 nm"},
+        {"kind": "flat_punch", "radius": "2 um", "depth": "1 um", "edge_radius": "0.5 um"},
+        {
+            "kind": "laser_bumps",
+            "pitch": ["4 um", "3 um"],
+            "rim_height": "10 nm",
+            "rim_radius": "0 um",
+            "rim_width": "1 um",
+        },
+        {"kind": "dimples", "pitch": ["4 um", "3 um"], "radius": "0.5 um", "depth": "10 nm", "raised": True},
+        {"kind": "grooves", "pitch": "4 um", "width": "1 um", "depth": "10 nm", "section": "round"},
+        {"kind": "rough", "seed": 1, "spectrum": EXPONENTIAL},
+        {"kind": "rough", "seed": 1, "spectrum": EXPONENTIAL | {"kind": "gaussian"}, "variant": "nested"},
+        {"kind": "rough", "seed": 1, "spectrum": EXPONENTIAL, "variant": "fixed", "periodic": False},
         {
             "kind": "rough",
             "seed": 1,
-            "spectrum": {"kind": "exponential", "rms_height": "1 nm", "correlation_length": "0.5 um"},
+            "spectrum": {
+                "kind": "two_slopes",
+                "plateau": "4e4 nm**4",
+                "exponents": [6.5, 4.6],
+                "rolloff_wavelength": "4 um",
+                "crossover_wavelength": "2 um",
+            },
         },
+        {
+            "kind": "rough",
+            "seed": 1,
+            "spectrum": {"kind": "table", "wavelengths": ["4 um", "1 um"], "psd": ["1e4 nm**4", "1e2 nm**4"]},
+        },
+        {"kind": "digital_filter", "seed": 1, "spectrum": EXPONENTIAL, "skewness": 0.5, "kurtosis": 4.0},
+        {"kind": "translated", "seed": 1, "spectrum": EXPONENTIAL, "skewness": -1.0, "kurtosis": 5.0},
+        {
+            "kind": "rank_ordered",
+            "seed": 1,
+            "spectrum": EXPONENTIAL,
+            "heights": {"kind": "moments", "skewness": -1.0, "kurtosis": 4.0},
+        },
+        {
+            "kind": "rank_ordered",
+            "seed": 1,
+            "spectrum": EXPONENTIAL,
+            "heights": {"kind": "two_levels", "share": 0.4, "separation": 3.0},
+            "last": "spectrum",
+        },
+        {
+            "kind": "bimodal",
+            "seed": 1,
+            "first": EXPONENTIAL,
+            "second": EXPONENTIAL,
+            "patches": EXPONENTIAL,
+            "share": 0.3,
+            "separation": "-2 nm",
+        },
+        {
+            "kind": "two_process",
+            "seed": 1,
+            "plateau": EXPONENTIAL,
+            "valleys": EXPONENTIAL,
+            "offset": "1 nm",
+            "keep": "upper",
+        },
+        {"kind": "particles", "seed": 1, "matrix": EXPONENTIAL, "density": "0.1 um**-2", "radius": "0.5 um"},
+        {"kind": "weierstrass_mandelbrot", "seed": 1, "dimension": 2.4, "roughness": "1 pm"},
+        {"kind": "weierstrass_mandelbrot_profile", "dimension": 1.4, "roughness": "1 pm"},
         {
             "kind": "rough",
             "seed": 1,
@@ -79,11 +143,84 @@ def test_every_kind_of_surface(surface: dict[str, Any]) -> None:
         assert found == pytest.approx((-(1e-6**2) / 40e-6, -(1.5e-6**2) / 10e-6))
 
 
-def test_every_generated_shape_has_a_kind() -> None:
-    """What Python can make, a document can ask for."""
-    kinds = {shape.model_fields["kind"].annotation.__args__[0] for shape in get_args(Shape)}  # type: ignore[union-attr]
-    made = {name for name in generate.__all__ if inspect.isfunction(getattr(generate, name))}
-    assert kinds == made - {"gaussian"}
+def test_every_generator_has_a_kind() -> None:
+    """What Python can make, a document can ask for, with the same arguments."""
+    models = {
+        model.model_fields["kind"].annotation.__args__[0]: model  # type: ignore[union-attr]
+        for model in (*get_args(Shape), *get_args(RandomSurface))
+    }
+    functions = {name for name in generate.__all__ if inspect.isfunction(getattr(generate, name))}
+    others = {"endless", "spectrum_of"}  # an endless surface has no grid, and a spectrum is not a surface
+    assert {FUNCTIONS.get(kind, kind) for kind in models} == functions - others
+    for kind, model in models.items():
+        arguments = set(inspect.signature(getattr(generate, FUNCTIONS.get(kind, kind))).parameters)
+        keys = set(model.model_fields) - {"kind", "points", "size", "prepare", "mirror", "place"}
+        assert keys == arguments - {"grid", "progress"}, kind
+
+
+def test_spectra_in_si() -> None:
+    """A table of a document is the same as the object in Python."""
+    table_of = {
+        "self_affine": {
+            "kind": "self_affine",
+            "plateau": "2 um**4",
+            "hurst": 0.8,
+            "rolloff_wavelength": "4 um",
+            "shortest_wavelength": "0 nm",
+            "longest_wavelength": "8 um",
+        },
+        "gaussian": EXPONENTIAL | {"kind": "gaussian", "correlation_length_y": "700 nm", "drop": 0.5},
+    }
+    found = {
+        name: build_spectrum(
+            checked(table(surface={"kind": "rough", "seed": 1, "spectrum": spectrum, **GRID})).surface.spectrum,
+            Path(),
+            no_file,
+        )  # type: ignore[union-attr]
+        for name, spectrum in table_of.items()
+    }
+    assert found["self_affine"] == generate.SelfAffine(
+        amplitude=generate.PlateauPSD(units.parse("2 um**4", "power spectrum", "")),
+        hurst=0.8,
+        rolloff_wavelength=units.parse("4 um", "length", ""),
+        shortest_wavelength=0.0,
+        longest_wavelength=units.parse("8 um", "length", ""),
+    )
+    assert found["gaussian"].drop == 0.5  # type: ignore[attr-defined]
+    assert found["gaussian"].correlation_length_y == pytest.approx(7e-7)  # type: ignore[attr-defined]
+
+
+def no_file(*_: object) -> Surface:
+    raise AssertionError("no file is named")
+
+
+def test_more_like_a_file(tmp_path: Path) -> None:
+    heights = np.random.default_rng(1).standard_normal((32, 24))
+    np.save(tmp_path / "seen.npy", heights)
+    seen = {
+        "kind": "file",
+        "path": "seen.npy",
+        "size": "8 um x 6 um",
+        "height_unit": "nm",
+        "prepare": [{"step": "level"}, {"step": "periodise"}],
+    }
+    surface = {
+        "kind": "rank_ordered",
+        "seed": 1,
+        "spectrum": {"kind": "measured", "surface": seen, "isotropic": False},
+        "heights": {"kind": "measured", "surface": seen},
+        "points": [32, 24],
+        "size": "8 um x 6 um",
+    }
+    document = checked(table(surface=surface))
+    made = build(document, tmp_path).problem.surface
+    assert made.heights.std() == pytest.approx(heights.std() * 1e-9, rel=0.05)
+    assert "spectrum of seen.npy" in made.origin.history[0]
+    # the same document from another folder finds the same file
+    elsewhere = tmp_path / "deep" / "folder"
+    elsewhere.mkdir(parents=True)
+    moved = relocated(document, tmp_path, elsewhere)
+    np.testing.assert_array_equal(build(moved, elsewhere).problem.surface.heights, made.heights)
 
 
 @pytest.mark.parametrize(

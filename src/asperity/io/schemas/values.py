@@ -22,8 +22,10 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
-def _quantity(kind: str, *words: str) -> Any:
-    """Validator of text with a positive number and a unit of the dimension ``kind``, or of one of the ``words``.
+def _quantity(
+    kind: str, *words: str, check: Callable[[float], float] = lambda value: require.positive(value, "")
+) -> Any:
+    """Validator of text with a number that passes ``check`` and a unit of the dimension ``kind``, or of one of the ``words``.
 
     The text itself is kept.
     """
@@ -33,7 +35,7 @@ def _quantity(kind: str, *words: str) -> Any:
             raise InputError(f" must be text with a number and a unit, but is the bare number {value!r}.")
         if isinstance(value, str) and value not in words:
             number = units.parse(value, kind, "")
-            _shown_as(value, lambda: require.positive(number, ""))
+            _shown_as(value, lambda: check(number))
         return value
 
     return BeforeValidator(checked)
@@ -98,6 +100,12 @@ def _fraction(value: float) -> float:
     return require.between(value, 0.0, 1.0, "")
 
 
+def _not_negative(value: float) -> float:
+    if not require.finite(value, "") >= 0.0:
+        raise InputError(f" must be zero or greater, but is {value!r}.")
+    return value
+
+
 def _hurst(value: float) -> float:
     return require.at_most(value, 1.0, "")
 
@@ -118,6 +126,30 @@ def _as_quantity(kind: str, example: str) -> Any:
 
 Length: TypeAlias = Annotated[str, _quantity("length"), _as_quantity("length", "5 nm")]
 """Text of a length > 0."""
+
+NonNegativeLength: TypeAlias = Annotated[
+    str, _quantity("length", check=lambda value: _not_negative(value)), _as_quantity("length", "5 nm")
+]
+"""Text of a length >= 0."""
+
+SignedLength: TypeAlias = Annotated[
+    str, _quantity("length", check=lambda value: require.finite(value, "")), _as_quantity("length", "-5 nm")
+]
+"""Text of a length of either sign."""
+
+Lengths: TypeAlias = Annotated[tuple[Length, Length], BeforeValidator(_ordered)]
+"""Texts of two lengths > 0, along x and y."""
+
+Angle: TypeAlias = Annotated[
+    str, _quantity("angle", check=lambda value: require.finite(value, "")), _as_quantity("angle", "30 deg")
+]
+"""Text of an angle of either sign."""
+
+Density: TypeAlias = Annotated[str, _quantity("density"), _as_quantity("density", "1 um**-2")]
+"""Text of a number per area > 0."""
+
+Psd: TypeAlias = Annotated[str, _quantity("power spectrum"), _as_quantity("power spectrum", "1e4 nm**4")]
+"""Text of a value > 0 of a two-dimensional power spectrum, C with m0 = (1/4π²) ∫ C d²q."""
 
 Pressure: TypeAlias = Annotated[str, _quantity("pressure"), _as_quantity("pressure", "50 kPa")]
 """Text of a pressure > 0."""
@@ -148,6 +180,12 @@ ORDERED = BeforeValidator(_ordered)
 
 Number: TypeAlias = Annotated[float, AfterValidator(lambda value: require.positive(value, ""))]
 """A dimensionless number > 0."""
+
+AnyNumber: TypeAlias = Annotated[float, AfterValidator(lambda value: require.finite(value, ""))]
+"""A number of either sign."""
+
+Numbers: TypeAlias = Annotated[tuple[Number, Number], BeforeValidator(_ordered)]
+"""Two numbers > 0."""
 
 PoissonRatio: TypeAlias = Annotated[float, AfterValidator(_poisson_ratio)]
 """Poisson's ratio."""

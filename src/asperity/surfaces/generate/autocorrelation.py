@@ -15,7 +15,7 @@ from .embedding import clipped_eigenvalues, clipping_text
 
 _EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
 _GAUSSIAN_DOMAIN = 8.0  # the same; negative part 1e-7
-_RANGE = math.log(1e5)  # heights whose correlation has dropped to 1e-5 are taken as independent
+_RANGE = math.log(1e3)  # three 10 % lengths of the exponential: heights whose correlation is 1e-3 count as independent
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class ExponentialAutocorrelation:
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are uncorrelated (to 1e-5)."""
+        """Distance in m beyond which heights are uncorrelated (to 1e-3)."""
         return _RANGE * max(self.decay_lengths)
 
     @property
@@ -125,7 +125,7 @@ class GaussianAutocorrelation:
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are uncorrelated (to 1e-5)."""
+        """Distance in m beyond which heights are uncorrelated (to 1e-3)."""
         return math.sqrt(_RANGE) * max(self.decay_lengths)
 
     @property

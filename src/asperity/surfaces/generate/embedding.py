@@ -7,7 +7,7 @@ even more slope. Source: Dietrich & Newsam (1997).
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -23,6 +23,21 @@ CLIP_LIMIT = 1e-4
 _NOISE = 1e-15  # negative part that rounding of the transform leaves
 
 
+class Spectrum(Protocol):
+    """Isotropic or anisotropic spectrum from which a periodic random surface can be generated.
+
+    Optional attributes: ``correlation_range`` (m), the distance beyond which heights are uncorrelated, for surfaces
+    that are not periodic; ``citation_keys``.
+    """
+
+    def lattice_psd(self, grid: Grid) -> RealArray:
+        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0."""
+
+    def describe(self, grid: Grid) -> str:
+        """Words and numbers for the history of a surface generated on ``grid``."""
+
+
+@runtime_checkable
 class Autocovariance(Protocol):
     """Autocovariance function of a surface."""
 
@@ -32,6 +47,17 @@ class Autocovariance(Protocol):
 
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
         """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
+
+
+def lattice_eigenvalues(spectrum: Spectrum, grid: Grid) -> RealArray:
+    """Mean square of the waves of a random field in m², C/(dx dy), shape (nx, ny // 2 + 1).
+
+    The zero mode is that of the autocovariance where ``spectrum`` is given by one, so that the mean of a realisation
+    fluctuates as in any window of an infinite surface; it is zero for a spectrum given by C.
+    """
+    if isinstance(spectrum, Autocovariance):
+        return clipped_eigenvalues(spectrum, grid)
+    return spectrum.lattice_psd(grid) / grid.pixel_area
 
 
 def eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:

@@ -11,9 +11,9 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ..surface import Origin, Surface
+from .embedding import Spectrum, lattice_eigenvalues
 from .modes import mode_sum
 from .noise import node_noise, wave_noise
-from .spectra import Spectrum
 
 VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", "nested": "nested waves of PCG64"}
 """How the waves of a realisation are drawn, with the words for its history."""
@@ -101,6 +101,16 @@ def parent_grid(grid: Grid, spectrum: object) -> Grid:
             f"{grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the window or shorten the waves."
         )
     return Grid((nx, ny), grid.spacing)
+
+
+def random_field(grid: Grid, spectrum: Spectrum, seed: int) -> RealArray:
+    """Heights (nx, ny) in m of a periodic Gaussian field, a window of which an autocovariance describes: see
+    ``lattice_eigenvalues`` for its mean.
+    """
+    transform = RealTransform(grid.shape, thread_count())
+    modes = transform.forward(node_noise(grid.shape, seed))
+    modes *= np.sqrt(lattice_eigenvalues(spectrum, grid))
+    return transform.backward(modes)
 
 
 def _synthesised(grid: Grid, psd: RealArray, seed: int, variant: str) -> RealArray:

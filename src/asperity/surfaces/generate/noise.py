@@ -14,6 +14,11 @@ BLOCK = 64
 """Nodes along the side of a block of noise that has a stream of its own."""
 
 
+def sub_seeds(seed: int, count: int) -> tuple[int, ...]:
+    """Seeds of ``count`` independent streams that belong to one ``seed``, by NumPy's ``SeedSequence``."""
+    return tuple(int(number) for number in np.random.SeedSequence(seed).generate_state(count, np.uint64))
+
+
 def node_noise(shape: tuple[int, int], seed: int) -> RealArray:
     """White noise at the nodes (nx, ny): PCG64 of ``seed``, drawn in the order of the array."""
     return np.random.Generator(np.random.PCG64(seed)).standard_normal(shape)

@@ -80,20 +80,59 @@ def cone(grid: Grid, *, slope: float) -> Surface:
     return _shape(grid, -slope * np.sqrt(_radius_squared(grid)), f"cone, slope {slope:g}")
 
 
-def flat_punch(grid: Grid, *, radius: float, depth: float) -> Surface:
-    """Flat-ended circular punch: h = 0 for r <= ``radius`` and h = -``depth`` outside (both m, positive).
-
-    The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the problem.
+def wedge(grid: Grid, *, slope: float, axis: str = "y") -> Surface:
+    """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`.
 
     Raises
     ------
     InputError
-        If radius or depth is not positive.
+        If the slope is not positive or the axis is not ``x`` or ``y``.
+    """
+    slope = require.positive(slope, "wedge slope")
+    require.one_of(axis, ("x", "y"), "wedge axis")
+    x, y = grid.centred_coordinates()
+    return _shape(grid, -slope * np.abs(x if axis == "y" else y), f"wedge along {axis}, slope {slope:g}")
+
+
+def power_law(grid: Grid, *, exponent: float, radius: float, height: float) -> Surface:
+    """Indenter h = -height · (r/radius)^n of the ``exponent`` n: 1 a cone, 2 a paraboloid, large n nearly a flat punch.
+
+    ``height`` is the sag at the ``radius``, both in m and positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive.
+    """
+    exponent = require.positive(exponent, "exponent of a power-law indenter")
+    radius = require.positive(radius, "radius of a power-law indenter (m)")
+    height = require.positive(height, "height of a power-law indenter (m)")
+    heights = -height * (_radius_squared(grid) / radius**2) ** (0.5 * exponent)
+    return _shape(grid, heights, f"power law, exponent {exponent:g}, height {height:g} m at {radius:g} m")
+
+
+def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 0.0) -> Surface:
+    """Flat-ended circular punch: h = 0 for r <= ``radius`` and h = -``depth`` outside (both m, positive).
+
+    The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the problem. With an
+    ``edge_radius`` R_e (m) the edge is rounded within a - R_e < r <= a: h = -(R_e - sqrt[R_e² - (r - a + R_e)²]).
+
+    Raises
+    ------
+    InputError
+        If radius or depth is not positive, or the edge radius is not between 0 and both.
     """
     radius = require.positive(radius, "punch radius (m)")
     depth = require.positive(depth, "punch depth (m)")
-    inside = _radius_squared(grid) <= radius**2
-    return _shape(grid, np.where(inside, 0.0, -depth), f"flat punch, radius {radius:g} m, depth {depth:g} m")
+    r_squared = _radius_squared(grid)
+    text = f"flat punch, radius {radius:g} m, depth {depth:g} m"
+    heights = np.where(r_squared <= radius**2, 0.0, -depth)
+    if edge_radius != 0.0:
+        edge = require.at_most(edge_radius, min(radius, depth), "edge radius of a punch (m)")
+        into = np.clip(np.sqrt(r_squared) - (radius - edge), 0.0, edge)
+        heights = np.where(r_squared <= radius**2, np.sqrt(edge**2 - into**2) - edge, -depth)
+        text += f", edge radius {edge:g} m"
+    return _shape(grid, heights, text)
 
 
 def sinusoid(grid: Grid, *, amplitude: float, wavelength: float, axis: str = "x") -> Surface:

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,24 +18,11 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from .amplitude import Amplitude, PlateauPSD, RmsHeight, RmsSlope, amplitude_text, require_amplitude
+from .embedding import Spectrum
 from .modes import mode_sum
 from .power_laws import PowerLaws, continuous_level, lattice_psd
 
 __all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes", "mode_sum"]
-
-
-class Spectrum(Protocol):
-    """Isotropic or anisotropic spectrum from which a periodic random surface can be generated.
-
-    Optional attributes: ``correlation_range`` (m), the distance beyond which heights are uncorrelated, for surfaces
-    that are not periodic; ``citation_keys``.
-    """
-
-    def lattice_psd(self, grid: Grid) -> RealArray:
-        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0."""
-
-    def describe(self, grid: Grid) -> str:
-        """Words and numbers for the history of a surface generated on ``grid``."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,37 @@
+"""What all surfaces of a document have in common, and the surface that is read from a file."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from .preparation import Step
+from .values import ORDERED, Channel, HeightUnit, Length, Points, Size, Table, Text
+
+
+class AnySurface(Table):
+    """What all surfaces have: preparation steps, and for a counter surface how it is turned over.
+
+    ``mirror`` is ``"x"`` or ``"y"`` for a map measured facing its own body, and ``"none"`` for one that is already
+    in the lateral frame of the other surface.
+    """
+
+    prepare: Annotated[tuple[Step, ...], ORDERED] = ()
+    mirror: Literal["x", "y", "none"] | None = None
+
+
+class GeneratedSurface(AnySurface):
+    """What all generated surfaces have: a grid."""
+
+    points: Points
+    size: Size
+
+
+class FileSurface(AnySurface):
+    """Heights from a file; a relative ``path`` starts at the folder of the document."""
+
+    kind: Literal["file"]
+    path: Text
+    channel: Channel | None = None
+    size: Size | None = None
+    height_unit: HeightUnit | None = None
+    z_scale: Length | None = None

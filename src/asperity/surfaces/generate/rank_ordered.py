@@ -1,0 +1,147 @@
+"""Surfaces with a prescribed spectrum and prescribed heights at once, by alternating between the two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.citations import citation_keys
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.progress import NoProgress, Progress
+from ...core.spectral import RealTransform, thread_count
+from ..surface import Origin, Surface
+from .embedding import Spectrum
+from .marginal import Marginal
+from .modes import mode_sum
+
+_KEYS = ("Schreiber1996", "PerezRafols2019")
+_ERROR_LIMIT = 0.05  # relative error of the amplitudes beyond which spectrum and heights do not go together
+
+
+@dataclass(frozen=True, eq=False)
+class _Target:
+    grid: Grid
+    amplitude: RealArray
+    heights: RealArray
+    transform: RealTransform
+
+
+def rank_ordered(
+    grid: Grid,
+    spectrum: Spectrum,
+    heights: Marginal,
+    *,
+    seed: int,
+    last: str = "heights",
+    max_iterations: int = 1000,
+    progress: Progress = NoProgress(),
+) -> Surface:
+    """Periodic surface with the amplitudes of ``spectrum`` and the distribution of ``heights``.
+
+    From a random arrangement of the heights two steps alternate: the amplitudes of the waves are replaced by those of the
+    spectrum, then the values by the wanted heights in the same order of rank, until the ranks no longer change
+    (Schreiber & Schmitz 1996; Pérez-Ràfols & Almqvist 2019). Spectrum and histogram do not scatter between realisations.
+    Rounding differences between FFT libraries are amplified by the ranks: another library gives another realisation.
+
+    Parameters
+    ----------
+    grid
+        Nodes of the surface.
+    spectrum
+        Any spectrum; it fixes the rms height.
+    heights
+        ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and ``describe``.
+    seed
+        Whole number >= 0 (PCG64).
+    last
+        Which step ends: ``heights`` makes the distribution exact, ``spectrum`` the amplitudes.
+    max_iterations
+        Steps of both kinds after which to stop although ranks still change.
+    progress
+        Told the share of the nodes whose rank has changed.
+
+    Raises
+    ------
+    InputError
+        If the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
+    """
+    seed = require.integer(seed, 0, "seed of a random surface")
+    require.one_of(last, ("heights", "spectrum"), "last step of the iteration")
+    max_iterations = require.integer(max_iterations, 1, "iterations of the rank ordering")
+    target = _target(grid, spectrum, heights)
+    values = np.random.Generator(np.random.PCG64(seed)).permutation(target.heights).reshape(grid.shape)
+    values, iterations, settled = _iterated(values, target, max_iterations, progress)
+    exact = f"amplitudes to {_require_joined(values, target, heights, iterations):.1e}"
+    if last == "spectrum":
+        values = _with_amplitudes(values, target)
+        exact = f"heights to {_height_error(values, target):.1e}"
+    state = f"{iterations} iterations, {'settled' if settled else 'not settled'}, {exact}"
+    text = f"generated: rank-ordered, {spectrum.describe(grid)}, {heights.describe()}, {state}, PCG64 seed {seed}"
+    keys = tuple(dict.fromkeys((*citation_keys(spectrum), *citation_keys(heights), *_KEYS)))
+    dx, dy = grid.spacing
+    return Surface(values, dx, dy, periodic=True, origin=Origin("rank-ordered", history=(text,), citation_keys=keys))
+
+
+def _require_joined(values: RealArray, target: _Target, heights: Marginal, iterations: int) -> float:
+    """Relative error of the amplitudes of ``values``, which must be small enough."""
+    error = _amplitude_error(values, target)
+    if error > _ERROR_LIMIT:
+        raise InputError(
+            "spectrum and distribution of the heights must go together, but after "
+            f"{iterations} iterations the amplitudes are off by {error:.2g}: waves of so few lengths cannot add up to heights "
+            f"of {heights.describe()}. Use a broader spectrum or other heights."
+        )
+    return error
+
+
+def _target(grid: Grid, spectrum: Spectrum, heights: Marginal) -> _Target:
+    psd = spectrum.lattice_psd(grid)
+    square = mode_sum(grid, psd)
+    if not square > 0.0:
+        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    wanted = heights.sorted_heights(grid.n_points)
+    wanted = wanted - wanted.mean()
+    wanted *= np.sqrt(square / np.mean(np.square(wanted)))
+    amplitude = np.sqrt(psd * (grid.n_points / grid.pixel_area))
+    return _Target(grid, amplitude, wanted, RealTransform(grid.shape, thread_count()))
+
+
+def _iterated(
+    values: RealArray, target: _Target, max_iterations: int, progress: Progress
+) -> tuple[RealArray, int, bool]:
+    """Heights after the last step of ranks, the number of iterations, and whether the ranks have settled."""
+    order = np.argsort(values, axis=None)
+    for iteration in range(1, max_iterations + 1):
+        values = _with_amplitudes(values, target)
+        before, order = order, np.argsort(values, axis=None)
+        values = np.empty(target.grid.shape)
+        values.ravel()[order] = target.heights
+        if np.array_equal(order, before):
+            return values, iteration, True
+        progress.update(iteration, float(np.mean(order != before)), 0.0)
+    return values, max_iterations, False
+
+
+def _with_amplitudes(values: RealArray, target: _Target) -> RealArray:
+    """``values`` with the phases kept and the amplitudes of the waves replaced."""
+    modes = target.transform.forward(values)
+    magnitude = np.abs(modes)
+    modes *= np.divide(target.amplitude, magnitude, out=np.zeros_like(magnitude), where=magnitude > 0.0)
+    return target.transform.backward(modes)
+
+
+def _amplitude_error(values: RealArray, target: _Target) -> float:
+    """sqrt(Σ (|F| - |F0|)² / Σ |F0|²) over all modes."""
+    magnitude = np.abs(target.transform.forward(values))
+    missing = mode_sum(target.grid, np.square(magnitude - target.amplitude))
+    return float(np.sqrt(missing / mode_sum(target.grid, np.square(target.amplitude))))
+
+
+def _height_error(values: RealArray, target: _Target) -> float:
+    """Rms difference between the sorted values and the wanted heights, relative to the rms height."""
+    difference = np.sort(values, axis=None) - target.heights
+    return float(np.sqrt(np.mean(np.square(difference)) / np.mean(np.square(target.heights))))

@@ -1,0 +1,182 @@
+"""Weierstrass-Mandelbrot functions: deterministic fractal profiles and surfaces of a discrete spectrum."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ..surface import Origin, Surface
+
+_MOST_WAVES = 100_000
+
+
+def weierstrass_mandelbrot(
+    grid: Grid,
+    *,
+    dimension: float,
+    roughness: float,
+    seed: int,
+    gamma: float = 1.5,
+    ridges: int = 10,
+    length: float | None = None,
+    shortest_wavelength: float | None = None,
+) -> Surface:
+    """Weierstrass-Mandelbrot surface (Ausloos & Berman 1985; Yan & Komvopoulos 1998) without its constant.
+
+    z = -L (G/L)^(D-2) sqrt(ln γ/M) Σ_m Σ_n γ^((D-3)n) cos[2π γ^n (x cos(πm/M) + y sin(πm/M))/L + φ_mn], m = 1…M, n = 0…n_max,
+    n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
+    for many ridges; prefer :func:`gaussian` unless a published case is to be repeated.
+
+    Parameters
+    ----------
+    grid
+        Nodes of the surface.
+    dimension
+        Fractal dimension D of the surface, 2 < D < 3; H = 3 - D.
+    roughness
+        Fractal roughness G in m; a scale of the amplitudes, not a height.
+    seed
+        Whole number >= 0 (PCG64, phases in the order m, n).
+    gamma
+        Ratio γ > 1 of neighbouring frequencies.
+    ridges
+        Number M of directions.
+    length
+        L in m, the longest wave; the longer side of the grid if omitted.
+    shortest_wavelength
+        L_s in m; two pixels if omitted.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range.
+    """
+    dimension = require.between(dimension, 2.0, 3.0, "dimension of a Weierstrass-Mandelbrot surface")
+    roughness = require.positive(roughness, "fractal roughness (m)")
+    ridges = require.integer(ridges, 1, "ridges of a Weierstrass-Mandelbrot surface")
+    longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
+    powers = _powers(gamma, longest, shortest, ridges)
+    phases = _phases(seed, (ridges, powers.size))
+    angle = np.pi * np.arange(1, ridges + 1)[:, None] / ridges
+    q = 2.0 * np.pi * gamma**powers / longest
+    level = longest * (roughness / longest) ** (dimension - 2.0) * math.sqrt(math.log(gamma) / ridges)
+    amplitude = np.broadcast_to(-level * gamma ** ((dimension - 3.0) * powers), phases.shape)
+    heights = _waves(grid, (q * np.cos(angle)).ravel(), (q * np.sin(angle)).ravel(), amplitude.ravel(), phases.ravel())
+    text = (
+        f"generated: Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {roughness:.4g} m, γ {gamma:.4g}, "
+        f"{ridges} ridges, {powers.size} waves each from {longest:.4g} m down, PCG64 seed {seed}"
+    )
+    return _surface(grid, heights, text, ("Ausloos1985", "Yan1998"))
+
+
+def weierstrass_mandelbrot_profile(
+    grid: Grid,
+    *,
+    dimension: float,
+    roughness: float,
+    gamma: float = 1.5,
+    length: float | None = None,
+    shortest_wavelength: float | None = None,
+    seed: int | None = None,
+) -> Surface:
+    """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x + φ_n)/γ^((2-D)n), n = n1…n2.
+
+    γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar & Bhushan 1990).
+
+    Parameters
+    ----------
+    grid
+        Nodes of the surface; one node along y makes a profile.
+    dimension
+        Fractal dimension D of the profile, 1 < D < 2.
+    roughness
+        Fractal roughness G in m.
+    gamma
+        Ratio γ > 1 of neighbouring frequencies.
+    length
+        L in m; the size along x if omitted.
+    shortest_wavelength
+        L_s in m; two pixels along x if omitted.
+    seed
+        Of random phases (PCG64); all phases are 0 if omitted.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range.
+    """
+    dimension = require.between(dimension, 1.0, 2.0, "dimension of a Weierstrass-Mandelbrot profile")
+    roughness = require.positive(roughness, "fractal roughness (m)")
+    longest, shortest = _limits(length, shortest_wavelength, grid.size[0], grid.spacing[0])
+    _require_gamma(gamma)
+    first = math.floor(math.log(1.0 / longest) / math.log(gamma))
+    powers = np.arange(first, math.ceil(math.log(1.0 / shortest) / math.log(gamma)) + 1, dtype=float)
+    _require_count(powers.size)
+    phases = np.zeros(powers.size) if seed is None else _phases(seed, (powers.size,))
+    amplitude = roughness ** (dimension - 1.0) * gamma ** (-(2.0 - dimension) * powers)
+    x = grid.coordinates()[0]
+    profile = np.cos(2.0 * np.pi * gamma**powers * x + phases) @ amplitude
+    how = "phases 0" if seed is None else f"phases of PCG64 seed {seed}"
+    text = (
+        f"generated: Weierstrass-Mandelbrot profile, dimension {dimension:.4g}, roughness {roughness:.4g} m, γ {gamma:.4g}, "
+        f"powers {first} to {int(powers[-1])}, {how}"
+    )
+    return _surface(grid, np.broadcast_to(profile[:, None], grid.shape), text, ("Majumdar1990",))
+
+
+def _phases(seed: int, shape: tuple[int, ...]) -> RealArray:
+    seed = require.integer(seed, 0, "seed of a random surface")
+    return np.random.Generator(np.random.PCG64(seed)).uniform(0.0, 2.0 * np.pi, shape)
+
+
+def _limits(longest: float | None, shortest: float | None, size: float, spacing: float) -> tuple[float, float]:
+    """Longest and shortest wave in m: the size and two pixels if they are not given."""
+    return (
+        require.positive(size if longest is None else longest, "longest wave (m)"),
+        require.positive(2.0 * spacing if shortest is None else shortest, "shortest wave (m)"),
+    )
+
+
+def _powers(gamma: float, longest: float, shortest: float, ridges: int) -> RealArray:
+    """n = 0 … n_max."""
+    _require_gamma(gamma)
+    if shortest > longest:
+        raise InputError(
+            f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
+        )
+    count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
+    _require_count(count * ridges)
+    return np.arange(count, dtype=float)
+
+
+def _require_gamma(gamma: float) -> None:
+    if not require.finite(gamma, "ratio of frequencies γ") > 1.0:
+        raise InputError(f"ratio of frequencies γ must be greater than 1, but is {gamma:g}; 1.5 is usual.")
+
+
+def _require_count(count: int) -> None:
+    if not 0 < count <= _MOST_WAVES:
+        raise InputError(
+            f"waves of a Weierstrass-Mandelbrot function must be between 1 and {_MOST_WAVES}, but are {count}. "
+            "Change γ, the wavelengths or the number of ridges."
+        )
+
+
+def _waves(grid: Grid, qx: RealArray, qy: RealArray, amplitude: RealArray, phase: RealArray) -> RealArray:
+    """Σ a cos(qx x + qy y + φ) at all nodes, as one matrix product: cos(α + β) is the real part of e^(iα) e^(iβ)."""
+    x, y = grid.coordinates()
+    along_x, along_y = qx * x + phase, qy * y.T
+    heights: RealArray = (np.cos(along_x) * amplitude) @ np.cos(along_y).T
+    heights -= (np.sin(along_x) * amplitude) @ np.sin(along_y).T
+    return heights
+
+
+def _surface(grid: Grid, heights: RealArray, text: str, keys: tuple[str, ...]) -> Surface:
+    dx, dy = grid.spacing
+    origin = Origin(source="Weierstrass-Mandelbrot", history=(text,), citation_keys=keys)
+    return Surface(heights, dx, dy, origin=origin)
