@@ -122,4 +122,12 @@ def _compact_area(quantity: Any) -> Any:
     return quantity.to("nm**2")
 
 
-_EXAMPLES = {"length": "5 nm", "pressure": "50 kPa", "force": "1 mN", "area": "1 um**2", "angle": "10 deg", "density": "1 um**-2", "power spectrum": "1e4 nm**4"}
+_EXAMPLES = {
+    "length": "5 nm",
+    "pressure": "50 kPa",
+    "force": "1 mN",
+    "area": "1 um**2",
+    "angle": "10 deg",
+    "density": "1 um**-2",
+    "power spectrum": "1e4 nm**4",
+}
