@@ -80,6 +80,12 @@ def log_grid(start: float, count: int) -> RealArray:
     return grid
 
 
+def covering_grid(low: float, high: float) -> RealArray:
+    """Nodes of a table that reaches from ``low`` to ``high``, both > 0."""
+    cells = int(np.ceil(np.log(high / low) / STEP)) + 1
+    return log_grid(low * np.exp(-STEP * (_BEFORE + 0.5)), cells + _BEFORE + _AFTER)
+
+
 def log_table(start: float, values: RealArray) -> LogTable:
     """Table through ``values`` at the nodes ``log_grid(start, len(values))``, at least ten."""
     values = np.asarray(values, dtype=float)

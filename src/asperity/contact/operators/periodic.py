@@ -70,9 +70,14 @@ class PeriodicOperator:
 
 
 def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
-    """Compliance (m/Pa) on the half spectrum of ``grid``."""
-    q = grid.wavenumber()
-    q[0, 0] = 1.0
-    kernel = np.array(compliance.spectral(q), dtype=float)
+    """Compliance (m/Pa) on the half spectrum of ``grid``; negative frequencies along x are copies of positive ones."""
+    nx, ny = grid.shape
+    rows = nx // 2 + 1
+    qx, qy = grid.wavevector()
+    q = np.hypot(qx[:rows], qy)
+    q[0, 0] = q[-1, -1] or 1.0  # any wavenumber of the grid: its value is replaced
+    kernel = np.empty((nx, ny // 2 + 1))
+    kernel[:rows] = compliance.spectral(q)
     kernel[0, 0] = compliance.mean_mode()
+    kernel[rows:] = kernel[nx - rows : 0 : -1]
     return kernel

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 from ...core.arrays import RealArray
 from ...core.grid import Grid
-from ...core.log_table import LogTable, log_table
+from ...core.log_table import covering_grid, log_table
 from ..elastic import Elastic
 from ..layers import Layered
 from .hybrid import PlaneCompliance, interface_compliances
 from .line_kernel import LineKernel, line_kernel, strip_coefficients
 from .patch_average import patch_coefficients
-from .point_kernel import COUNT, PointKernel, wavenumber_grid
+from .point_kernel import PointKernel
 from .samples import Samples, samples
 
 
@@ -21,9 +22,9 @@ from .samples import Samples, samples
 class LayerStack:
     """Compliance of ``body``, which has at least one layer of finite thickness.
 
-    Its spectrum is computed once, on a logarithmic grid of wavenumbers, however large the maps are it is asked for:
-    a layered body then costs a map of 1024² points about as much as one Fourier transform. The interpolation error is
-    below 1e-13 relative. Influence coefficients come from the same spectrum, with a relative error below 1e-8.
+    The spectrum of a large map is interpolated between a few hundred wavenumbers, equal steps in their logarithm apart, with
+    a relative error below 1e-13: a map of 1024² points costs about two Fourier transforms, whatever the number of layers.
+    Influence coefficients come from the same spectrum, with a relative error below 1e-8.
     """
 
     body: Layered
@@ -35,19 +36,11 @@ class LayerStack:
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
-        if wavenumber.size <= COUNT:
-            return interface_compliances(self.body, wavenumber)[0].zz
-        values = self._spectrum(wavenumber)
-        values /= wavenumber
-        return values
+        return self._interpolated(wavenumber, lambda c: (c.zz,))[0]
 
     def plane(self, wavenumber: RealArray) -> PlaneCompliance:
         """All components of C(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
-        if wavenumber.size <= COUNT:
-            return interface_compliances(self.body, wavenumber)[0]
-        values = self._samples.values
-        LL, Lz, T = (self._table(v)(wavenumber) / wavenumber for v in (values.LL, values.Lz, values.T))
-        return PlaneCompliance(LL, self.spectral(wavenumber), Lz, T)
+        return PlaneCompliance(*self._interpolated(wavenumber, lambda c: (c.LL, c.zz, c.Lz, c.T)))
 
     def mean_mode(self) -> float:
         """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose datum is the mean.
@@ -83,10 +76,15 @@ class LayerStack:
     def _line(self) -> LineKernel:
         return line_kernel(self._samples.values.zz, self._samples.limits(lambda c: c.zz))
 
-    @cached_property
-    def _spectrum(self) -> LogTable:
-        return self._table(self._samples.values.zz)
-
-    def _table(self, values: RealArray) -> LogTable:
-        """Table of the samples ``values`` of alpha C over the wavenumber."""
-        return log_table(float(wavenumber_grid(self._samples.depth)[0]), values)
+    def _interpolated(
+        self, wavenumber: RealArray, components: Callable[[PlaneCompliance], tuple[RealArray, ...]]
+    ) -> list[RealArray]:
+        """Some ``components`` of C(q), from a table of q C where the array is larger than the table."""
+        nodes = covering_grid(float(wavenumber.min()), float(wavenumber.max()))
+        if wavenumber.size <= nodes.size:
+            return list(components(interface_compliances(self.body, wavenumber)[0]))
+        tables = [log_table(nodes[0], c) for c in components(interface_compliances(self.body, nodes)[0].scaled(nodes))]
+        found = [table(wavenumber) for table in tables]
+        for values in found:
+            values /= wavenumber
+        return found
