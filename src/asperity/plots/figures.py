@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -11,25 +10,18 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ..contact.result import ContactResult
 from ..core.errors import OutputError
-from ..core.grid import Grid
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .histogram import plot_gap_histogram, plot_pressure_histogram
-from .maps import SLENDER, plot_contact, plot_gap, plot_heights, plot_pressure
+from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
+from .picture import CURVE_SIZE, map_size, png
 from .section import plot_section
-from .style import DPI, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Draw: TypeAlias = "Callable[[ContactResult, Axes], Axes]"
 """Draws a result on axes."""
-
-CURVE_SIZE = (5.6, 3.4)
-"""Width and height in inches of figures that are no maps."""
-
-MAP_SIZE = 3.4
-"""Longer side of a map in inches, about."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +78,8 @@ PLOTS = (
 
 def render(plot: Plot, result: ContactResult) -> bytes:
     """PNG of ``plot`` for ``result``."""
-    size = _map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
-    return _png(lambda ax: plot.draw(result, ax), size)
+    size = map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
+    return png(lambda ax: plot.draw(result, ax), size)
 
 
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
@@ -119,28 +111,4 @@ def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = F
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
     with atomic_file(path, overwrite=overwrite) as file:
-        file.write_bytes(_png(lambda ax: plot_heights(surface, ax), _map_size(surface.grid)))
-
-
-def _png(draw: Callable[[Axes], Axes], size: tuple[float, float]) -> bytes:
-    """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its content."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    buffer = io.BytesIO()
-    with style():
-        figure = Figure(figsize=size)
-        FigureCanvasAgg(figure)
-        draw(figure.add_subplot())
-        figure.savefig(buffer, format="png", dpi=DPI, bbox_inches="tight", pad_inches=0.06)
-    return buffer.getvalue()
-
-
-def _map_size(grid: Grid) -> tuple[float, float]:
-    """Figure for a map with its longer side of MAP_SIZE; slender maps are stretched (see ``maps``)."""
-    width, height = grid.size
-    ratio = width / height
-    if 1 in grid.shape or not 1.0 / SLENDER <= ratio <= SLENDER:
-        return CURVE_SIZE
-    longer = MAP_SIZE * (1.5 if ratio > 2.0 else 1.0) / 0.775  # 0.775 is the share of the figure that the axes take
-    return (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)
+        file.write_bytes(png(lambda ax: plot_heights(surface, ax), map_size(surface.grid)))

@@ -67,9 +67,7 @@ def window(length: float, seed: int) -> asp.Surface:
     return asp.cropped(large, x=(0.0, length), y=(0.0, length))
 
 
-@pytest.mark.parametrize(
-    "length", [64.0, pytest.param(32.0, marks=pytest.mark.slow), pytest.param(128.0, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("length", [32.0, 64.0, 128.0])
 def test_reference_population(length):
     rows = [row for row in reference("surfaces_scan_size") if row["L_um"] == length]
     surfaces = [window(length, seed) for seed in range(int(rows[0]["n_realisations"]))]
