@@ -106,6 +106,13 @@ class Layered:
         return Layered(kept, self.base, self.name)
 
     @property
+    def bare(self) -> Layered:
+        """The reduced body with nothing but its elastic constants, so that equal ones deform alike and the reverse."""
+        reduced = self.reduced
+        layers = [Layer(_constants(layer.material), layer.thickness, layer.interface) for layer in reduced.layers]
+        return Layered(layers, _constants(reduced.base) if isinstance(reduced.base, Elastic) else reduced.base)
+
+    @property
     def surface_material(self) -> Base:
         """Material at the surface: of the first layer that is there at all, or the base."""
         reduced = self.reduced
@@ -115,3 +122,7 @@ class Layered:
     def thickness(self) -> float:
         """Sum of the thicknesses of all layers in m."""
         return sum(layer.thickness for layer in self.layers)
+
+
+def _constants(material: Elastic) -> Elastic:
+    return Elastic(material.youngs_modulus, material.poisson_ratio)

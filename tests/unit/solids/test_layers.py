@@ -47,6 +47,17 @@ def test_layers_are_frozen_and_equal_by_value():
     assert body.thickness == pytest.approx(1.5e-8, rel=1e-15)
 
 
+def test_compliances_are_equal_where_elastic_constants_are():
+    """Names, sources and strengths (nan where unknown) do not count, so prepared operators serve equal bodies."""
+    one = asp.Layered([asp.Layer(asp.material("DLC"), 5e-9), asp.Layer(SOFT, 0.0)], asp.material("steel"), name="disk")
+    steel = asp.material("steel")
+    plain = asp.Elastic(steel.youngs_modulus, steel.poisson_ratio, asp.Strength(yield_stress=float("nan")))
+    other = asp.Layered([asp.Layer(asp.material("DLC"), 5e-9)], plain)
+    assert contact_compliance(one, asp.Rigid()) == contact_compliance(other, asp.Rigid())
+    thicker = asp.Layered([asp.Layer(asp.material("DLC"), 6e-9)], plain)
+    assert contact_compliance(one, asp.Rigid()) != contact_compliance(thicker, asp.Rigid())
+
+
 def test_what_takes_part():
     body = asp.Layered(
         [asp.Layer(SOFT, 0.0), asp.Layer(HARD, 1e-9), asp.Layer(SOFT, math.inf), asp.Layer(HARD, 1.0)], BASE

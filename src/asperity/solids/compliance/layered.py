@@ -20,7 +20,7 @@ from .samples import Samples, samples
 
 @dataclass(frozen=True)
 class LayerStack:
-    """Compliance of ``body``, which has at least one layer of finite thickness.
+    """Compliance of ``body``, which has at least one layer of finite thickness; names and strengths are left out of it.
 
     The spectrum of a large map is interpolated between a few hundred wavenumbers, equal steps in their logarithm apart, with
     a relative error below 1e-13: a map of 1024² points costs about two Fourier transforms, whatever the number of layers.
@@ -28,6 +28,9 @@ class LayerStack:
     """
 
     body: Layered
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "body", self.body.bare)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -47,12 +50,11 @@ class LayerStack:
 
         Without lateral strain each layer gives h/M, M = 2G (1 - nu)/(1 - 2nu).
         """
-        reduced = self.body.reduced
-        if isinstance(reduced.base, Elastic):
+        if isinstance(self.body.base, Elastic):
             return 0.0
         return sum(
             layer.thickness * (1.0 - 2.0 * nu) / (2.0 * layer.material.shear_modulus * (1.0 - nu))
-            for layer in reduced.layers
+            for layer in self.body.layers
             for nu in (layer.material.poisson_ratio,)
         )
 
@@ -66,7 +68,7 @@ class LayerStack:
 
     @cached_property
     def _samples(self) -> Samples:
-        return samples(self.body, self.body.reduced.thickness)
+        return samples(self.body, self.body.thickness)
 
     @cached_property
     def _point(self) -> PointKernel:
