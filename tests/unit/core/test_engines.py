@@ -182,7 +182,6 @@ def test_a_face_is_worked_on_alike(engine: Engine, shape: tuple[int, int], cap: 
         "sums",
         "moved",
         "loads",
-        "segment",
         "blended",
         "changed",
     ):
@@ -220,11 +219,11 @@ def work_on_face(engine: Engine, case: Iterate, dtype: str, centred: bool) -> Si
     seen.moved = engine.numpy(p).copy()
     raised = face.scale(p, 1.25, 0.125, cap)
     seen.loads = [total, *values_of(found), *values_of(raised)]
-    seen.segment = face.segment(old, p, u, h, case.level, response)
     face.blend(old, 0.25, p)
     seen.blended = engine.numpy(p).copy()
-    face.lay_change(old, p, field)
-    seen.changed = engine.numpy(field).copy()
+    change, product = face.lay_change(old, p, r, field)
+    seen.changed = [engine.numpy(field).copy(), laid(change)]
+    seen.sums.append(product)
     engine.release(face, field)
     seen.released = engine.numpy(field)
     return seen
@@ -250,9 +249,10 @@ def test_a_step_on_a_face_is_what_it_says(cap: str) -> None:
     below = inside & (wanted < bound)
     assert clipped == np.count_nonzero(inside & ((free < 0.0) | (free > bound)))
     assert found == Load(pytest.approx(wanted[inside].sum()), pytest.approx(wanted[below].sum()), below.sum())
-    change, at = wanted - case.p, case.u - case.h - case.level
-    products = (change * at).sum(), (change * np.cos(u)).sum()
-    assert face.segment(old, q, u, h, case.level, np.cos(u)) == pytest.approx(products)
+    change, product = face.lay_change(old, q, r, field)
+    np.testing.assert_allclose(field, wanted - case.p, atol=1e-15)
+    assert product == pytest.approx(((wanted - case.p) * -(case.u - case.h - case.level)).sum())
+    np.testing.assert_array_equal(change, field[inside])
     face.scale(q, 2.0, 0.5, flat)
     np.testing.assert_allclose(q, np.where(below, np.minimum(2.0 * wanted + 0.5, bound), wanted), atol=1e-15)
 

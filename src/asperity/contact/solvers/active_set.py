@@ -114,24 +114,14 @@ class ActiveSet:
         face = memory.survey.face(level, qp.height_scale, tools.dtype)
         r, last = face.residual(centred=centred), _carried(memory, face)
         effort = self._effort(memory, face, state.error)
-        d, pairs, last, _ = correction(tools, face, r, last, effort, centred=centred)
-        work.engine.release(face, tools.field)
+        d, pairs, last, _ = correction(tools, face, face.residual(centred=centred), last, effort, centred=centred)
         spent = replace(state, iterations=state.iterations + 1, extra_pairs=state.extra_pairs + pairs)
         if d is None:
+            work.engine.release(face, tools.field)
             return self._gradient_step(memory, spent)
-        p = work.pressure
-        old, load = face.pick(p)
-        found, clipped = face.move(p, d, qp.height_scale / tools.scale, work.cap)
-        if isinstance(qp.constraint, FixedMean):
-            missing = qp.constraint.mean_pressure * qp.profile.size - memory.survey.totals.pressure
-            _restore_load(face, p, work.cap, found, max(load + missing, 0.0))
-        face.lay_change(old, p, tools.field)
-        tools.fast.apply(tools.field, tools.response)
+        clipped, share = _move(work, face, d, r, memory.survey.totals.pressure)
         work.engine.release(face, tools.field)
         spent = replace(spent, applications=spent.applications + 1)
-        share = _share(*face.segment(old, p, work.deflection, work.heights, level, tools.response), tools.scale)
-        if share < 1.0:
-            face.blend(old, share if share >= _LEAST_SHARE else 0.0, p)
         if share < _LEAST_SHARE:
             return self._gradient_step(memory, spent)
         work.engine.add(tools.response, share * tools.scale, work.deflection)
@@ -190,12 +180,30 @@ def _carried(memory: _Memory, face: Face) -> Direction | None:
     return carried(memory.work.bench, face, memory.last)
 
 
-def _share(slope: float, reaction: float, scale: float) -> float:
-    """How far to go along a step so that the energy falls: all the way, or to its minimum on the way.
+def _move(work: Workspace, face: Face, d: Any, r: Any, total: float) -> tuple[int, float]:
+    """Add ``d``, clipped and scaled to the load, to the pressure of sum ``total``: points clipped, share of the step taken.
 
-    ``slope`` of the energy at the beginning; ``reaction`` times ``scale`` is the curvature.
+    The deflection by the whole step is left in the response of the bench. The energy falls: it changes by
+    -r·step + step·K step / 2, ``r`` being the residual on the ``face``, and the step is shortened to its minimum.
     """
-    curvature = reaction * scale
+    qp, tools, p = work.qp, work.bench, work.pressure
+    old, load = face.pick(p)
+    found, clipped = face.move(p, d, qp.height_scale / tools.scale, work.cap)
+    if isinstance(qp.constraint, FixedMean):
+        missing = qp.constraint.mean_pressure * qp.profile.size - total
+        _restore_load(face, p, work.cap, found, max(load + missing, 0.0))
+    change, along = face.lay_change(old, p, r, tools.field)
+    tools.fast.apply(tools.field, tools.response)
+    reaction = face.gather(tools.response, change, change, d).first
+    share = _share(-along * qp.height_scale, reaction * tools.scale)
+    if share < 1.0:
+        share = share if share >= _LEAST_SHARE else 0.0
+        face.blend(old, share, p)
+    return clipped, share
+
+
+def _share(slope: float, curvature: float) -> float:
+    """How far to go along a step of this ``slope`` and ``curvature`` of the energy: all the way, or to its minimum."""
     if slope + 0.5 * curvature <= 0.0:
         return 1.0
     return -slope / curvature if slope < 0.0 else 0.0

@@ -118,24 +118,25 @@ def deflect(span, levels, weights, shape, rows, index, values, g, s):  # type: i
 
 @compiled
 def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
-    """out = values - mean over hierarchies of the deflections in s; per row of points: sums of out, with values, other."""
-    share = s.dtype.type(1.0 / levels.shape[0])
+    """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
+    half = s.dtype.type(0.5)
+    one, two = levels[0, 1], levels[1, 1]
     for row in range(span[0], span[1]):
-        first, last = rows[row], rows[row + 1]
-        for hierarchy in range(levels.shape[0]):
-            level = levels[hierarchy, 1]
-            base = level[START] + ((row + level[OFFSET_X]) >> level[MERGE_X]) * level[STRIDE]
-            shift = level[OFFSET_Y] - row * shape[1]
-            given = values if hierarchy == 0 else out
-            for k in range(first, last):
-                out[k] = given[k] - share * s[base + ((index[k] + shift) >> level[MERGE_Y])]
+        base_one = one[START] + ((row + one[OFFSET_X]) >> one[MERGE_X]) * one[STRIDE]
+        base_two = two[START] + ((row + two[OFFSET_X]) >> two[MERGE_X]) * two[STRIDE]
+        shift_one, shift_two = one[OFFSET_Y] - row * shape[1], two[OFFSET_Y] - row * shape[1]
+        merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
         total = 0.0
         with_values = 0.0
         with_other = 0.0
-        for k in range(first, last):
-            total += out[k]
-            with_values += np.float64(out[k]) * values[k]
-            with_other += np.float64(out[k]) * other[k]
+        for k in range(rows[row], rows[row + 1]):
+            i = index[k]
+            d = s[base_one + ((i + shift_one) >> merge_one)] + s[base_two + ((i + shift_two) >> merge_two)]
+            z = values[k] - half * d
+            out[k] = z
+            total += z
+            with_values += np.float64(z) * values[k]
+            with_other += np.float64(z) * other[k]
         sums[row, 0] = total
         sums[row, 1] = with_values
         sums[row, 2] = with_other

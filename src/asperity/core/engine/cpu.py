@@ -53,7 +53,7 @@ class CpuEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads), kernel, dtype)
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> Cells:
+    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
         """Nested cells."""
         return CpuCells(self.blocks, shape, hierarchies, dtype)
 

@@ -18,7 +18,9 @@ _MANY = 1 << 15
 class CpuCells:
     """Exact inverse of nested cells on a working set (see ``cell_kernels``), a hierarchy per thread."""
 
-    def __init__(self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> None:
+    def __init__(
+        self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
+    ) -> None:
         self._blocks = blocks
         self._shape = shape
         self._levels, size = _layout(shape, hierarchies)
@@ -49,7 +51,7 @@ class CpuCells:
         self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < _MANY)
 
 
-def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...]) -> tuple[Any, int]:
+def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
     """Table ``levels`` of ``cell_kernels`` (hierarchy, level, column) and the memory in elements."""
     levels = np.zeros((len(hierarchies), len(hierarchies[0]) + 1, 8), np.int64)
     end = 0

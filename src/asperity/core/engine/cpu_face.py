@@ -50,7 +50,7 @@ class CpuFace:
         """Residual vector."""
         if centred and self.size:
             self.start[...] -= self.start.mean(dtype=np.float64)
-        return self.start
+        return self.start.copy()
 
     def zeros(self) -> RealArray:
         """Vector of zeros."""
@@ -60,9 +60,11 @@ class CpuFace:
         """Lay ``values`` out in the field."""
         self._run("scatter", self.place(field), values, memory(field))
 
-    def lay_change(self, old: RealArray, values: RealArray, field: RealArray) -> None:
+    def lay_change(self, old: RealArray, values: RealArray, r: RealArray, field: RealArray) -> tuple[RealArray, float]:
         """Lay ``values`` - ``old`` out in the field."""
-        self._run("scatter_change", self.index, self.place(field), old, values.ravel(), memory(field))
+        change = np.empty_like(r)
+        arguments = (self.index, self.place(field), old, values.ravel(), r, change, memory(field))
+        return change, self._sums("lay_change", 1, *arguments)[0]
 
     def gather(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
         """Vector of ``field`` in ``out``."""
@@ -88,7 +90,7 @@ class CpuFace:
     def pick(self, values: RealArray) -> tuple[RealArray, float]:
         """Vector of ``values`` and its sum."""
         out = np.empty(self.size, values.dtype)
-        return out, self._sums("pick_sum", 1, self.index, values.ravel(), out)[0]
+        return out, self._sums("pick", 1, self.index, values.ravel(), out)[0]
 
     def blend(self, old: RealArray, share: float, values: RealArray) -> None:
         """values = old + share (values - old)."""
@@ -103,14 +105,6 @@ class CpuFace:
         """p = factor p + shift below the cap, clipped."""
         total, movable, below = self._sums("scale", 3, self.index, p.ravel(), factor, shift, bound(cap))
         return Load(total, movable, int(below))
-
-    def segment(
-        self, old: RealArray, p: RealArray, u: RealArray, h: RealArray, level: float, field: RealArray
-    ) -> tuple[float, float]:
-        """Products of the change of pressure with u - h - level and with the field."""
-        arguments = (self.index, self.place(field), old, p.ravel(), u.ravel(), h.ravel(), level, memory(field))
-        slope, curvature = self._sums("segment", 2, *arguments)
-        return slope, curvature
 
     def _run(self, kernel: str, *arguments: Any) -> None:
         self.blocks.run(getattr(self.blocks.face_kernels, kernel), self.size, *arguments)

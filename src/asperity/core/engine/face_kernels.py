@@ -26,10 +26,16 @@ def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def scatter_change(span, index, place, old, values, field):  # type: ignore[no-untyped-def]
-    """field[place] = values[index] - old."""
-    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
-        field[place[k]] = values[index[k]] - old[k]
+def lay_change(span, index, place, old, values, r, change, field, sums):  # type: ignore[no-untyped-def]
+    """field[place] = change = values[index] - old; per block: sum change·r."""
+    for b in range(span[0], span[1]):
+        product = 0.0
+        for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
+            step = values[index[k]] - old[k]
+            change[k] = step
+            field[place[k]] = step
+            product += np.float64(step) * r[k]
+        sums[b, 0] = product
 
 
 @compiled
@@ -72,7 +78,7 @@ def advance(span, length, t, kt, mean, d, r):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def pick_sum(span, index, values, out, sums):  # type: ignore[no-untyped-def]
+def pick(span, index, values, out, sums):  # type: ignore[no-untyped-def]
     """out = values[index]; per block: their sum."""
     for b in range(span[0], span[1]):
         total = 0.0
@@ -130,21 +136,6 @@ def scale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-
         sums[b, 0] = total
         sums[b, 1] = movable
         sums[b, 2] = below
-
-
-@compiled
-def segment(span, index, place, old, p, u, h, level, field, sums):  # type: ignore[no-untyped-def]
-    """Per block over the change of p[index] from old: its products with u - h - level and with field[place]."""
-    for b in range(span[0], span[1]):
-        slope = 0.0
-        curvature = 0.0
-        for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
-            i = index[k]
-            change = np.float64(p[i]) - old[k]
-            slope += change * (u[i] - np.float64(h[i]) - level)
-            curvature += change * field[place[k]]
-        sums[b, 0] = slope
-        sums[b, 1] = curvature
 
 
 @compiled

@@ -54,7 +54,7 @@ class ArrayEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self._library, kernel, shape, padded, dtype)
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> Cells:
+    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
         """Nested cells."""
         return ArrayCells(self._library, hierarchies, dtype)
 

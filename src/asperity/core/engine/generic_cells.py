@@ -12,7 +12,7 @@ from .protocol import Face, Hierarchy, Merge, Products
 class ArrayCells:
     """Exact inverse of nested cells on a working set."""
 
-    def __init__(self, library: Library, hierarchies: tuple[Hierarchy, ...], dtype: str) -> None:
+    def __init__(self, library: Library, hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> None:
         self._library = library
         self._hierarchies = hierarchies
         self._dtype = dtype

@@ -34,9 +34,11 @@ class ArrayFace:
         """Lay ``values`` out in the field."""
         field[...] = values
 
-    def lay_change(self, old: Any, values: Any, field: Any) -> None:
+    def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
         """Lay ``values`` - ``old`` out in the field."""
-        field[...] = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
+        change = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
+        field[...] = change
+        return change, self.library.numbers([self._sum(change * r)])[0]
 
     def gather(self, field: Any, a: Any, b: Any, out: Any) -> Products:
         """Vector of ``field``."""
@@ -87,14 +89,6 @@ class ArrayFace:
             moved = self.library.xp.where(p < most, moved, p)
         self._put(moved, p)
         return self._load(p, cap)
-
-    def segment(self, old: Any, p: Any, u: Any, h: Any, level: float, field: Any) -> tuple[float, float]:
-        """Products of the change of pressure with u - h - level and with the field."""
-        change = self.library.select(self.inside, p - old)
-        products = [self._sum(change * (u - h - float(level)))]
-        products.append(self._sum(change * self.library.xp.astype(field, change.dtype)))
-        slope, curvature = self.library.numbers(products)
-        return slope, curvature
 
     def _put(self, vector: Any, values: Any) -> None:
         values[...] = self.library.xp.where(self.inside, vector, values)

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from ..arrays import RealArray
 
-
 NEAR_CAP = 1.0 - 1e-14
 """Share of its cap from which on a pressure that is scaled counts as being at the cap."""
 
@@ -101,7 +100,7 @@ class Face(Protocol):
         """Number of points that enter from a bound."""
 
     def residual(self, *, centred: bool) -> Any:
-        """Vector (level - r) / scale, freed of its mean if ``centred``."""
+        """New vector (level - r) / scale, freed of its mean if ``centred``."""
 
     def zeros(self) -> Any:
         """Vector of zeros."""
@@ -109,8 +108,11 @@ class Face(Protocol):
     def lay(self, values: Any, field: Any) -> None:
         """Lay the vector ``values`` out in the field of the convolution."""
 
-    def lay_change(self, old: Any, values: Any, field: Any) -> None:
-        """Lay ``values`` - ``old`` out in the field, ``old`` being what ``pick`` gave of ``values`` before a change."""
+    def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """Vector ``values`` - ``old``, also laid out in the field, and its product with r.
+
+        ``old`` is what ``pick`` gave of the array ``values`` before a change.
+        """
 
     def gather(self, field: Any, a: Any, b: Any, out: Any) -> Products:
         """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
@@ -133,12 +135,9 @@ class Face(Protocol):
     def scale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
         """factor p + shift where p is below the cap, clipped to it, in place; the load afterwards."""
 
-    def segment(self, old: Any, p: Any, u: Any, h: Any, level: float, field: Any) -> tuple[float, float]:
-        """Products of the change of pressure since ``old`` with u - h - level and with the field."""
-
 
 class Cells(Protocol):
-    """Exact inverse of a compliance of nested cells on a working set; the mean over several hierarchies."""
+    """Exact inverse of a compliance of nested cells on a working set; the mean over two hierarchies."""
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
@@ -185,7 +184,7 @@ class Engine(Protocol):
     ) -> Convolution:
         """Free convolution: fields of ``shape`` zero-padded to ``padded``, where ``kernel`` lives."""
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, ...], dtype: str) -> Cells:
+    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
         """Nested cells on points of ``shape``, for vectors of the precision ``dtype``."""
 
     def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
