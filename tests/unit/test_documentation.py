@@ -48,6 +48,16 @@ def test_the_examples_of_loading_and_unloading(scan):
     assert names["result"].mean_pressure == pytest.approx(500e6)
 
 
+def test_the_examples_of_layered_bodies(scan, capsys):
+    names = {"scan": scan, "np": np}
+    for number, code in enumerate(blocks(ROOT / "docs/how-to/layered-bodies.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["result"].area_fraction > names["bare"].area_fraction, "DLC is softer than steel here"
+    assert names["line"].converged
+    assert 0.0 < names["line"].contact_area < 2e-6
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
 def test_the_problem_document_of_the_guide_is_valid():
     (text,) = blocks(ROOT / "docs/how-to/problem-document.md", "toml")
     assert loads(text).title == "Two rough bodies"
