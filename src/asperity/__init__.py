@@ -37,9 +37,13 @@ from .solids.layers import Layer, Layered, RigidBase
 from .solids.library import material, materials
 from .solids.strength import Strength
 from .stress.compute import stress, stress_planes
+from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
+from .stress.fracture import fracture_indicators
+from .stress.sampling import depths_through
 from .stress.tractions import ShearTraction, Sliding
 from .stress.where import DepthProfile, Everywhere, Section
+from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
@@ -85,7 +89,9 @@ __all__ = [
     "Layer",
     "Layered",
     "LinearGrading",
+    "LoadAtYield",
     "LoadPath",
+    "MaxPrincipal",
     "MeanGap",
     "MeanPressure",
     "NoSolutionError",
@@ -101,7 +107,10 @@ __all__ = [
     "Strength",
     "StressField",
     "Surface",
+    "Tresca",
     "UnitError",
+    "VonMises",
+    "YieldReport",
     "__version__",
     "advise",
     "channels",
@@ -110,13 +119,17 @@ __all__ = [
     "composite",
     "contact_modulus",
     "cropped",
+    "depths_through",
     "export_csv",
     "export_vtk",
     "filled",
+    "first_yield",
+    "fracture_indicators",
     "generate",
     "graded",
     "levelled",
     "load",
+    "load_at_yield",
     "material",
     "materials",
     "mean_absolute_height",

@@ -55,6 +55,7 @@ REFERENCES = {
     "Sanner2022": "Sanner, A., Nohring, W. G., Thimons, L. A., Jacobs, T. D. B., Pastewka, L. (2022). Scale-dependent roughness parameters for topography analysis. Applied Surface Science Advances 7, 100190.",
     "Schreiber1996": "Schreiber, T., Schmitz, A. (1996). Improved surrogate data for nonlinearity tests. Physical Review Letters 77, 635-638.",
     "Stanley1997": "Stanley, H. M., Kato, T. (1997). An FFT-based method for rough surface contact. Journal of Tribology 119, 481-485.",
+    "Tabor1951": "Tabor, D. (1951). The Hardness of Metals. Clarendon Press, Oxford.",
     "Tan2006": "Tan, E. L. (2006). Hybrid compliance-stiffness matrix method for stable analysis of elastic wave propagation in multilayered anisotropic media. Journal of the Acoustical Society of America 119, 45-53.",
     "Tian1996": "Tian, X., Bhushan, B. (1996). A numerical three-dimensional model for the contact of rough surfaces by variational principle. Journal of Tribology 118, 33-42.",
     "Tuenter2001": "Tuenter, H. J. H. (2001). An algorithm to determine the parameters of SU-curves in the Johnson system of probability distributions by moment matching. Journal of Statistical Computation and Simulation 70, 325-347.",

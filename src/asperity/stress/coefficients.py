@@ -156,7 +156,7 @@ class PlaneCoefficients:
         """Point kernels by name (see ``SPECTRA``), in the outermost region less those of a homogeneous body."""
         length = self.body.thickness
         alpha = wavenumber_grid(length)
-        spectra = self._spectra(alpha)
+        spectra = self.spectra(alpha)
         nu = self.plane.region.material.poisson_ratio
         kernels = {}
         for name in names:
@@ -165,8 +165,8 @@ class PlaneCoefficients:
             kernels[name] = point_kernel(values, Limits(0.0, float(values[0]), length), order)
         return kernels
 
-    def _spectra(self, alpha: RealArray) -> Transfer:
-        """Transfer to the plane; in the outermost region less that of a homogeneous body."""
+    def spectra(self, alpha: RealArray) -> Transfer:
+        """Transfer to the plane at wavenumbers ``alpha`` (rad/m); in the outermost region less that of a homogeneous body."""
         found = transfer(self.body, self.plane, alpha)
         if not self._outermost:
             return found

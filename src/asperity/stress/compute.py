@@ -191,7 +191,8 @@ class StressPlanes:
 
     def _field(self, sections: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
         place = self._place
-        return StressField(sections, tensor, moved, place.x, place.y, ("plane", *place.dims), self.citation_keys)
+        dims = ("plane", *place.dims)
+        return StressField(sections, tensor, moved, place.x, place.y, dims, self._grid.spacing, self.citation_keys)
 
 
 def _source(tractions: Tractions, body: object, dtype: str, threads: int | None) -> Planes:

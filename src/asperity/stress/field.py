@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,6 +56,8 @@ class StressField:
         Coordinates of the points in m.
     dims
         Names of the axes of the arrays: "plane", then "x" and "y" as far as they are left.
+    spacing
+        Grid spacing (dx, dy) in m.
     citation_keys
         Keys of the papers the numbers rest on.
     """
@@ -65,6 +68,7 @@ class StressField:
     x: RealArray
     y: RealArray
     dims: tuple[str, ...]
+    spacing: tuple[float, float]
     citation_keys: tuple[str, ...] = ()
 
     @property
@@ -186,8 +190,13 @@ class StressField:
         planes = tuple(self.planes[k] for k in keep)
         return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[pick]), displacement=moved)
 
-    def peak(self, values: RealArray) -> Peak:
-        """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place.
+    @property
+    def cell(self) -> float:
+        """What one point of a plane stands for: m² on whole planes, m on a section, 1 on a depth profile."""
+        return math.prod(step for step, axis in zip(self.spacing, "xy", strict=True) if axis in self.dims)
+
+    def peak(self, values: RealArray, plane: int | None = None) -> Peak:
+        """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place; on one ``plane`` or on all.
 
         Raises
         ------
@@ -198,8 +207,11 @@ class StressField:
             raise InputError(
                 f"values of a peak must have the shape {self.tensor.xx.shape} of the field, but have {values.shape}."
             )
-        index = np.unravel_index(int(np.argmax(values)), values.shape)
-        plane = self.planes[int(index[0])]
-        at = dict(zip(self.dims[1:], index[1:], strict=True))
+        first, searched = (0, values) if plane is None else (plane, values[plane : plane + 1])
+        number, *index = np.unravel_index(int(np.argmax(searched)), searched.shape)
+        number += first
+        section = self.planes[number]
+        at = dict(zip(self.dims[1:], index, strict=True))
         x, y = (float(line[at[axis]]) if axis in at else float(line) for axis, line in (("x", self.x), ("y", self.y)))
-        return Peak(float(values[index]), x, y, plane.depth, plane.region, plane.side)
+        value = float(values[(number, *index)])
+        return Peak(value, x, y, section.depth, section.region, section.side)

@@ -94,7 +94,7 @@ def _in_blocks(function: Callable[[StressTensor], RealArray], s: StressTensor, s
     for first in range(0, points.xx.size, _BLOCK):
         block = slice(first, first + _BLOCK)
         out[..., block] = function(points.map(lambda component, block=block: component[block]))  # type: ignore[misc]
-    shaped: RealArray = out.reshape(*shape, *s.xx.shape)
+    shaped: RealArray = out.reshape(*shape, *np.shape(s.xx))
     return shaped
 
 

@@ -1,4 +1,4 @@
-"""Fields on planes under a periodic load: multiplication in Fourier space, plane by plane (handbook of the theory page).
+"""Fields on planes under a periodic load: multiplication in Fourier space, plane by plane.
 
 The transforms of the tractions are made once; a plane costs its spectra and one inverse transform for each component.
 """

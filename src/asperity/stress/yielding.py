@@ -1,0 +1,201 @@
+"""Onset of yield: where a body fails first, at how many times the stress, and how much of it is beyond its strength."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError, NoSolutionError
+from .criteria import Criterion, Limit, VonMises
+from .field import Peak, StressField
+from .regions import Region
+
+
+@dataclass(frozen=True, eq=False)
+class RegionYield:
+    """State of one region against its strength.
+
+    Attributes
+    ----------
+    region
+        The layer or substrate.
+    limit
+        Its strength; NaN where unknown.
+    peak
+        Largest equivalent stress in Pa, and where.
+    load_factor
+        Strength over that stress: the factor on all stresses at which the region begins to yield. NaN where the
+        strength is unknown.
+    yielded_volume
+        Volume in m³ (area in m² of a section, length in m of a profile) where the equivalent stress exceeds the strength:
+        pixels counted on each plane, trapezoidal rule between the planes.
+    """
+
+    region: Region
+    limit: Limit
+    peak: Peak
+    load_factor: float
+    yielded_volume: float
+
+    @property
+    def place(self) -> str:
+        """Where the peak lies, for people."""
+        side = self.peak.side
+        if side in ("surface", "inside"):
+            return f"{side} of {self.region.name}" if side == "surface" else f"inside {self.region.name}"
+        return f"interface at {'the lower' if side == 'above' else 'the upper'} side of {self.region.name}"
+
+
+@dataclass(frozen=True, eq=False)
+class YieldReport:
+    """Onset of yield in a stress field, region by region.
+
+    The load factor scales the stresses of one contact. A load changes the contact itself unless its area is full or it
+    is a bonded one, so for a rough contact or a sphere the factor is no factor on the load; ``load_at_yield`` finds that
+    by solving again.
+    """
+
+    criterion: Criterion
+    regions: tuple[RegionYield, ...]
+
+    @property
+    def first(self) -> RegionYield | None:
+        """The region that yields first; None where no strength is known."""
+        known = [part for part in self.regions if not math.isnan(part.load_factor)]
+        return min(known, key=lambda part: part.load_factor) if known else None
+
+    @property
+    def load_factor(self) -> float:
+        """Factor on all stresses at which the body begins to yield; NaN where no strength is known."""
+        return math.nan if self.first is None else self.first.load_factor
+
+    @property
+    def yields(self) -> bool:
+        """Whether some point is at its strength or beyond."""
+        return self.load_factor <= 1.0
+
+
+def first_yield(fields: StressField | Iterable[StressField], criterion: Criterion = VonMises()) -> YieldReport:
+    """Where and at what multiple of the stresses a body begins to yield.
+
+    Parameters
+    ----------
+    fields
+        A stress field, or the planes of one from ``stress_planes``, of which only one is held at a time.
+    criterion
+        ``VonMises()``, ``Tresca()``, ``MaxPrincipal(strength)`` or anything alike.
+
+    Raises
+    ------
+    InputError
+        If there are no fields.
+    """
+    parts: dict[Region, _Gathered] = {}
+    for field in [fields] if isinstance(fields, StressField) else fields:
+        equivalent = criterion.equivalent(field.tensor)
+        for number, plane in enumerate(field.planes):
+            part = parts.setdefault(plane.region, _Gathered(criterion.limit(plane.region.material)))
+            part.add(field, equivalent, number)
+    if not parts:
+        raise InputError("fields of a yield report must hold at least one plane, but are empty.")
+    return YieldReport(criterion, tuple(part.report(region) for region, part in parts.items()))
+
+
+class _Gathered:
+    """What is known of one region so far."""
+
+    def __init__(self, limit: Limit) -> None:
+        self.limit = limit
+        self.peak: Peak | None = None
+        self.depths: list[float] = []
+        self.extents: list[float] = []
+
+    def add(self, field: StressField, equivalent: RealArray, number: int) -> None:
+        """Take in one plane."""
+        peak = field.peak(equivalent, plane=number)
+        if self.peak is None or peak.value > self.peak.value:
+            self.peak = peak
+        beyond = np.count_nonzero(equivalent[number] > self.limit.value)
+        self.depths.append(field.planes[number].depth)
+        self.extents.append(float(beyond) * field.cell)
+
+    def report(self, region: Region) -> RegionYield:
+        """The region's entry."""
+        assert self.peak is not None
+        factor = self.limit.value / self.peak.value if self.peak.value > 0.0 else math.inf
+        order = np.argsort(self.depths, kind="stable")
+        volume = float(np.trapezoid(np.array(self.extents)[order], np.array(self.depths)[order]))
+        known = not math.isnan(self.limit.value)
+        return RegionYield(region, self.limit, self.peak, factor if known else math.nan, volume if known else math.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadAtYield:
+    """Load at which a body begins to yield, in the unit that the caller's function takes; the report there.
+
+    ``evaluations`` is the number of contacts solved on the way.
+    """
+
+    load: float
+    report: YieldReport
+    evaluations: int
+
+
+def load_at_yield(
+    field_at: Callable[[float], StressField | Iterable[StressField]],
+    load: float,
+    *,
+    criterion: Criterion = VonMises(),
+    tolerance: float = 1e-3,
+    max_evaluations: int = 30,
+) -> LoadAtYield:
+    """Load at which a body begins to yield, found by computing the stress at other loads.
+
+    Parameters
+    ----------
+    field_at
+        Stress field at a given load, for example
+        ``lambda force: asp.stress(asp.solve(problem, asp.Force(force)), depths)``.
+    load
+        First guess, > 0.
+    criterion
+        As for ``first_yield``.
+    tolerance
+        Relative error of the load factor (that is, of the stress) at which to stop.
+    max_evaluations
+        Largest number of loads tried.
+
+    Notes
+    -----
+    Secants in the logarithms of load and factor, from the exponent 1/3 of a Hertz contact. The depths must hold the
+    place of first yield at every load, and be fine enough for the accuracy asked for.
+
+    Raises
+    ------
+    NoSolutionError
+        If no strength is known, or the load factor does not come near one.
+    """
+    require.positive(tolerance, "tolerance of a load at yield")
+    at, slope = math.log(require.positive(load, "first guess of the load at yield")), -1.0 / 3.0
+    previous: tuple[float, float] | None = None
+    for evaluation in range(1, require.integer(max_evaluations, 1, "number of loads tried") + 1):
+        report = first_yield(field_at(math.exp(at)), criterion)
+        if math.isnan(report.load_factor):
+            raise NoSolutionError("no material of the body has a known strength; give yield_stress or hardness.")
+        miss = math.log(report.load_factor) if math.isfinite(report.load_factor) else 3.0
+        if abs(miss) <= tolerance:
+            return LoadAtYield(math.exp(at), report, evaluation)
+        if previous is not None and previous[0] != at:
+            # the stress grows with the load, by some power between 1/20 and 2, else the two loads are too near to tell
+            slope = min(-0.05, max(-2.0, (miss - previous[1]) / (at - previous[0])))
+        previous = at, miss
+        at -= max(-5.0, min(5.0, miss / slope))
+    raise NoSolutionError(
+        f"no load at yield was found in {max_evaluations} loads; the last load factor is {report.load_factor:.4g}. "
+        "Check that the depths hold the place of first yield, or start nearer."
+    )
