@@ -17,6 +17,8 @@ from .structure import ScaleDependence, StructureFunction, scale_dependence, str
 from .summits import Summits, summits
 from .texture import AngularSpectrum, angular_spectrum
 
+_MODEL_ERROR = 0.1  # of power laws fitted to measured maps, which are not periodic
+
 
 @dataclass(frozen=True, eq=False)
 class Curves:
@@ -78,12 +80,13 @@ def measured_spectra(
     if power is None:
         return SpectralCurves(None, None, profiles, None, None, cutoff)
     reliable = 0.0 if math.isnan(cutoff) else cutoff
+    error = 0.0 if surface.periodic else _MODEL_ERROR
     return SpectralCurves(
         power,
         radial=radial_spectrum(power),
         profiles=profiles,
         angular=angular_spectrum(power),
-        fit=attempt("fitted spectrum", lambda: fit_spectrum(power, reliable_wavelength=reliable)),
+        fit=attempt("fitted spectrum", lambda: fit_spectrum(power, reliable_wavelength=reliable, model_error=error)),
         tip_cutoff=cutoff,
     )
 

@@ -111,7 +111,7 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
     require.positive(resolution, "resolution (m)")
     if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
         raise InputError(
-            f"structure function must be positive at three lags or more for a fractal dimension, but has {curve.lag.size} "
+            f"structure function must be positive at three lags or more for a fractal dimension, but has only {curve.lag.size} "
             f"along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. Name the lags, or use a finer map."
         )
     x, y = np.log(curve.lag / resolution), np.log(curve.value)

@@ -72,7 +72,7 @@ def fit_spectrum(
     slopes: int | None = None,
     floor: bool | None = None,
     reliable_wavelength: float = 0.0,
-    per_decade: int = 20,
+    model_error: float = 0.0,
 ) -> SpectralFit:
     """Fit ``spectrum`` by the shape that the Bayesian information criterion prefers.
 
@@ -85,8 +85,9 @@ def fit_spectrum(
         the criterion decides. A plateau of less than ten modes is found only if it is asked for.
     reliable_wavelength
         Shortest wavelength in m that the instrument resolves (see ``tip_cutoff``); shorter ones are left out.
-    per_decade
-        Rings per decade of wavenumber.
+    model_error
+        Relative error of the form itself, which no real surface has exactly; 0.1 keeps the thousands of short waves of a
+        measured map from ruling the fit, 0 suits surfaces that were generated with such a spectrum.
 
     Raises
     ------
@@ -96,21 +97,21 @@ def fit_spectrum(
     if slopes not in (None, 1, 2):
         raise InputError(f"number of power laws of a spectrum must be 1 or 2, but is {slopes!r}.")
     require.finite(reliable_wavelength, "shortest reliable wavelength (m)")
-    rings, cutoff = _usable(spectrum, reliable_wavelength, require.integer(per_decade, 4, "rings per decade"))
+    rings, cutoff = _usable(spectrum, reliable_wavelength)
     lost = LOST_MODES[spectrum.window] ** 2
-    found = _solutions(rings, (plateau, slopes, floor))
-    criteria = {item.shape.name: _criterion(item, rings, lost) for item in found}
+    weighed = _with_model_error(rings, lost, require.finite(model_error, "relative error of the model"))
+    found = _solutions(weighed, rings, (plateau, slopes, floor))
+    criteria = {item.shape.name: _criterion(item, weighed, lost) for item in found}
     best = min(found, key=lambda item: criteria[item.shape.name])
     model = replace(best.model(2.0 * math.pi / rings.low[0]), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
-    ratios = _ratios(model, rings)
     return SpectralFit(
         model,
-        best.errors(rings, lost),
+        best.errors(weighed, lost),
         first=float(rings.low[0]),
         last=float(rings.high[-1]),
         short_cutoff=cutoff,
-        mean_square_ratio=ratios[0],
-        slope_ratio=ratios[1],
+        mean_square_ratio=_ratio(model, rings, 0),
+        slope_ratio=_ratio(model, rings, 2),
         rings=rings,
         candidates={name: value - criteria[best.shape.name] for name, value in criteria.items()},
     )
@@ -121,21 +122,24 @@ def _criterion(item: Solution, rings: RadialSpectrum, lost: float) -> float:
     return item.deviance / lost + item.shape.parameters * math.log(0.5 * float(rings.modes.sum()))
 
 
-def _ratios(model: SpectralModel, rings: RadialSpectrum) -> tuple[float, float]:
-    """Mean square height and slope of ``model`` over those of the spectrum, in the range of ``rings``."""
-    weights = (rings.modes, rings.modes * rings.q**2)
-    at_rings = model.psd(rings.q)
-    height, slope = (float(weight @ at_rings / (weight @ rings.psd)) for weight in weights)
-    return height, slope
+def _ratio(model: SpectralModel, rings: RadialSpectrum, power: int) -> float:
+    """Mean square height (``power`` 0) or slope (2) of ``model`` over that of the spectrum, in the range of ``rings``."""
+    weight = rings.modes * rings.q**power
+    return float(weight @ model.psd(rings.q) / (weight @ rings.psd))
 
 
-def _usable(spectrum: PowerSpectrum, reliable_wavelength: float, per_decade: int) -> tuple[RadialSpectrum, float]:
+def _with_model_error(rings: RadialSpectrum, lost: float, error: float) -> RadialSpectrum:
+    """Rings that count as few modes as give their means the variance 2 ``lost``/N + ``error``² relative to C²."""
+    return replace(rings, modes=1.0 / (1.0 / rings.modes + error**2 / (2.0 * lost)))
+
+
+def _usable(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[RadialSpectrum, float]:
     """Rings that serve a fit, and the short cut-off wavelength (m, NaN if there is none)."""
     first = 0.0 if spectrum.window == "none" else _FIRST_WINDOWED * 2.0 * np.pi / min(spectrum.grid.size)
     last = _TOP * spectrum.nyquist
     if reliable_wavelength > 0.0:
         last = min(last, 2.0 * np.pi / reliable_wavelength)
-    edges = default_edges(spectrum, per_decade)
+    edges = default_edges(spectrum)
     edges = np.unique(np.clip(edges, max(first, edges[0]), max(last, edges[0])))
     rings = radial_spectrum(spectrum, edges) if edges.size > 1 else _empty(spectrum)
     cutoff = short_cutoff(spectrum, rings)
@@ -155,9 +159,11 @@ def _empty(spectrum: PowerSpectrum) -> RadialSpectrum:
     return RadialSpectrum(none, none, none, none, none, spectrum.window)
 
 
-def _solutions(rings: RadialSpectrum, wishes: tuple[bool | None, int | None, bool | None]) -> list[Solution]:
+def _solutions(
+    weighed: RadialSpectrum, rings: RadialSpectrum, wishes: tuple[bool | None, int | None, bool | None]
+) -> list[Solution]:
     """Fits of the shapes that agree with the ``wishes``; a plateau that was not asked for must be seen."""
-    found = [fitted_shape(rings, shape) for shape in SHAPES if _wanted(shape, wishes)]
+    found = [fitted_shape(weighed, shape) for shape in SHAPES if _wanted(shape, wishes)]
     return [item for item in found if wishes[0] is not None or _plateau_is_seen(item, rings)]
 
 
