@@ -57,6 +57,15 @@ def test_periodic_wave_gives_its_displacement(nx, ny, k):
     np.testing.assert_allclose(operator.apply(p), expected, rtol=0, atol=1e-12)
 
 
+@few
+@given(st.tuples(st.integers(1, 40), st.integers(1, 40)))
+def test_coarse_kernel_is_part_of_the_fine_one(shape):
+    """Every wave of the coarse grid is one of the fine grid, for even and odd numbers of points."""
+    coarse = prepared(shape, asp.Periodic()).coarsened
+    expected = asp.prepare_operator(coarse.compliance, coarse.grid, asp.Periodic())
+    np.testing.assert_allclose(coarse.kernel, expected.kernel, rtol=1e-13)
+
+
 def test_pressure_is_left_alone():
     for boundary in (asp.Periodic(), asp.Free()):
         p = np.random.default_rng(0).random((6, 6))

@@ -29,16 +29,20 @@ class PeriodicOperator:
         Periodic cell.
     engine
         Machine to compute on; the CPU with its default threads if not given.
+    kernel
+        Compliance (m/Pa) on the half spectrum of ``grid`` where it is known already.
     """
 
     pairs_per_application = 1.0
 
-    def __init__(self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None) -> None:
+    def __init__(
+        self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None, kernel: RealArray | None = None
+    ) -> None:
         self.grid = grid
         self.compliance = compliance
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
-        self.kernel = spectral_kernel(compliance, grid)
+        self.kernel = spectral_kernel(compliance, grid) if kernel is None else kernel
         self._prepared: dict[tuple[str, float], Convolution] = {}
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
 
@@ -55,8 +59,13 @@ class PeriodicOperator:
 
     @cached_property
     def coarsened(self) -> PeriodicOperator:
-        """Operator on the grid of half as many points per side."""
-        return PeriodicOperator(self.compliance, coarse_grid(self.grid), engine=self.engine)
+        """Operator on the grid of half as many points per side, whose waves are the longer half of those here."""
+        grid = coarse_grid(self.grid)
+        fine, (rows, columns) = self.grid.shape[0], grid.shape
+        row = np.arange(rows)
+        of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
+        kernel = self.kernel[of_wave, : columns // 2 + 1]
+        return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel)
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
