@@ -185,10 +185,15 @@ class StressField:
         if not keep:
             names = ", ".join(f"{part.index} ({part.name})" for part in self.regions)
             raise InputError(f"region of a stress field must be one of {names}, but is {region!r}.")
-        pick = np.array(keep)
-        moved = None if self.displacement is None else self.displacement.map(lambda component: component[pick])
+        moved = None if self.displacement is None else self.displacement.map(lambda component: component[keep])
         planes = tuple(self.planes[k] for k in keep)
-        return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[pick]), displacement=moved)
+        return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[keep]), displacement=moved)
+
+    def only(self, plane: int) -> StressField:
+        """The field of one plane, by its position; its arrays are views."""
+        part = slice(plane, plane + 1)
+        moved = None if self.displacement is None else self.displacement.map(lambda component: component[part])
+        return replace(self, planes=self.planes[part], tensor=self.tensor.map(lambda c: c[part]), displacement=moved)
 
     @property
     def cell(self) -> float:
