@@ -50,11 +50,15 @@ from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
 from .surfaces.characterise.summary import Characterisation, characterise
+from .surfaces.common_grid import SurfacePair, on_common_grid
 from .surfaces.pair import composite, turned_over
 from .surfaces.prepare.crop import cropped
 from .surfaces.prepare.fill import filled
+from .surfaces.prepare.filter import filtered
 from .surfaces.prepare.level import levelled
+from .surfaces.prepare.outliers import despiked, line_corrected
 from .surfaces.prepare.resample import resampled
+from .surfaces.prepare.tip import reliability_cutoff, tip_limited
 from .surfaces.prepare.window import periodised, tapered
 from .surfaces.read import channels, read
 from .surfaces.surface import Surface
@@ -109,6 +113,7 @@ __all__ = [
     "Strength",
     "StressField",
     "Surface",
+    "SurfacePair",
     "Tresca",
     "UnitError",
     "VonMises",
@@ -122,25 +127,30 @@ __all__ = [
     "contact_modulus",
     "cropped",
     "depths_through",
+    "despiked",
     "export_csv",
     "export_stress_vtk",
     "export_vtk",
     "filled",
+    "filtered",
     "first_yield",
     "fracture_indicators",
     "generate",
     "graded",
     "levelled",
+    "line_corrected",
     "load",
     "load_at_yield",
     "material",
     "materials",
     "mean_absolute_height",
+    "on_common_grid",
     "open_dataset",
     "peak_to_valley",
     "periodised",
     "prepare_operator",
     "read",
+    "reliability_cutoff",
     "resampled",
     "review",
     "rms_height",
@@ -157,6 +167,7 @@ __all__ = [
     "stress",
     "stress_planes",
     "tapered",
+    "tip_limited",
     "turned_over",
     "write_report",
 ]

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from ..core import units
 from ..surfaces.pair import turned_over
 from ..surfaces.prepare.crop import cropped
 from ..surfaces.prepare.fill import filled
+from ..surfaces.prepare.filter import filtered
 from ..surfaces.prepare.level import levelled
+from ..surfaces.prepare.outliers import despiked, line_corrected
 from ..surfaces.prepare.resample import resampled
+from ..surfaces.prepare.tip import tip_limited
 from ..surfaces.prepare.window import periodised, tapered
 from ..surfaces.read import read
 from ..surfaces.surface import Surface
 from .build_generated import build_generated
+from .quantities import si_values
 from .schemas import surfaces as tables
-from .schemas.preparation import Crop, Fill, Level, Resample, Step, Taper
+from .schemas.preparation import (
+    Crop,
+    Despike,
+    Fill,
+    Filter,
+    Level,
+    LineCorrect,
+    Periodise,
+    Resample,
+    Step,
+    Taper,
+    TipLimit,
+)
 
 _Table: TypeAlias = tables.SurfaceTable
 
@@ -47,17 +64,33 @@ def _prepared(surface: Surface, table: _Table) -> Surface:
 
 def prepared(surface: Surface, step: Step) -> Surface:
     """``surface`` after one preparation step."""
-    if isinstance(step, Level):
-        return levelled(surface, step.form)
-    if isinstance(step, Crop):
-        return cropped(surface, x=_interval(step.x), y=_interval(step.y))
-    if isinstance(step, Resample):
-        return resampled(surface, step.points)
-    if isinstance(step, Fill):
-        return filled(surface, step.method)
-    if isinstance(step, Taper):
-        return tapered(surface, step.width)
-    return periodised(surface)
+    carry_out: Callable[[Surface, Any], Surface] = _STEPS[type(step)]
+    return carry_out(surface, step)
+
+
+def _level(surface: Surface, step: Level) -> Surface:
+    return levelled(surface, (step.form or "plane") if step.degree is None else step.degree, robust=step.robust)
+
+
+def _filter(surface: Surface, step: Filter) -> Surface:
+    given = si_values(step)
+    cutoffs = {name: (given[name], given.get(f"{name}_y", given[name])) for name in ("short", "long") if name in given}
+    return filtered(surface, short=cutoffs.get("short"), long=cutoffs.get("long"), kind=step.kind, order=step.order)
+
+
+_STEPS: dict[type, Callable[[Surface, Any], Surface]] = {
+    Level: _level,
+    Crop: lambda surface, step: cropped(surface, x=_interval(step.x), y=_interval(step.y)),
+    Resample: lambda surface, step: resampled(surface, step.points),
+    Fill: lambda surface, step: filled(surface, step.method),
+    Despike: lambda surface, step: despiked(surface, step.threshold, window=step.window),
+    LineCorrect: lambda surface, step: line_corrected(surface, step.axis),
+    Filter: _filter,
+    TipLimit: lambda surface, step: tip_limited(surface, _length(step.radius)),
+    Taper: lambda surface, step: tapered(surface, step.width),
+    Periodise: lambda surface, _: periodised(surface),
+}
+"""What carries out each kind of step."""
 
 
 def _from_file(table: tables.FileSurface, folder: Path) -> Surface:

@@ -23,6 +23,7 @@ from asperity.io.documents import (
     relocated,
     save_document,
 )
+from asperity.io.schemas.body_text import body_from_text
 
 SMALL: Mapping[str, Any] = {
     "version": 1,
@@ -30,6 +31,10 @@ SMALL: Mapping[str, Any] = {
     "body": {"youngs_modulus": "100 GPa", "poisson_ratio": 0.3},
     "control": {"mean_pressure": "1 MPa"},
 }
+
+
+COATING = {"material": "DLC", "thickness": "5 nm"}
+GRADED = {"kind": "linear", "top": {"material": "TiN"}, "bottom": {"material": "steel"}, "thickness": "1 um"}
 
 
 def with_(**tables: Any) -> dict[str, Any]:
@@ -65,6 +70,16 @@ STEPS = st.one_of(
     ),
     st.fixed_dictionaries({"step": st.just("taper")}, optional={"width": st.floats(1e-6, 0.5)}),
     st.fixed_dictionaries({"step": st.just("periodise")}),
+    st.fixed_dictionaries({"step": st.just("level"), "degree": st.integers(0, 20)}, optional={"robust": st.booleans()}),
+    st.fixed_dictionaries(
+        {"step": st.just("despike")}, optional={"threshold": st.floats(0.1, 99.0), "window": st.sampled_from([3, 7])}
+    ),
+    st.fixed_dictionaries({"step": st.just("line_correct")}, optional={"axis": st.sampled_from("xy")}),
+    st.fixed_dictionaries(
+        {"step": st.just("filter"), "short": LENGTHS, "kind": st.sampled_from(["gaussian", "robust", "sharp"])},
+        optional={"long": LENGTHS, "short_y": LENGTHS, "order": st.integers(0, 2)},
+    ),
+    st.fixed_dictionaries({"step": st.just("tip_limit"), "radius": LENGTHS}),
 )
 
 
@@ -154,12 +169,46 @@ SURFACES = st.one_of(
     ),
     generated("particles", seed=SEEDS, matrix=SPECTRA, density=quantities("um**-2", "m**-2"), radius=LENGTHS),
 )
+CONSTANTS = {"youngs_modulus": PRESSURES, "poisson_ratio": st.floats(-0.99, 0.49)}
+STRENGTHS = {"hardness": PRESSURES, "yield_stress": PRESSURES, "name": TEXTS}
+INTERFACES = st.sampled_from(["bonded", "frictionless"])
+MATERIALS = st.fixed_dictionaries({"material": TEXTS}) | st.fixed_dictionaries(CONSTANTS, optional=STRENGTHS)
+LAYERS = st.one_of(
+    st.fixed_dictionaries({"material": TEXTS, "thickness": LENGTHS}, optional={"interface": INTERFACES}),
+    st.fixed_dictionaries(
+        {**CONSTANTS, "thickness": LENGTHS | st.just("0 nm")}, optional={**STRENGTHS, "kind": st.just("layer")}
+    ),
+    st.fixed_dictionaries(
+        {
+            "kind": st.sampled_from(["linear", "exponential"]),
+            "top": MATERIALS | st.just("steel"),
+            "bottom": MATERIALS,
+            "thickness": LENGTHS,
+        },
+        optional={"sublayers": COUNTS, "interface": INTERFACES},
+    ),
+    st.fixed_dictionaries(
+        {
+            "kind": st.just("power"),
+            "exponent": POSITIVE,
+            "top": MATERIALS,
+            "bottom": MATERIALS,
+            "thickness": LENGTHS,
+        },
+    ),
+)
+LINES_OF_TEXT = st.sampled_from(["DLC", "E=1GPa,nu=0.3,name=x", "DLC:5nm/Cr:2nm~/steel", "E=1GPa,nu=0.3:1um/rigid"])
 BODIES = st.one_of(
     st.fixed_dictionaries({"material": TEXTS}, optional={"materials_file": TEXTS}),
+    st.fixed_dictionaries(CONSTANTS, optional=STRENGTHS),
     st.fixed_dictionaries(
-        {"youngs_modulus": PRESSURES, "poisson_ratio": st.floats(-0.99, 0.49)},
-        optional={"hardness": PRESSURES, "yield_stress": PRESSURES, "name": TEXTS},
+        {
+            "layers": st.lists(LAYERS, min_size=1, max_size=4),
+            "base": MATERIALS | st.just({"rigid": True}) | st.just("rigid"),
+        },
+        optional={"materials_file": TEXTS, "name": TEXTS},
     ),
+    LINES_OF_TEXT,
 )
 CONTROLS = st.one_of(
     st.fixed_dictionaries({"mean_pressure": PRESSURES}),
@@ -186,7 +235,8 @@ DOCUMENTS = st.fixed_dictionaries(
         "title": st.text(st.characters(codec="utf-8"), max_size=20),
         "counter_surface": SURFACES.map(lambda table: {**table, "mirror": "x"}),
         "counter_body": BODIES | st.just({"rigid": True}),
-        "boundary": st.sampled_from([{"kind": "periodic"}, {"kind": "free"}]),
+        "boundary": st.sampled_from([{"kind": "periodic"}, {"kind": "free"}])
+        | st.fixed_dictionaries({"kind": st.just("line")}, optional={"datum": LENGTHS}),
         "law": LAWS,
         "solver": SOLVERS,
     },
@@ -286,7 +336,50 @@ def test_documents_do_not_change() -> None:
         ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than 0 and less than 1"),
         ({"solver": {"tolerance": float("nan")}}, "solver.tolerance must be a finite number"),
         ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number, but is 1.5."),
-        ({"boundary": {"kind": "open"}}, "boundary.kind must be 'periodic' or 'free', but is 'open'."),
+        ({"boundary": {"kind": "open"}}, "boundary.kind must be 'periodic', 'free' or 'line', but is 'open'."),
+        ({"boundary": {"kind": "free", "datum": "1 m"}}, "boundary.datum must be left out for the boundary free"),
+        ({"body": "DLC:5/steel"}, "body.layers[1].thickness must have a unit, such as \"5 nm\", but is '5'"),
+        ({"body": "DLC/steel"}, "body must give the thickness of every layer, such as DLC:5nm, but layer 1 is 'DLC';"),
+        ({"body": 5}, "body must be a table, but is 5."),
+        ({"body": {"layers": [COATING]}}, "body.base must be given together with layers"),
+        ({"body": {"layers": [], "base": "steel"}}, "body.layers must hold at least one layer, but is empty"),
+        (
+            {"body": {"base": "steel"}},
+            "body must give a material, or youngs_modulus and poisson_ratio, or rigid = true, ",
+        ),
+        ({"body": {"material": "DLC", "base": "steel"}}, "body may give a base only together with layers"),
+        ({"body": {"material": "DLC", "layers": [COATING], "base": "steel"}}, "but gives layers and material."),
+        ({"body": {"layers": [{"material": "DLC"}], "base": "steel"}}, "body.layers[1].thickness must be given"),
+        ({"body": {"layers": [{"thickness": "5 nm"}], "base": "steel"}}, "body.layers[1] must give a material, or"),
+        ({"body": {"layers": [COATING | {"thickness": 5}], "base": "steel"}}, "body.layers[1].thickness must be text"),
+        ({"body": {"layers": [COATING | {"thickness": "-5 nm"}], "base": "steel"}}, "must be zero or greater, but is"),
+        (
+            {"body": {"layers": [COATING, COATING | {"interface": "glued"}], "base": "steel"}},
+            "body.layers[2].interface must be 'bonded' or 'frictionless', but is 'glued'.",
+        ),
+        ({"body": {"layers": [COATING | {"thick": "5 nm"}], "base": "steel"}}, "did you mean thickness?"),
+        (
+            {"body": {"layers": [COATING | {"kind": "graded"}], "base": "steel"}},
+            "body.layers[1].kind must be one of 'layer'",
+        ),
+        ({"body": {"layers": ["DLC:5nm"], "base": "steel"}}, "body.layers[1] must be a table, but is 'DLC:5nm'."),
+        (
+            {"body": {"layers": [COATING], "base": {"rigid": True, "material": "x"}}},
+            "body.base must give a material, or",
+        ),
+        (
+            {"body": {"layers": [GRADED | {"exponent": 2.0}], "base": "steel"}},
+            "body.layers[1].exponent must be left out",
+        ),
+        ({"body": {"layers": [GRADED | {"kind": "power"}], "base": "steel"}}, "body.layers[1].exponent must be given"),
+        (
+            {"body": {"layers": [GRADED | {"sublayers": 0}], "base": "steel"}},
+            "body.layers[1].sublayers must be a whole",
+        ),
+        (
+            {"body": {"layers": [GRADED | {"top": "E=1GPa"}], "base": "steel"}},
+            "body.layers[1].top must give youngs_modulus",
+        ),
     ],
 )
 def test_errors_are_plain_words(tables: dict[str, Any], expected: str) -> None:
@@ -339,14 +432,76 @@ def test_relocated_paths_lead_to_the_same_files(tmp_path: Path) -> None:
         surface={"kind": "file", "path": "scans/a.txt"},
         counter_surface={"kind": "file", "path": str(tmp_path / "b.txt"), "mirror": "x"},
         body={"material": "X", "materials_file": "own.toml"},
+        counter_body={"layers": [COATING], "base": "steel", "materials_file": "own.toml"},
     )
     moved = relocated(checked(table), tmp_path, tmp_path / "out" / "run").model_dump()
     assert moved["surface"]["path"] == "../../scans/a.txt"
     assert moved["counter_surface"]["path"] == str(tmp_path / "b.txt")
-    assert moved["body"]["materials_file"] == "../../own.toml"
+    assert moved["body"]["materials_file"] == moved["counter_body"]["materials_file"] == "../../own.toml"
 
 
 def test_schema_is_json_and_names_every_table() -> None:
     schema = json.loads(json.dumps(json_schema()))
     assert set(schema["properties"]) == set(ProblemDocument.model_fields)
     assert schema["additionalProperties"] is False
+    body = schema["$defs"]["BodyTable"]
+    assert {"type": "string"} in body["anyOf"], "a body may be one line of text"
+
+
+@pytest.mark.parametrize(
+    ("text", "table"),
+    [
+        ("rigid", {"rigid": True}),
+        (" Si3N4 ", {"material": "Si3N4"}),
+        (
+            "E=140 GPa, nu=0.25,H=15GPa,Y=5GPa,name=mine",
+            {
+                "youngs_modulus": "140 GPa",
+                "poisson_ratio": 0.25,
+                "hardness": "15GPa",
+                "yield_stress": "5GPa",
+                "name": "mine",
+            },
+        ),
+        ("E=140000N/mm**2,nu=0.25", {"youngs_modulus": "140000N/mm**2", "poisson_ratio": 0.25}),
+        (
+            "DLC : 5 nm ~ / E=1GPa,nu=0.3:2nm / rigid",
+            {
+                "layers": [
+                    {"material": "DLC", "thickness": "5 nm", "interface": "frictionless"},
+                    {"youngs_modulus": "1GPa", "poisson_ratio": 0.3, "thickness": "2nm"},
+                ],
+                "base": {"rigid": True},
+            },
+        ),
+    ],
+)
+def test_body_in_one_line_of_text(text: str, table: dict[str, Any]) -> None:
+    assert body_from_text(text) == table
+    other = {"counter_body": "steel"} if table == {"rigid": True} else {}
+    assert checked(with_(body=text, **other)) == checked(with_(body=table, **other))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("DLC/steel", "must give the thickness of every layer, such as DLC:5nm, but layer 1 is 'DLC'"),
+        ("DLC:/steel", "must give the thickness of every layer, such as DLC:5nm, but layer 1 is 'DLC:'"),
+        ("DLC:~/steel", "must give the thickness of every layer"),
+        ("DLC:5nm", "must end in the base, without thickness"),
+        ("DLC:5nm/Cr:2nm", "but ends in 'Cr:2nm'"),
+        ("DLC:5nm/steel/Cr:2nm", "'steel', without thickness, stands before 'Cr:2nm'"),
+        ("DLC:5nm/", "nothing stands behind the last slash"),
+        ("DLC:5nm//steel", "layer 2 is empty"),
+        (":5nm/steel", "must name a material in each part"),
+        ("rigid:5nm/steel", "must have rigid as its last part only"),
+        ("DLC~:5nm/steel", "must have ~ behind the thickness of the layer that slips"),
+        ("DLC:5~nm/steel", "must have ~ behind the thickness of the layer that slips"),
+        ("E=1GPa,nu=0.3:1nm/E=1GPa,q=2", "but holds 'q=2'"),
+    ],
+)
+def test_mistakes_in_the_text_of_a_body(text: str, expected: str) -> None:
+    with pytest.raises(InputError) as caught:
+        body_from_text(text)
+    assert str(caught.value).startswith(" ")
+    assert expected in str(caught.value)

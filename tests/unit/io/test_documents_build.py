@@ -9,24 +9,37 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 
+import asperity as asp
 from asperity import (
     Approach,
     Elastic,
+    ExponentialGrading,
     Force,
     Free,
+    FreeLine,
+    Frictionless,
     Hardness,
     HardWall,
     InputError,
+    Layer,
+    Layered,
+    LinearGrading,
     MeanGap,
     MeanPressure,
     Periodic,
+    PowerGrading,
     Rigid,
+    RigidBase,
+    Strength,
     Surface,
+    graded,
+    material,
 )
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
 from asperity.io.build import build
 from asperity.io.build_generated import FUNCTIONS, build_spectrum
+from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
 from asperity.io.schemas.surfaces import RandomSurface, Shape
 from asperity.surfaces import generate
@@ -262,6 +275,104 @@ def test_hardness_from_body_is_that_of_the_softer_one() -> None:
         build(checked(table(law=law, body=unknown)))
 
 
+def test_layered_body_of_tables_and_of_text() -> None:
+    """Both ways give the body that Python makes."""
+    coating, strong = Elastic(1e9, 0.3, Strength(hardness=2e8), name="film", sources=("user",)), material("DLC")
+    expected = Layered([Layer(strong, 5e-9, Frictionless()), Layer(coating, 2e-6)], material("steel"))
+    tables = {
+        "layers": [
+            {"material": "DLC", "thickness": "5 nm", "interface": "frictionless"},
+            {
+                "youngs_modulus": "1 GPa",
+                "poisson_ratio": 0.3,
+                "hardness": "200 MPa",
+                "name": "film",
+                "thickness": "2 um",
+            },
+        ],
+        "base": {"material": "steel"},
+    }
+    text = "DLC:5nm~/E=1GPa,nu=0.3,H=200MPa,name=film:2um/steel"
+    for body in (tables, text):
+        built = build(checked(table(body=body))).problem.body
+        assert isinstance(built, Layered)
+        assert len(built.layers) == 2
+        for found, wanted in zip(built.layers, expected.layers, strict=True):
+            assert found.interface == wanted.interface
+            assert found.thickness == pytest.approx(wanted.thickness, rel=1e-14)
+            assert (found.material.name, found.material.sources) == (wanted.material.name, wanted.material.sources)
+            assert found.material.youngs_modulus == pytest.approx(wanted.material.youngs_modulus, rel=1e-14)
+            assert found.material.strength.hardness == pytest.approx(wanted.material.strength.hardness, rel=1e-14)
+        assert built.base == expected.base
+    on_rigid = build(checked(table(body="DLC:5nm/rigid", counter_body="steel"))).problem
+    assert on_rigid.body.base == RigidBase()  # type: ignore[union-attr]
+    assert on_rigid.counter_body == material("steel")
+
+
+@pytest.mark.parametrize(
+    ("kind", "grading"),
+    [
+        ({"kind": "linear"}, LinearGrading()),
+        ({"kind": "exponential"}, ExponentialGrading()),
+        ({"kind": "power", "exponent": 2.0}, PowerGrading(2.0)),
+    ],
+)
+def test_graded_coatings(kind: dict[str, Any], grading: Any) -> None:
+    coating = {
+        **kind,
+        "top": "TiN",
+        "bottom": "steel",
+        "thickness": "1 um",
+        "sublayers": 7,
+        "interface": "frictionless",
+    }
+    built = build(checked(table(body={"layers": [coating], "base": "steel"}))).problem.body
+    expected = graded(material("TiN"), material("steel"), 1e-6, grading=grading, sublayers=7, interface=Frictionless())
+    assert isinstance(built, Layered)
+    for found, wanted in zip(built.layers, expected, strict=True):
+        assert found.material == wanted.material
+        assert found.interface == wanted.interface
+        assert found.thickness == pytest.approx(wanted.thickness, rel=1e-14)
+
+
+def test_own_materials_in_every_part_of_a_body(tmp_path: Path) -> None:
+    (tmp_path / "own.toml").write_text(
+        '[material."film"]\nyoungs_modulus = "3 GPa"\npoisson_ratio = 0.4\n'
+        '[material."board"]\nyoungs_modulus = "9 GPa"\npoisson_ratio = 0.1\n'
+    )
+    coating = {"kind": "linear", "top": "film", "bottom": "board", "thickness": "1 um", "sublayers": 1}
+    body = {
+        "layers": [{"material": "film", "thickness": "5 nm"}, coating, {"material": "DLC", "thickness": "1 nm"}],
+        "base": "board",
+        "materials_file": "own.toml",
+    }
+    built = build(checked(table(body=body)), tmp_path).problem.body
+    assert isinstance(built, Layered)
+    assert [round(layer.material.youngs_modulus / 1e9, 6) for layer in built.layers] == [3.0, 6.0, 140.0]
+    assert built.base.youngs_modulus == pytest.approx(9e9)  # type: ignore[union-attr]
+
+
+def test_hardness_of_a_coated_body_is_that_of_its_top_layer() -> None:
+    law = {"kind": "hardness", "hardness": "from body"}
+    coated = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3,H=2GPa"
+    assert build(checked(table(law=law, body=coated))).problem.law.pressure_cap() == pytest.approx(9e9)
+    unknown = "E=100GPa,nu=0.3:5nm/E=100GPa,nu=0.3,H=2GPa"
+    with pytest.raises(InputError, match="of a coated body the top layer counts"):
+        build(checked(table(law=law, body=unknown)))
+
+
+def test_line_contact() -> None:
+    """A row of points under the boundary "line" is the line contact of Python."""
+    row = {"kind": "cylinder", "radius": "20 um", "axis": "y", "points": [16, 1], "size": "8 um x 1 m"}
+    problem = build(checked(table(surface=row, boundary={"kind": "line"}))).problem
+    assert problem.boundary == FreeLine()
+    assert problem.surface.shape == (16, 1)
+    far = build(checked(table(surface=row, boundary={"kind": "line", "datum": "1 mm"}))).problem
+    assert far.boundary == FreeLine(units.parse("1 mm", "length", ""))
+    with pytest.raises(InputError, match="grid of a line contact must have one point along y"):
+        build(checked(table(boundary={"kind": "line"})))
+
+
 def test_unknown_material_is_refused() -> None:
     with pytest.raises(InputError, match="material must be a name in the material library"):
         build(checked(table(body={"material": "unobtainium"})))
@@ -293,6 +404,28 @@ def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:
     assert built.size == pytest.approx((2e-6, 3e-6))
     built = build(checked(table(surface=surface | {"prepare": [{"step": "periodise"}]})), tmp_path).problem.surface
     assert built.periodic
+
+
+@pytest.mark.parametrize(
+    ("step", "expected"),
+    [
+        ({"step": "level", "degree": 4, "robust": True}, lambda s: asp.levelled(s, 4, robust=True)),
+        ({"step": "despike", "threshold": 3.0, "window": 3}, lambda s: asp.despiked(s, 3.0, window=3)),
+        ({"step": "line_correct", "axis": "y"}, lambda s: asp.line_corrected(s, "y")),
+        (
+            {"step": "filter", "short": "1 um", "short_y": "1.5 um", "long": "3 um", "kind": "robust", "order": 1},
+            lambda s: asp.filtered(s, short=(1e-6, 1.5e-6), long=3e-6, kind="robust", order=1),
+        ),
+        ({"step": "tip_limit", "radius": "30 um"}, lambda s: asp.tip_limited(s, 30e-6)),
+    ],
+)
+def test_steps_do_what_the_functions_do(tmp_path: Path, step: dict[str, Any], expected: Any) -> None:
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).standard_normal((32, 28)))
+    surface = {"kind": "file", "path": "a.npy", "size": "8 um x 7 um", "height_unit": "nm"}
+    before = asp.read(tmp_path / "a.npy", size=(8e-6, 7e-6), height_unit="nm")
+    found = build_surface(checked(table(surface=surface | {"prepare": [step]})).surface, tmp_path)
+    np.testing.assert_allclose(found.heights, expected(before).heights, rtol=1e-9, atol=1e-20)
+    assert found.origin.history == expected(before).origin.history
 
 
 @pytest.mark.parametrize("mirror", ["none", "x", "y"])

@@ -8,18 +8,89 @@ from pydantic import AfterValidator, Field, model_validator
 
 from ...core import require
 from ...core.errors import InputError
-from .values import LengthRange, Points, Table
+from ...surfaces.prepare.level import HIGHEST_DEGREE
+from .values import Length, LengthRange, Number, Points, Table
 
 
 def _width(value: float) -> float:
     return require.at_most(value, 0.5, "")
 
 
+def _odd(value: int) -> int:
+    if require.integer(value, 3, "") % 2 == 0:
+        raise InputError(f" must be an odd number, but is {value}.")
+    return value
+
+
+def _degree(value: int) -> int:
+    if not 0 <= value <= HIGHEST_DEGREE:
+        raise InputError(f" must be a whole number from 0 to {HIGHEST_DEGREE}, but is {value}.")
+    return value
+
+
+OddCount: TypeAlias = Annotated[int, AfterValidator(_odd)]
+"""An odd number >= 3."""
+
+Degree: TypeAlias = Annotated[int, AfterValidator(_degree)]
+"""Total degree of a polynomial."""
+
+
 class Level(Table):
-    """Remove the mean, a plane or a quadratic form."""
+    """Remove a ``form`` (a plane by default) or a polynomial of total ``degree``; ``robust`` leaves out outliers."""
 
     step: Literal["level"]
-    form: Literal["mean", "plane", "quadratic"] = "plane"
+    form: Literal["mean", "plane", "quadratic"] | None = None
+    degree: Degree | None = None
+    robust: bool = False
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Level:
+        if self.degree is not None and self.form is not None:
+            raise InputError(" must give form or degree, but gives both.")
+        return self
+
+
+class Despike(Table):
+    """Mask points far from the median of their surroundings, by ``threshold`` standard deviations; fill them afterwards."""
+
+    step: Literal["despike"]
+    threshold: Number = 6.0
+    window: OddCount = 5
+
+
+class LineCorrect(Table):
+    """Remove the offsets between the scan lines, which run along the fast ``axis``."""
+
+    step: Literal["line_correct"]
+    axis: Literal["x", "y"] = "x"
+
+
+class Filter(Table):
+    """Remove the waves shorter than ``short`` and longer than ``long``; ``short_y``, ``long_y`` where y differs from x."""
+
+    step: Literal["filter"]
+    short: Length | None = None
+    short_y: Length | None = None
+    long: Length | None = None
+    long_y: Length | None = None
+    kind: Literal["gaussian", "robust", "sharp"] = "gaussian"
+    order: Literal[0, 1, 2] = 0
+
+    @model_validator(mode="after")
+    def _something(self) -> Filter:
+        if self.short is None and self.long is None:
+            raise InputError(' must give short or long or both, such as short = "1 um", but gives neither.')
+        for along_x, along_y in (("short", "short_y"), ("long", "long_y")):
+            if getattr(self, along_y) is not None and getattr(self, along_x) is None:
+                raise InputError(f" must give {along_x} together with {along_y}, but gives only {along_y}.")
+        return self
+
+
+class TipLimit(Table):
+    """Remove the waves that a tip of this ``radius`` may have shaped."""
+
+    step: Literal["tip_limit"]
+    radius: Length
 
 
 class Crop(Table):
@@ -63,7 +134,8 @@ class Periodise(Table):
     step: Literal["periodise"]
 
 
-Step: TypeAlias = Annotated[Level | Crop | Resample | Fill | Taper | Periodise, Field(discriminator="step")]
+Step: TypeAlias = Annotated[
+    Level | Crop | Resample | Fill | Despike | LineCorrect | Filter | TipLimit | Taper | Periodise,
+    Field(discriminator="step"),
+]
 """One preparation step, told apart by the key ``step``."""
-
-__all__ = ["Crop", "Fill", "Level", "Periodise", "Resample", "Step", "Taper"]
