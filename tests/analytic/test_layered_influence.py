@@ -121,15 +121,19 @@ def test_point_response_by_another_quadrature(layers, base, order):
         assert float(kernel.strength(np.array([r]))[0]) == pytest.approx(total, abs=1e-11 * scale)
 
 
-def test_coarse_pixels_are_sums_of_fine_ones():
-    """Nine thirds of a pixel under the same pressure make the pixel, across all zones and for a layer in between."""
-    stack = LayerStack(on_half_space(5.0, 0.7))
+@pytest.mark.parametrize("thickness", [0.01, 0.7, 30.0])
+@pytest.mark.parametrize("ratio", [1e-3, 0.01, 5.0, 1e3])
+def test_coarse_pixels_are_sums_of_fine_ones(ratio, thickness):
+    """Nine thirds of a pixel under the same pressure make the pixel, across all zones; modulus ratios to a thousand."""
+    stack = LayerStack(on_half_space(ratio, thickness))
     coarse = stack.influence(asp.Grid((40, 25), (1.0, 1.5)))
     fine = stack.influence(asp.Grid((121, 76), (1.0 / 3.0, 0.5)))
     reach = np.abs(np.arange(-1, 119)), np.abs(np.arange(-1, 74))
     near = fine[np.ix_(*reach)]
     nine = sum(near[1 + a :: 3, 1 + b :: 3][:39, :24] for a in (-1, 0, 1) for b in (-1, 0, 1))
-    np.testing.assert_allclose(coarse[:39, :24], nine, rtol=STATED)
+    # displacements on a soft layer change sign, where they are small beside those of a half-space of its material
+    top = HalfSpace(stack.body.layers[0].material.plane_strain_modulus).influence(asp.Grid((39, 24), (1.0, 1.5)))
+    np.testing.assert_array_less(np.abs(coarse[:39, :24] - nine), STATED * np.maximum(np.abs(nine), top))
 
 
 def test_two_bodies_add_up():
