@@ -5,6 +5,7 @@ from .histogram import plot_gap_histogram, plot_pressure_histogram
 from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
 from .section import plot_section
 from .spectrum import plot_scale_dependence, plot_spectrum
+from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
 from .style import style
 from .surface_curves import plot_autocorrelation, plot_height_distribution, plot_material_ratio
 from .surface_figures import SURFACE_PLOTS, SurfacePlot, render_surface_plot, save_roughness_plots
@@ -27,6 +28,9 @@ __all__ = [
     "plot_scale_dependence",
     "plot_section",
     "plot_spectrum",
+    "plot_stress_map",
+    "plot_stress_profile",
+    "plot_stress_section",
     "plot_summits",
     "plot_surface_view",
     "render",

@@ -33,20 +33,20 @@ def plot_heights(surface: Surface, ax: Axes) -> Axes:
     level = np.nanmean(surface.heights, dtype=np.float64)
     flat = np.nanmax(surface.heights) == np.nanmin(surface.heights)
     heights = np.where(surface.mask, np.nan, 0.0) if flat else surface.heights - level  # not the rounding of the mean
-    return _plot_field(heights, surface.grid, ax, _Look("m", "height", HEIGHT_MAP, from_zero=False))
+    return plot_field(heights, surface.grid, ax, Look("m", "height", HEIGHT_MAP, from_zero=False))
 
 
 def plot_gap(result: ContactResult, ax: Axes) -> Axes:
     """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are grey."""
     gap = np.where(result.contact, np.nan, result.gap)
-    return _plot_field(gap, result.problem.grid, ax, _Look("m", "gap", GAP_MAP))
+    return plot_field(gap, result.problem.grid, ax, Look("m", "gap", GAP_MAP))
 
 
 def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes:
     """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact is grey."""
     pressure = np.where(result.contact, result.pressure, np.nan)
-    look = _Look("Pa", "contact pressure", PRESSURE_MAP, log=log and bool(result.contact.any()))
-    return _plot_field(pressure, result.problem.grid, ax, look)
+    look = Look("Pa", "contact pressure", PRESSURE_MAP, log=log and bool(result.contact.any()))
+    return plot_field(pressure, result.problem.grid, ax, look)
 
 
 def plot_contact(result: ContactResult, ax: Axes) -> Axes:
@@ -76,17 +76,18 @@ def _contact_legend(ax: Axes, names: tuple[str, ...], colours: tuple[str, ...], 
 
 
 @dataclass(frozen=True)
-class _Look:
-    """How a field is shown: SI unit, label, colour map, whether colours start at zero or are logarithmic."""
+class Look:
+    """How a field is shown: SI unit, label, colour map; whether colours start at zero, centre on it, are logarithmic."""
 
     unit: str
     label: str
     colours: str
     from_zero: bool = True
+    about_zero: bool = False
     log: bool = False
 
 
-def _plot_field(values: RealArray, grid: Grid, ax: Axes, look: _Look) -> Axes:
+def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a grid of one row."""
     from matplotlib.colors import LogNorm, Normalize
 
@@ -96,6 +97,8 @@ def _plot_field(values: RealArray, grid: Grid, ax: Axes, look: _Look) -> Axes:
     if 1 in grid.shape:
         return _plot_curve(drawn.ravel(), grid, ax, title, log=look.log)
     low, high = _limits(drawn, from_zero=look.from_zero)
+    if look.about_zero:
+        low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
     norm = LogNorm(high * 10.0**-DECADES, high, clip=True) if look.log else Normalize(low, high)
     image = _image(drawn, grid, ax, cmap=look.colours, norm=norm)
     _colour_bar(image, grid, ax, title)

@@ -1,0 +1,236 @@
+"""Stresses inside a body: vertical sections with their layers, depth profiles, maps of one plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.grid import Grid
+from ..core.units import show
+from ..stress.field import StressField
+from .maps import Look, plot_field
+from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LEVELS = 12
+"""Number of steps of a contour plot."""
+
+DECADES = 2.0
+"""Range of a logarithmic contour plot below the maximum, in powers of ten."""
+
+SIGNED_MAP, UNSIGNED_MAP = "RdBu_r", "viridis"
+"""Colour maps of stresses of either sign (white at zero, red in tension) and of magnitudes."""
+
+COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+"""Colours of the curves of a depth profile, in order."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A stress that can be drawn: its ``label``, and whether it has either ``signed``."""
+
+    label: str
+    signed: bool
+
+
+QUANTITIES = {
+    "sqrt_J2": Quantity("√J2", signed=False),
+    "von_mises": Quantity("von Mises stress", signed=False),
+    "tresca": Quantity("Tresca stress", signed=False),
+    "max_shear": Quantity("largest shear stress", signed=False),
+    "max_principal": Quantity("largest principal stress", signed=True),
+    "principal_tensile": Quantity("principal stress in the plane", signed=True),
+    "hydrostatic": Quantity("mean normal stress", signed=True),
+    "normal_xx": Quantity("σxx", signed=True),
+    "normal_yy": Quantity("σyy", signed=True),
+    "normal_zz": Quantity("σzz", signed=True),
+    "shear_xy": Quantity("σxy", signed=True),
+    "shear_xz": Quantity("σxz", signed=True),
+    "shear_yz": Quantity("σyz", signed=True),
+}
+"""Attributes of a StressField that can be drawn."""
+
+
+def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2", *, log: bool = False) -> Axes:
+    """Draw contours of one ``quantity`` of a vertical section on ``ax``, depth downwards, interfaces as lines.
+
+    With ``log`` the steps are equal factors over two decades below the maximum, for magnitudes such as √J2.
+
+    Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross marks the largest
+    value. Depth is to the scale of the section unless that were less than a sixth of its length.
+
+    Raises
+    ------
+    InputError
+        If the field is no section, has a region with one plane only, or the quantity is unknown or, with ``log``, signed.
+    """
+    kind = _known(quantity)
+    if log and kind.signed:
+        raise InputError(f"stress to draw on a logarithmic scale must be a magnitude, but {quantity} has either sign.")
+    if len(field.dims) != 2 or len(field.planes) < 2:
+        raise InputError("field of a stress section must have the axes plane and x or y; compute it on a Section(...).")
+    axis, other = (field.dims[1], "y" if field.dims[1] == "x" else "x")
+    line, at = _middle(field, axis), float(_middle(field, other))
+    values = getattr(field, quantity)
+    in_unit, length = scale(values, "Pa"), scale(float(line[-1] - line[0]), "m")
+    depth_unit = scale(field.depth, "m")
+    levels = _levels(in_unit(values), kind, log=log)
+    contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
+    _draw_interfaces(field, ax, depth_unit)
+    _mark_peak(field, ax, values, (axis, length, depth_unit))
+    ax.set(
+        xlabel=f"{axis} ({length.symbol}), at {other} = {show(at, 'm')}",
+        ylabel=f"depth ({depth_unit.symbol})",
+        xlim=(float(length(line[0])), float(length(line[-1]))),
+        ylim=(float(depth_unit(field.depth[-1])), 0.0),
+    )
+    if 6.0 * field.depth[-1] > line[-1] - line[0] and field.depth[-1] < 6.0 * (line[-1] - line[0]):
+        ax.set_aspect(length.factor**-1 * depth_unit.factor, adjustable="box")
+    bar = ax.figure.colorbar(contours, cax=ax.inset_axes((1.03, 0.0, 0.035, 1.0)), format="%.2g" if log else "%g")
+    bar.set_label(f"{kind.label} ({in_unit.symbol})")
+    return ax
+
+
+def plot_stress_profile(
+    field: StressField, ax: Axes, quantities: tuple[str, ...] = ("sqrt_J2", "normal_xx", "shear_xz")
+) -> Axes:
+    """Draw ``quantities`` of a depth profile against depth on ``ax``, depth downwards, with a break at each interface.
+
+    Raises
+    ------
+    InputError
+        If the field is no depth profile or a quantity is unknown.
+    """
+    kinds = [_known(quantity) for quantity in quantities]
+    if field.dims != ("plane",):
+        raise InputError("field of a stress profile must have the axis plane only; compute it on a DepthProfile(...).")
+    drawn = np.stack([getattr(field, quantity) for quantity in quantities])
+    in_unit, depth_unit = scale(drawn, "Pa"), scale(field.depth, "m")
+    for values, kind, colour in zip(drawn, kinds, COLOURS, strict=False):
+        label: str | None = kind.label
+        for part in _parts(field):
+            marker = "." if len(part) == 1 else ""
+            ax.plot(in_unit(values[part]), depth_unit(field.depth[part]), color=colour, label=label, marker=marker)
+            label = None
+    _draw_interfaces(field, ax, depth_unit)
+    ax.axvline(0.0, color="0.7", linewidth=0.6, zorder=0)
+    ax.set(
+        xlabel=f"stress ({in_unit.symbol}), at "
+        + ", ".join(f"{a} = {show(float(_middle(field, a)), 'm')}" for a in "xy"),
+        ylabel=f"depth ({depth_unit.symbol})",
+        ylim=(float(depth_unit(field.depth[-1])) or 1.0, 0.0),
+    )
+    ax.legend(loc="best")
+    return ax
+
+
+def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *, plane: int = 0) -> Axes:
+    """Draw one ``quantity`` on one ``plane`` (its position in the field) as a map on ``ax``, x to the right and y up.
+
+    Raises
+    ------
+    InputError
+        If the planes of the field are not whole, or quantity or plane is unknown.
+    """
+    kind = _known(quantity)
+    if field.dims != ("plane", "x", "y"):
+        raise InputError("field of a stress map must have the axes plane, x and y; compute it on Everywhere().")
+    if not 0 <= plane < len(field.planes):
+        raise InputError(f"plane of a stress map must be 0 to {len(field.planes) - 1}, but is {plane}.")
+    section = field.planes[plane]
+    values = getattr(field.only(plane), quantity)[0]
+    grid = Grid((field.x.size, field.y.size), field.spacing)
+    side = "" if section.side in ("surface", "inside") else f", {section.side} the interface"
+    place = "surface" if section.side == "surface" else f"depth {show(section.depth, 'm')}{side}"
+    label = f"{kind.label}, {place}"
+    colours = SIGNED_MAP if kind.signed else UNSIGNED_MAP
+    return plot_field(values, grid, ax, Look("Pa", label, colours, from_zero=not kind.signed, about_zero=kind.signed))
+
+
+def _known(quantity: str) -> Quantity:
+    return QUANTITIES[require.one_of(quantity, QUANTITIES, "stress to draw")]
+
+
+def _middle(field: StressField, axis: str) -> RealArray:
+    """Coordinates of the middles of the pixels, as in all figures."""
+    middle: RealArray = getattr(field, axis) + 0.5 * field.spacing["xy".index(axis)]
+    return middle
+
+
+def _parts(field: StressField) -> list[list[int]]:
+    """Positions of the planes of each region."""
+    numbered = groupby(range(len(field.planes)), key=lambda number: field.planes[number].region.index)
+    return [list(part) for _, part in numbered]
+
+
+def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
+    """Steps of the contours: symmetric about zero for signed stresses, from zero or by equal factors for magnitudes."""
+    from matplotlib.ticker import MaxNLocator
+
+    high = float(np.abs(values).max()) or 1.0
+    if log:
+        return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
+    return np.array(MaxNLocator(LEVELS, symmetric=kind.signed).tick_values(-high if kind.signed else 0.0, high))
+
+
+def _contours(
+    field: StressField, ax: Axes, drawn: tuple[RealArray, Any, RealArray], levels: RealArray, kind: Quantity
+) -> Any:
+    """Filled contours, region by region, on common levels."""
+    from matplotlib.colors import BoundaryNorm
+
+    line, depth_unit, values = drawn
+    colours = SIGNED_MAP if kind.signed else UNSIGNED_MAP
+    norm = BoundaryNorm(levels, 256, extend="neither")
+    contours = None
+    for part in _parts(field):
+        if len(part) < 2:
+            raise InputError(
+                "field of a stress section must have at least two planes in every region; see depths_through."
+            )
+        depth = depth_unit(field.depth[part])
+        inside = np.clip(values[part], levels[0], levels[-1])
+        contours = ax.contourf(line, depth, inside, levels, cmap=colours, norm=norm)
+        ax.contour(line, depth, inside, levels[1:-1], colors="black", linewidths=0.3, alpha=0.5)
+    return contours
+
+
+def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> None:
+    """Lines at the interfaces, and the names of the regions beside them."""
+    for part in _parts(field):
+        region = field.planes[part[0]].region
+        if region.top > 0.0:
+            ax.axhline(float(depth_unit(region.top)), color=BLACK, linewidth=1.0)
+        if len(_parts(field)) > 1:
+            bottom = min(region.bottom, field.depth[-1])
+            middle = float(depth_unit(0.5 * (region.top + bottom)))
+            ax.annotate(
+                region.name,
+                (0.985, middle),
+                xycoords=ax.get_yaxis_transform(),
+                ha="right",
+                va="center",
+                fontsize=7.5,
+                bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
+            )
+
+
+def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str, Any, Any]) -> None:
+    axis, length, depth_unit = axes
+    peak = field.peak(np.abs(values))
+    ax.plot(
+        float(length(getattr(peak, axis) + 0.5 * field.spacing["xy".index(axis)])),
+        float(depth_unit(peak.depth)),
+        "x",
+        color=BLACK,
+        markersize=5,
+        clip_on=False,
+    )

@@ -1,0 +1,132 @@
+"""Pictures of stresses: depth downwards, jumps at interfaces, units, refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from catalogue import oblong
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+import asperity as asp
+from asperity import plots
+
+BODY = asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25, name="DLC"), 50e-9)], asp.Elastic(70e9, 0.33, name="Al-Mg"))
+
+
+@pytest.fixture(scope="module")
+def contact() -> asp.ContactResult:
+    return asp.solve(asp.ContactProblem(oblong(), BODY), asp.MeanPressure(2e8))
+
+
+@pytest.fixture
+def ax() -> Axes:
+    figure = Figure()
+    FigureCanvasAgg(figure)
+    return figure.add_subplot()
+
+
+DEPTHS = asp.depths_through(BODY, 200e-9, per_region=5)
+
+
+@pytest.mark.parametrize("quantity", plots.stress.QUANTITIES)
+@pytest.mark.parametrize("on", [asp.Section(y="max"), asp.Section(x="max")], ids=["along x", "along y"])
+def test_every_quantity_of_a_section(contact, ax, on, quantity):
+    field = asp.stress(contact, DEPTHS, on=on, friction=0.3)
+    assert plots.plot_stress_section(field, ax, quantity) is ax
+    ax.figure.canvas.draw()
+    bottom, top = ax.get_ylim()
+    assert bottom == pytest.approx(200.0)
+    assert top == 0.0
+    axis = field.dims[1]
+    assert ax.get_xlabel().startswith(f"{axis} (")
+    assert ax.get_ylabel() == "depth (nm)"
+    (interface,) = [line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_ydata()) == 2]
+    assert interface.get_ydata()[0] == pytest.approx(50.0)
+    (bar,) = ax.child_axes
+    assert bar.get_ylabel().startswith(plots.stress.QUANTITIES[quantity].label)
+    assert {text.get_text() for text in ax.texts} == {"DLC", "Al-Mg"}
+    low, high = bar.get_ylim()
+    values = getattr(field, quantity)
+    if plots.stress.QUANTITIES[quantity].signed:
+        assert low == pytest.approx(-high)
+    else:
+        assert low == 0.0
+        assert high >= values.max() * 1e-9
+
+
+def test_the_cross_is_at_the_largest_value(contact, ax):
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
+    plots.plot_stress_section(field, ax, "normal_zz")
+    (cross,) = [line for line in ax.lines if line.get_marker() == "x"]
+    column = int(np.argmin(field.normal_zz[0]))
+    assert cross.get_ydata()[0] == 0.0
+    assert cross.get_xdata()[0] * 1e-6 == pytest.approx((column + 0.5) * field.spacing[0])
+
+
+def test_logarithmic_steps(contact, ax):
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
+    plots.plot_stress_section(field, ax, "sqrt_J2", log=True)
+    ax.figure.canvas.draw()
+    low, high = ax.child_axes[0].get_ylim()
+    assert high / low == pytest.approx(100.0)
+
+
+def test_sections_as_deep_as_long_are_to_scale(ax):
+    grid = asp.Grid((33, 33), (1e-6, 1e-6))
+    x, y = grid.centred_coordinates()
+    sphere = asp.Surface(-(x**2 + y**2) / 2e-3, 1e-6, 1e-6)
+    result = asp.solve(asp.ContactProblem(sphere, asp.Elastic(200e9, 0.3), boundary=asp.Free()), asp.Force(0.5))
+    plots.plot_stress_section(asp.stress(result, np.linspace(0, 2e-5, 9), on=asp.Section(y="max")), ax)
+    assert ax.get_aspect() == pytest.approx(1.0)
+    assert not ax.texts  # one region needs no name
+
+
+def test_profiles_break_at_interfaces(contact, ax):
+    field = asp.stress(contact, DEPTHS, on=asp.DepthProfile(), friction=0.3)
+    assert plots.plot_stress_profile(field, ax, ("normal_xx", "von_mises")) is ax
+    ax.figure.canvas.draw()
+    assert ax.yaxis_inverted()
+    curves = [line for line in ax.lines if len(line.get_ydata()) == 6]
+    assert len(curves) == 4  # two quantities in two regions
+    upper, lower = curves[0], curves[1]
+    assert upper.get_ydata()[-1] == lower.get_ydata()[0] == pytest.approx(50.0)
+    jump = (upper.get_xdata()[-1] - lower.get_xdata()[0]) / (field.normal_xx[5] - field.normal_xx[6])
+    assert jump in (pytest.approx(1e-6), pytest.approx(1e-9))
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["σxx", "von Mises stress"]
+
+
+@pytest.mark.parametrize(
+    ("plane", "words"), [(0, "surface"), (1, "depth 10 nm"), (5, "depth 50 nm, above the interface")]
+)
+def test_maps_of_planes(contact, ax, plane, words):
+    field = asp.stress(contact, DEPTHS, friction=0.3)
+    plots.plot_stress_map(field, ax, "shear_xz", plane=plane)
+    ax.figure.canvas.draw()
+    (image,) = ax.images
+    low, high = image.get_clim()
+    assert low == pytest.approx(-high)
+    drawn = np.asarray(image.get_array()).T
+    np.testing.assert_allclose(drawn / np.abs(drawn).max(), field.shear_xz[plane] / np.abs(field.shear_xz[plane]).max())
+    label = ax.child_axes[0].get_ylabel() or ax.child_axes[0].get_xlabel()
+    assert label.startswith(f"σxz, {words}")
+
+
+def test_refusals(contact, ax):
+    section = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
+    whole, profile = asp.stress(contact, [0.0]), asp.stress(contact, DEPTHS, on=asp.DepthProfile())
+    with pytest.raises(asp.InputError, match="one of sqrt_J2"):
+        plots.plot_stress_section(section, ax, "colour")
+    with pytest.raises(asp.InputError, match="magnitude"):
+        plots.plot_stress_section(section, ax, "shear_xz", log=True)
+    with pytest.raises(asp.InputError, match="Section"):
+        plots.plot_stress_section(whole, ax)
+    with pytest.raises(asp.InputError, match="at least two planes in every region"):
+        plots.plot_stress_section(asp.stress(contact, [0.0, 50e-9], on=asp.Section(y="max")), ax)
+    with pytest.raises(asp.InputError, match="DepthProfile"):
+        plots.plot_stress_profile(section, ax)
+    with pytest.raises(asp.InputError, match="Everywhere"):
+        plots.plot_stress_map(profile, ax)
+    with pytest.raises(asp.InputError, match="plane of a stress map must be 0 to 0"):
+        plots.plot_stress_map(whole, ax, plane=1)
