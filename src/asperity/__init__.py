@@ -30,6 +30,8 @@ from .io.results import load, open_dataset, save
 from .io.stress_files import save_stress
 from .io.stress_vtk import export_stress_vtk
 from .plots.figures import save_plots, save_surface_plot
+from .plots.surface_figures import save_roughness_plots
+from .report.roughness import write_roughness_report
 from .report.write import write_report
 from .solids.body import contact_modulus
 from .solids.elastic import Elastic, Rigid
@@ -158,6 +160,7 @@ __all__ = [
     "roughness",
     "save",
     "save_plots",
+    "save_roughness_plots",
     "save_stress",
     "save_surface_plot",
     "solve",
@@ -170,4 +173,5 @@ __all__ = [
     "tip_limited",
     "turned_over",
     "write_report",
+    "write_roughness_report",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,46 +13,73 @@ from .options import ReadingOptions
 
 if TYPE_CHECKING:
     from ..surfaces.channels import ChannelInfo
+    from ..surfaces.characterise.summary import Characterisation
     from ..surfaces.surface import Surface
 
 
+@dataclass(frozen=True)
+class AnswerOptions:
+    """What is told of a file, and where it is written."""
+
+    full: Annotated[bool, typer.Option("--full", help="All roughness quantities, not only the first four.")] = False
+    level: Annotated[str, typer.Option("--level", help="Removed before: mean, plane or quadratic.")] = "plane"
+    tip_radius: Annotated[
+        str | None,
+        typer.Option("--tip-radius", help="Radius of the tip: shorter waves are not fitted.", metavar="LENGTH"),
+    ] = None
+    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False
+    report: Annotated[Path | None, typer.Option("--report", help="Write a page on the roughness, HTML.")] = None
+    plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None
+    plots: Annotated[Path | None, typer.Option("--plots", help="Write all pictures into this folder.")] = None
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False
+
+
 def info(
-    file: Annotated[Path, typer.Argument(help="File with heights.")],
-    reading: ReadingOptions,
-    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the picture if it exists.")] = False,
+    file: Annotated[Path, typer.Argument(help="File with heights.")], reading: ReadingOptions, answer: AnswerOptions
 ) -> None:
     """Say what is in a file: channels, size, pixel, units, missing points, roughness.
 
-    Roughness values are those after subtraction of the least-squares plane.
+    Roughness values are those after levelling, by the least-squares plane if not told otherwise.
     """
     import json
 
-    from ..core.errors import InputError
-    from ..io.atomic import require_new_file
+    from ..core.units import parse
     from ..surfaces.channels import chosen
+    from ..surfaces.characterise.summary import characterise
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
-    from .show import console, print_files, say
+    from .show import console
 
-    if plot is not None and plot.suffix.lower() != ".png":
-        raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
-    if plot is not None:
-        require_new_file(plot, overwrite=force)
+    _check(answer)
+    radius = None if answer.tip_radius is None else parse(answer.tip_radius, "length", "--tip-radius")
     surface = _read(file, reading)
-    found, flat = channels(file), levelled(surface, "plane")
-    if as_json:
-        console().out(json.dumps(_record(file, found, surface, flat), indent=2), highlight=False)
+    found, flat = channels(file), levelled(surface, answer.level)
+    whole = characterise(flat, tip_radius=radius) if answer.full or answer.report or answer.plots else None
+    shown = whole if answer.full else None
+    if answer.as_json:
+        record = _record(file, found, surface, flat, shown) | {"levelled": answer.level}
+        console().out(json.dumps(record, indent=2), highlight=False)
     else:
-        _print(file, found, chosen(found, reading.channel, file).index, surface, flat)
-    if plot is not None:
-        from ..plots.figures import save_surface_plot
+        _print(file, found, chosen(found, reading.channel, file).index, surface)
+        _print_roughness(flat, shown, answer.level)
+    _write(answer, flat, whole)
 
-        save_surface_plot(flat, plot, overwrite=force)
-        if not as_json:
-            say("The picture shows the heights after plane levelling.", "dim")
-            print_files([plot])
+
+def _check(answer: AnswerOptions) -> None:
+    """Refuse what cannot be written before anything is computed."""
+    from ..core.errors import InputError
+    from ..io.atomic import require_new_file
+
+    for name, path, suffix, example in (
+        ("--plot", answer.plot, ".png", "heights.png"),
+        ("--report", answer.report, ".html", "roughness.html"),
+    ):
+        if path is None:
+            continue
+        if path.suffix.lower() != suffix:
+            kind = suffix[1:].upper()
+            raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
+        require_new_file(path, overwrite=answer.force)
 
 
 def _read(file: Path, reading: ReadingOptions) -> Surface:
@@ -65,6 +93,29 @@ def _read(file: Path, reading: ReadingOptions) -> Surface:
         height_unit=reading.height_unit,
         z_scale=None if reading.z_scale is None else parse(reading.z_scale, "length", "--z-scale"),
     )
+
+
+def _write(answer: AnswerOptions, flat: Surface, found: Characterisation | None) -> None:
+    from .show import print_files, say
+
+    written: list[Path] = []
+    if answer.plot is not None:
+        from ..plots.figures import save_surface_plot
+
+        save_surface_plot(flat, answer.plot, overwrite=answer.force)
+        written.append(answer.plot)
+    if found is not None and answer.plots is not None:
+        from ..plots.surface_figures import save_roughness_plots
+
+        written += save_roughness_plots(found, answer.plots, overwrite=answer.force)
+    if found is not None and answer.report is not None:
+        from ..report.roughness import write_roughness_report
+
+        write_roughness_report(found, answer.report, overwrite=answer.force)
+        written.append(answer.report)
+    if written and not answer.as_json:
+        say(f"Pictures and pages show the heights after {answer.level} levelling.", "dim")
+        print_files(written)
 
 
 def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
@@ -85,8 +136,12 @@ def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
     }
 
 
-def _record(file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: Surface) -> dict[str, Any]:
+def _record(
+    file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: Surface, whole: Characterisation | None
+) -> dict[str, Any]:
     from dataclasses import asdict
+
+    from ..io.roughness import roughness_record
 
     roughness = {key: value if value == value else None for key, (value, _, _) in _roughness(flat).items()}
     return {
@@ -97,13 +152,13 @@ def _record(file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: 
         "size": surface.size,
         "pixel": surface.grid.spacing,
         "missing": surface.n_missing,
-        "levelled": "plane",
         **roughness,
         "instrument": dict(surface.origin.instrument),
+        **({} if whole is None else {"roughness": roughness_record(whole)}),
     }
 
 
-def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface, flat: Surface) -> None:
+def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface) -> None:
     from ..core.units import percent, show
     from .show import console, surface_text, table
 
@@ -121,7 +176,22 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
         ("missing points", f"{surface.n_missing} ({percent(share)})"),
     ]
     rows += [(f"instrument: {key}", text) for key, text in surface.origin.instrument.items()]
+    console().print(table(str(file), rows))
+
+
+def _print_roughness(flat: Surface, whole: Characterisation | None, level: str) -> None:
+    from ..core.units import show
+    from .show import console, say, table
+
     out = console()
-    out.print(table(str(file), rows))
-    values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
-    out.print(table("Roughness after plane levelling", values))
+    if whole is None:
+        values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
+        out.print(table(f"Roughness after {level} levelling", values))
+        return
+    from ..report.quantities import quantity_rows
+
+    say(f"Roughness after {level} levelling", "bold")
+    for heading, rows in quantity_rows(whole):
+        out.print(table(heading, [(name, text) for name, text, _ in rows]))
+    for remark in whole.remarks:
+        say(remark, "yellow")
