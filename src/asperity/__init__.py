@@ -29,6 +29,8 @@ from .io.export import export_csv, export_vtk
 from .io.results import load, open_dataset, save
 from .io.stress_files import save_stress
 from .io.stress_vtk import export_stress_vtk
+from .io.surface_files import save_surface
+from .io.tiles import save_endless
 from .plots.figures import save_plots, save_surface_plot
 from .plots.surface_figures import save_roughness_plots
 from .report.roughness import write_roughness_report
@@ -159,9 +161,11 @@ __all__ = [
     "rms_slope",
     "roughness",
     "save",
+    "save_endless",
     "save_plots",
     "save_roughness_plots",
     "save_stress",
+    "save_surface",
     "save_surface_plot",
     "solve",
     "solve_path",

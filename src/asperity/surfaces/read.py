@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from ..core.errors import FileFormatError
-from . import instrument, plain
-from .channels import ChannelInfo
+from . import instrument, netcdf, plain
+from .channels import ChannelInfo, chosen
 from .surface import Surface
 
 
@@ -23,6 +23,7 @@ def read(
 
     * Instrument files (some forty formats, read by SurfaceTopography) state size and units themselves. The picture
       that the instrument software shows has its top row at the largest y.
+    * Surfaces saved by this package (.nc) come back whole, with period and history.
     * Text matrices (.txt, .dat, .asc, .csv, .tsv): one line per row of the picture, top row first, separated by blanks,
       tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``.
     * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.
@@ -51,7 +52,10 @@ def read(
         If ``height_unit`` is not a unit of length.
     """
     file = _checked(path)
-    if plain.is_plain(file):
+    if netcdf.is_own(file):
+        _require_nothing_more(file, channel, size, height_unit, z_scale)
+        surface = netcdf.read_netcdf(file)
+    elif plain.is_plain(file):
         surface = plain.read_plain(file, channel=channel, size=size, height_unit=height_unit, z_scale=z_scale)
     else:
         if z_scale is not None:
@@ -71,7 +75,19 @@ def channels(path: str | os.PathLike[str]) -> tuple[ChannelInfo, ...]:
         If the file is missing, unreadable, empty, damaged or of unknown format.
     """
     file = _checked(path)
+    if netcdf.is_own(file):
+        return (netcdf.netcdf_channel(file),)
     return plain.plain_channels(file) if plain.is_plain(file) else instrument.instrument_channels(file)
+
+
+def _require_nothing_more(file: Path, channel: str | int | None, *scales: object) -> None:
+    """Refuse a channel or scales for a surface of our own, which states them itself."""
+    chosen((netcdf.netcdf_channel(file),), channel, file)
+    if any(scale is not None for scale in scales):
+        raise FileFormatError(
+            f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
+            "(--size, --height-unit, --z-scale)."
+        )
 
 
 def _checked(path: str | os.PathLike[str]) -> Path:
