@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -99,7 +99,7 @@ def _attributes(file: Path) -> dict[str, Any]:
     return {key: value.decode("utf-8") if isinstance(value, bytes) else value for key, value in found.items()}
 
 
-def _opened(path: Path, mode: str) -> Any:
+def _opened(path: Path, mode: Literal["r", "w"]) -> Any:
     """SciPy's file object, whose attributes are those of the file and hence of any name."""
     from scipy.io import netcdf_file
 
