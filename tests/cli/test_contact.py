@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
 
+import asperity as asp
 from asperity.io.documents import load_document
 from asperity.io.results import load
 
@@ -187,3 +188,42 @@ def test_options_replace_parts_of_a_document(run: Runner, matrix: Path, tmp_path
 def test_advice_is_printed(run: Runner, matrix: Path) -> None:
     result = run("contact", matrix, *SCALE, *BODY, *LOAD)
     assert "warning (resolution)" in result.stdout
+
+
+def test_coated_bodies(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    bodies = ("--body", "DLC:5nm~/Cr:2nm/steel", "--counter-body", "E=1GPa,nu=0.4:1um/rigid", "--hardness", "body")
+    result = run("contact", matrix, *SCALE, *bodies, *LOAD, "--out", tmp_path / "run")
+    assert result.exit_code == 0, result.stderr
+    for text in (
+        "DLC 5 nm (slips) / chromium 2 nm / steel",
+        "(E = 1 GPa, ν = 0.4) 1 µm / rigid base",
+        "hardness 15 GPa (of DLC, the top layer)",
+        "contact modulus E* of the materials at the surfaces",
+        "note (softer layers below)",
+    ):
+        assert text in result.stdout, text
+    solved = load(tmp_path / "run" / "result.nc")
+    layers = [asp.Layer(asp.material("DLC"), 5e-9, asp.Frictionless()), asp.Layer(asp.material("Cr"), 2e-9)]
+    assert repr(solved.problem.body) == repr(asp.Layered(layers, asp.material("steel")))
+    again = run("contact", "--from", tmp_path / "run" / "problem.toml", "--out", tmp_path / "again")
+    assert again.exit_code == 0, again.stderr
+    np.testing.assert_array_equal(load(tmp_path / "again" / "result.nc").pressure, solved.pressure)
+    html = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    assert "5 nm of DLC: E = 140 GPa" in html
+    assert "slips without friction on what is below" in html
+
+
+def test_line_contact_from_a_document(run: Runner, tmp_path: Path) -> None:
+    document = tmp_path / "cylinder.toml"
+    document.write_text(
+        """version = 1
+body = "E=100GPa,nu=0.3:1um/steel"
+surface = { kind = "cylinder", radius = "1 mm", axis = "y", points = [64, 1], size = "20 um x 1 m" }
+boundary = { kind = "line" }
+control = { force = "1 kN" }
+"""
+    )
+    result = run("contact", "--from", document)
+    assert result.exit_code == 0, result.stderr
+    assert "free line, hard wall" in result.stdout
+    assert "force                                                    1 kN" in result.stdout

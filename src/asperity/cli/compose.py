@@ -10,6 +10,7 @@ from typing import Any
 
 from ..core import require
 from ..core.errors import InputError
+from ..io.schemas.body_text import SYMBOLS, body_from_text
 from .options import BodyOptions, PreparationOptions, ReadingOptions, SolveOptions
 
 CONTROLS = MappingProxyType(
@@ -17,26 +18,14 @@ CONTROLS = MappingProxyType(
 )
 """Option that gives each control of the document."""
 
-CONSTANTS = MappingProxyType(
-    {"E": "youngs_modulus", "nu": "poisson_ratio", "H": "hardness", "Y": "yield_stress", "name": "name"}
-)
-"""Key of the document for each symbol in the text of a body."""
-
 NAMES = MappingProxyType(
     {
         **{f"control.{key}": f"--{option.replace('_', '-')}" for key, option in CONTROLS.items()},
-        **{
-            f"{table}.{key}": f"{symbol} of --{option}"
-            for table, option in (("body", "body"), ("counter_body", "counter"))
-            for symbol, key in CONSTANTS.items()
-        },
         **{
             f"{table}.{key}": f"--{key.replace('_', '-')}"
             for table in ("surface", "counter_surface")
             for key in ("channel", "size", "height_unit", "z_scale", "mirror")
         },
-        "body": "--body",
-        "counter_body": "--counter",
         "boundary.kind": "--boundary",
         "law.hardness": "--hardness",
         "solver.method": "--solver",
@@ -47,6 +36,10 @@ NAMES = MappingProxyType(
     }
 )
 """What the user calls a key of the document."""
+
+
+WORDS = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"))
+"""What the user calls a key of a part of a body, and the key."""
 
 
 def composed(
@@ -95,25 +88,27 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions)
 
 
 def body_table(text: str, option: str, materials_file: Path | None) -> dict[str, Any]:
-    """Body from ``"rigid"``, constants such as ``"E=140GPa,nu=0.25,H=15GPa"``, or the name of a material."""
-    if "=" in text:
-        return dict(_constant(part, option) for part in text.split(","))
-    if text.strip().casefold() == "rigid":
-        return {"rigid": True}
-    own = {} if materials_file is None else {"materials_file": str(materials_file)}
-    return {"material": text.strip(), **own}
+    """Body from its one line of text (see ``io.schemas.body_text``); named materials are looked up in the file."""
+    try:
+        table = body_from_text(text)
+    except InputError as error:
+        raise InputError(f"{option}{error}") from None
+    named = "layers" in table or "material" in table
+    return {**table, "materials_file": str(materials_file)} if named and materials_file is not None else table
 
 
-def _constant(part: str, option: str) -> tuple[str, Any]:
-    symbol, _, value = (piece.strip() for piece in part.partition("="))
-    if symbol not in CONSTANTS:
-        raise InputError(
-            f'{option} must be a material or constants such as "E=140GPa,nu=0.25,H=15GPa" '
-            f"({', '.join(CONSTANTS)}), but holds {part.strip()!r}."
-        )
-    if symbol != "nu":
-        return CONSTANTS[symbol], value
-    return CONSTANTS[symbol], _number(value, f"nu of {option}")
+def body_names(table: Mapping[str, Any]) -> dict[str, str]:
+    """What the user calls the keys of the bodies in ``table``: the symbol, the part and the option."""
+    names: dict[str, str] = {}
+    for key, option in (("body", "--body"), ("counter_body", "--counter")):
+        body = table.get(key)
+        layers = body.get("layers", ()) if isinstance(body, dict) else ()
+        parts = {key: option, f"{key}.base": f"the base of {option}"}
+        parts |= {f"{key}.layers[{n}]": f"layer {n} of {option}" for n in range(1, len(layers) + 1)}
+        for part, name in parts.items():
+            names[part] = name
+            names |= {f"{part}.{k}": f"{symbol} of {name}" for symbol, k in WORDS}
+    return names
 
 
 def _surface(file: Path, reading: ReadingOptions, preparation: PreparationOptions) -> dict[str, Any]:
@@ -171,10 +166,3 @@ def _points(text: str) -> list[int]:
     if match is None:
         raise InputError(f"--resample must be one or two numbers of points, such as 256x256, but is {text!r}.")
     return [int(match.group(1)), int(match.group(2) or match.group(1))]
-
-
-def _number(text: str, what: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{what} must be a number, such as 0.3, but is {text!r}.") from None

@@ -67,12 +67,12 @@ def _from_options(
 ) -> ProblemDocument:
     from ..core.errors import InputError
     from ..io.documents import checked
-    from .compose import NAMES, composed, overlaid, step_names
+    from .compose import NAMES, body_names, composed, overlaid, step_names
 
     if file is None:
         raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
     table = overlaid(composed(file, reading, preparation, bodies), bodies, solve)
-    return checked(table, "command line", {**NAMES, **step_names(table["surface"]["prepare"])})
+    return checked(table, "command line", {**NAMES, **body_names(table), **step_names(table["surface"]["prepare"])})
 
 
 def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> ProblemDocument:

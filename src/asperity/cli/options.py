@@ -68,10 +68,24 @@ class BodyOptions:
     """Bodies, counter surface, boundary and interface law."""
 
     body: Annotated[
-        str | None, _option("--body", 'Material name or "E=140GPa,nu=0.25,H=15GPa".', BODIES, "MATERIAL")
+        str | None,
+        _option(
+            "--body",
+            'Material name, "E=140GPa,nu=0.25,H=15GPa", or layers from the surface down on a base: '
+            '"DLC:5nm/Cr:2nm/steel"; ~ behind a thickness: slips on what is below.',
+            BODIES,
+            "BODY",
+        ),
     ] = None
     counter: Annotated[
-        str | None, _option("--counter", "Counter body, in the same way; rigid by default.", BODIES, "MATERIAL")
+        str | None,
+        Option(
+            "--counter",
+            "--counter-body",
+            help="Counter body, in the same way; rigid by default.",
+            rich_help_panel=BODIES,
+            metavar="BODY",
+        ),
     ] = None
     materials_file: Annotated[Path | None, _option("--materials-file", "Your own materials, a TOML file.", BODIES)] = (
         None
@@ -85,9 +99,17 @@ class BodyOptions:
     ] = None
     hardness: Annotated[
         str | None,
-        _option("--hardness", 'Limit of the pressure, or "body" for the softer known hardness.', BODIES, "PRESSURE"),
+        _option(
+            "--hardness",
+            'Limit of the pressure, or "body" for the lower known hardness of the materials at the surfaces.',
+            BODIES,
+            "PRESSURE",
+        ),
     ] = None
-    boundary: Annotated[str | None, _option("--boundary", "periodic (default) or free.", BODIES)] = None
+    boundary: Annotated[
+        str | None,
+        _option("--boundary", "periodic (default), free, or line (plane strain; one point along y).", BODIES),
+    ] = None
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
     from ..contact.finding import Advice
     from ..contact.result import ContactResult
-    from ..solids.body import Body
     from ..surfaces.surface import Surface
 
 
@@ -67,23 +66,11 @@ def surface_text(surface: Surface) -> str:
     return f"{nx} × {ny} points, {size}"
 
 
-def body_text(body: Body) -> str:
-    """Name and elastic constants of ``body``."""
-    from ..core.units import show
-    from ..solids.elastic import Elastic
-
-    if not isinstance(body, Elastic):
-        return "rigid"
-    constants = f"E = {show(body.youngs_modulus, 'Pa')}, ν = {body.poisson_ratio:g}"
-    hardness = body.strength.hardness
-    known = "" if hardness != hardness else f", H = {show(hardness, 'Pa')}"
-    return f"{body.name}: {constants}{known}" if body.name else constants + known
-
-
 def problem_rows(result: ContactResult) -> list[tuple[str, str]]:
     """What was solved."""
-    from ..contact.laws import Hardness
     from ..core.units import show
+    from ..report.bodies import body_text
+    from ..report.settings import limit_text, modulus_label
     from ..surfaces.surface import Surface
 
     problem, control = result.problem, result.control
@@ -91,10 +78,8 @@ def problem_rows(result: ContactResult) -> list[tuple[str, str]]:
     if isinstance(problem.counter_surface, Surface):
         rows.append(("counter surface", problem.counter_surface.origin.source or "unnamed"))
     rows += [("body", body_text(problem.body)), ("counter body", body_text(problem.counter_body))]
-    rows.append(("contact modulus E*", show(problem.contact_modulus, "Pa")))
-    law = problem.law.name
-    if isinstance(problem.law, Hardness) and isinstance(problem.law.value, float):
-        law += f" {show(problem.law.value, 'Pa')}"
+    rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
+    law = f"{problem.law.name} {limit_text(problem)}".rstrip()
     rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
     rows.append(("prescribed", f"{control.name} {show(control.value, control.unit)}"))
     return rows

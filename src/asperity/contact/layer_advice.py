@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
+from ..core.units import show
+from ..solids.body import materials_of
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered
 from .finding import Advice
@@ -18,11 +22,12 @@ LARGEST_THICKNESS = 0.5
 
 
 def layer_advice(problem: ContactProblem) -> Iterator[Advice]:
-    """Layers thinner than a pixel, and layers so thick that a periodic cell hardly feels what lies below."""
+    """Layers thinner than a pixel, or so thick that a periodic cell hardly feels what lies below; softer ones below."""
     for body in (problem.body, problem.counter_body):
         if isinstance(body, Layered):
             yield from _against_pixel(problem, body.reduced)
             yield from _against_period(problem, body.reduced)
+            yield from _softer_below(problem, body.reduced)
 
 
 def _against_pixel(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
@@ -55,6 +60,20 @@ def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
             f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
             "reaches the base, whose material then makes little difference. Use a larger map, or the free boundary for a "
             "single contact.",
+        )
+
+
+def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
+    """A pressure limit says nothing of what lies below the surface, where a softer material may yield first."""
+    limit = float(np.max(problem.law.pressure_cap()))
+    surface, *below = (part.strength.hardness for part in materials_of(body))
+    if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
+        yield Advice(
+            "note",
+            "softer layers below",
+            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
+            f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
+            "lower pressure. Compute the stresses, which tell the load factor of each layer.",
         )
 
 

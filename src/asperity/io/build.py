@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..contact.boundary import Boundary, Free, Periodic
+from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
 from ..contact.laws import Hardness, HardWall, InterfaceLaw
 from ..contact.problem import ContactProblem, Flat
@@ -14,12 +15,11 @@ from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
 from ..core import units
 from ..core.errors import InputError
-from ..solids.body import Body
-from ..solids.elastic import Elastic, Rigid
-from ..solids.library import material
-from ..solids.strength import Strength
+from ..solids.body import Body, surface_material
+from ..solids.layers import Layered
+from .build_body import build_body
 from .build_surface import build_counter_surface, build_surface
-from .schemas.problem import BodyTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
+from .schemas.problem import BoundaryTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
 from .schemas.values import FROM_BODY
 
 
@@ -44,44 +44,37 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     folder = Path(base_folder)
     body = build_body(document.body, folder)
     counter_body = build_body(document.counter_body, folder)
-    boundary: Boundary = Free() if document.boundary.kind == "free" else Periodic()
     problem = ContactProblem(
         build_surface(document.surface, folder),
         body,
         Flat() if document.counter_surface is None else build_counter_surface(document.counter_surface, folder),
         counter_body,
-        boundary,
+        build_boundary(document.boundary),
         build_law(document.law, (body, counter_body)),
     )
     solver = build_solver(document.solver, problem)
     return Case(problem, build_control(document.control), solver, document.solver.threads)
 
 
-def build_body(table: BodyTable, folder: Path) -> Body:
-    """Body that ``table`` names or describes."""
-    if table.rigid:
-        return Rigid()
-    if table.material is not None:
-        return material(table.material, library=None if table.materials_file is None else folder / table.materials_file)
-    assert table.youngs_modulus is not None
-    assert table.poisson_ratio is not None
-    strength = Strength(_pressure(table.hardness), _pressure(table.yield_stress))
-    return Elastic(
-        _pressure(table.youngs_modulus), table.poisson_ratio, strength, name=table.name or "", sources=("user",)
-    )
+def build_boundary(table: BoundaryTable) -> Boundary:
+    """Boundary that ``table`` names."""
+    if table.kind == "line":
+        return FreeLine(None if table.datum is None else units.parse(table.datum, "length", "boundary.datum"))
+    return Free() if table.kind == "free" else Periodic()
 
 
 def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
-    """Law that ``table`` names; a hardness from the body is the lowest known one."""
+    """Law that ``table`` names; a hardness from the body is the lower known one, of its top layer where it is coated."""
     if not isinstance(table, HardnessTable):
         return HardWall()
     if table.hardness != FROM_BODY:
         return Hardness(_pressure(table.hardness))
-    strengths = [body.strength.hardness for body in bodies if isinstance(body, Elastic)]
-    known = [hardness for hardness in strengths if hardness == hardness]
+    surfaces = [solid for solid in map(surface_material, bodies) if solid is not None]
+    known = [solid.strength.hardness for solid in surfaces if not math.isnan(solid.strength.hardness)]
     if not known:
+        coated = " (of a coated body the top layer counts)" if any(isinstance(b, Layered) for b in bodies) else ""
         raise InputError(
-            "hardness must be known for at least one body to be taken from it, but neither states one. "
+            f"hardness must be known for at least one body to be taken from it, but neither states one{coated}. "
             'Give law.hardness (--hardness) as a pressure, such as "5 GPa".'
         )
     return Hardness(min(known))

@@ -15,8 +15,10 @@ from ..core.errors import InputError
 from ..io.atomic import atomic_file
 from ..io.provenance import provenance
 from ..plots.figures import PLOTS, render
-from .inputs import Rows, body_rows, setting_rows, surface_rows
+from .bodies import body_rows
+from .inputs import Rows, surface_rows
 from .outputs import certificate_rows, headline_rows, result_rows, summary
+from .settings import setting_rows
 
 TEMPLATE = "report.html"
 """Template in the folder ``templates``."""

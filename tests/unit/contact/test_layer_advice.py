@@ -55,3 +55,24 @@ def test_hardness_is_that_of_the_surface_material():
         assert ("hardness" in advice) == warned
         if warned:
             assert "varnish" in advice["hardness"].message
+
+
+def test_softer_material_under_a_pressure_limit():
+    """The limit is that of the surface; of what lies below it the user is told."""
+
+    def told(hardnesses, limit):
+        top, *middle, bottom = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in hardnesses)
+        body = asp.Layered([asp.Layer(top, 2.0), *(asp.Layer(m, 2.0) for m in middle)], bottom)
+        law = asp.HardWall() if limit is None else asp.Hardness(limit)
+        problem = asp.ContactProblem(rough((16, 16), power=3.0), body, law=law)
+        found = [a for a in asp.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "softer layers below"]
+        return [a.message for a in found]
+
+    (message,) = told((15e9, 2e9), 15e9)
+    assert "limited to 15 GPa" in message
+    assert "only 2 GPa" in message
+    assert "only 1 GPa" in told((15e9, float("nan"), 1e9), 15e9)[0]
+    assert told((15e9, 2e9), None) == []
+    assert told((15e9, 2e9), 1e9) == [], "a limit below both hardnesses keeps both elastic in this sense"
+    assert told((2e9, 15e9), 2e9) == []
+    assert told((15e9, float("nan")), 15e9) == []

@@ -20,7 +20,8 @@ from asperity.core.digest import array_digest
 from asperity.core.errors import OutputError
 from asperity.plots import PLOTS
 from asperity.report import write_report
-from asperity.report.inputs import body_rows, surface_rows
+from asperity.report.bodies import body_rows, body_text
+from asperity.report.inputs import surface_rows
 from asperity.report.outputs import value_text
 from asperity.surfaces.surface import Origin
 
@@ -229,3 +230,29 @@ def test_heights_of_masked_surfaces_are_measured_on_valid_points() -> None:
     rows = dict(surface_rows(asp.Surface([[0.0, 2e-6], [np.nan, 2e-6]], 1e-6)))
     assert rows["peak to valley"] == "2 µm"
     assert rows["rms height"] == "942.8 nm"
+
+
+def test_layered_bodies_are_listed_from_the_surface_down() -> None:
+    film = asp.Elastic(1e9, 0.4)
+    dlc = asp.Elastic(1.4e11, 0.25, asp.Strength(1.5e10), name="DLC", sources=("youngs_modulus: Bhushan 1999",))
+    steel = asp.Elastic(2.1e11, 0.3, asp.Strength(yield_stress=3e8), name="steel", sources=("user",))
+    body = asp.Layered([asp.Layer(dlc, 5e-9, asp.Frictionless()), asp.Layer(film, 2e-6)], steel, name="disk")
+    assert body_text(body) == "DLC 5 nm (slips) / (E = 1 GPa, ν = 0.4) 2 µm / steel"
+    assert body_rows(body) == [
+        ("name", "disk"),
+        ("layer 1", "5 nm of DLC: E = 140 GPa, ν = 0.25, H = 15 GPa; slips without friction on what is below"),
+        ("layer 2", "2 µm of E = 1 GPa, ν = 0.4; bonded to what is below"),
+        ("base", "steel: E = 210 GPa, ν = 0.3, Y = 300 MPa"),
+        ("source of Young's modulus E (DLC)", "Bhushan 1999"),
+        ("source (steel)", "user"),
+    ]
+    assert body_text(asp.Layered([asp.Layer(dlc, 5e-9)], asp.RigidBase())) == "DLC 5 nm / rigid base"
+    assert body_text(asp.Rigid()) == "rigid"
+
+
+def test_graded_coatings_take_one_row() -> None:
+    top, bottom = asp.Elastic(4e11, 0.25, name="TiN"), asp.Elastic(2e11, 0.3, name="steel")
+    body = asp.Layered([asp.Layer(top, 1e-8), *asp.graded(top, bottom, 1e-6, sublayers=4)], bottom)
+    assert body_text(body) == "TiN 10 nm / graded TiN - steel 1 µm in 4 layers / steel"
+    rows = dict(body_rows(body))
+    assert rows["layers 2 to 5"].startswith("1 µm of graded TiN - steel in 4 layers: E = 366.8 GPa … 218.1 GPa;")

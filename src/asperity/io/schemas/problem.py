@@ -7,8 +7,9 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, model_validator
 
 from ...core.errors import InputError
+from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
-from .values import Count, Force, Fraction, Length, Method, PoissonRatio, Pressure, PressureOrBody, Table, Text
+from .values import Count, Force, Fraction, Length, Method, Pressure, PressureOrBody, Table
 
 VERSION = 1
 """Version of the document that this package reads and writes."""
@@ -17,41 +18,20 @@ CONTROLS = ("mean_pressure", "force", "approach", "mean_gap")
 """Keys of the table [control], of which exactly one is given."""
 
 
-class BodyTable(Table):
-    """One body: a named ``material``, elastic constants, or ``rigid = true``."""
+class BoundaryTable(Table):
+    """What lies outside the grid: the same again, no load, or for a surface of one row the same line contact for ever.
 
-    material: Text | None = None
-    materials_file: Text | None = None
-    youngs_modulus: Pressure | None = None
-    poisson_ratio: PoissonRatio | None = None
-    hardness: Pressure | None = None
-    yield_stress: Pressure | None = None
-    name: Text | None = None
-    rigid: bool = False
+    ``datum`` is the distance at which displacements of a line contact are called zero, by default the length of the grid.
+    """
+
+    kind: Literal["periodic", "free", "line"] = "periodic"
+    datum: Length | None = None
 
     @model_validator(mode="after")
-    def _one_way(self) -> BodyTable:
-        constants = [key for key in ("youngs_modulus", "poisson_ratio") if getattr(self, key) is not None]
-        ways = [*(["rigid = true"] if self.rigid else []), *(["material"] if self.material else []), *constants[:1]]
-        if len(ways) != 1:
-            given = " and ".join(ways) or "none of these"
-            raise InputError(
-                f" must give a material, or youngs_modulus and poisson_ratio, or rigid = true, but gives {given}."
-            )
-        if len(constants) == 1:
-            raise InputError(f" must give youngs_modulus and poisson_ratio together, but gives only {constants[0]}.")
-        beside = [key for key in ("hardness", "yield_stress", "name") if getattr(self, key) is not None]
-        if beside and not constants:
-            raise InputError(f" may give {beside[0]} only together with youngs_modulus, but gives it with {ways[0]}.")
-        if self.materials_file is not None and self.material is None:
-            raise InputError(" may give a materials_file only together with a material, but gives it without.")
+    def _datum(self) -> BoundaryTable:
+        if self.datum is not None and self.kind != "line":
+            raise InputError(f".datum must be left out for the boundary {self.kind}: only a line contact has one.")
         return self
-
-
-class BoundaryTable(Table):
-    """What lies outside the grid."""
-
-    kind: Literal["periodic", "free"] = "periodic"
 
 
 class HardWallTable(Table):

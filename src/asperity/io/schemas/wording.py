@@ -40,7 +40,7 @@ def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> st
     kind, context, received = detail["type"], detail.get("ctx", {}), detail["input"]
     if kind == "value_error":
         text = str(context["error"])
-        return (key or "document") + text if text.startswith(" ") else text
+        return (key or "document") + text if text.startswith((" ", ".")) else text
     if kind == "missing":
         return f"{key} must be given, but is missing."
     if kind == "extra_forbidden":
@@ -85,9 +85,9 @@ def _located(schema: Mapping[str, Any], loc: Sequence[int | str]) -> tuple[str, 
 
 
 def _resolved(node: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:
-    """``node`` with references followed, and the first alternative that is not null taken."""
+    """``node`` with references followed, and of alternatives the one that is neither null nor text taken."""
     while True:
-        alternatives = [item for item in node.get("anyOf", ()) if item.get("type") != "null"]
+        alternatives = [item for item in node.get("anyOf", ()) if item.get("type") not in ("null", "string")]
         if "$ref" in node:
             node = schema["$defs"][node["$ref"].rpartition("/")[2]]
         elif len(alternatives) == 1:

@@ -1,0 +1,58 @@
+"""Bodies of a problem document."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..core import units
+from ..solids.body import Body
+from ..solids.elastic import Elastic, Rigid
+from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGrading, graded
+from ..solids.interface import Bonded, Frictionless, Interface
+from ..solids.layers import Base, Layer, Layered, RigidBase
+from ..solids.library import material
+from ..solids.strength import Strength
+from .schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable
+
+
+def build_body(table: BodyTable, folder: Path) -> Body:
+    """Body that ``table`` names or describes; the path of its materials file starts at ``folder``."""
+    library = None if table.materials_file is None else folder / table.materials_file
+    if table.base is not None:
+        layers = [layer for part in table.layers for layer in _layers(part, library)]
+        return Layered(layers, _base(table.base, library), table.name or "")
+    return Rigid() if table.rigid else _elastic(table, library)
+
+
+def _layers(table: LayerTable | GradedTable, library: Path | None) -> tuple[Layer, ...]:
+    thickness = units.parse(table.thickness, "length", "thickness")
+    interface: Interface = Frictionless() if table.interface == "frictionless" else Bonded()
+    if isinstance(table, LayerTable):
+        return (Layer(_elastic(table, library), thickness, interface),)
+    top, bottom = _elastic(table.top, library), _elastic(table.bottom, library)
+    return graded(top, bottom, thickness, grading=_grading(table), sublayers=table.sublayers, interface=interface)
+
+
+def _grading(table: GradedTable) -> Grading:
+    if table.exponent is not None:
+        return PowerGrading(table.exponent)
+    return LinearGrading() if table.kind == "linear" else ExponentialGrading()
+
+
+def _base(table: BaseTable, library: Path | None) -> Base:
+    return RigidBase() if table.rigid else _elastic(table, library)
+
+
+def _elastic(table: MaterialTable, library: Path | None) -> Elastic:
+    if table.material is not None:
+        return material(table.material, library=library)
+    assert table.youngs_modulus is not None
+    assert table.poisson_ratio is not None
+    strength = Strength(_pressure(table.hardness), _pressure(table.yield_stress))
+    return Elastic(
+        _pressure(table.youngs_modulus), table.poisson_ratio, strength, name=table.name or "", sources=("user",)
+    )
+
+
+def _pressure(text: str | None) -> float:
+    return float("nan") if text is None else units.parse(text, "pressure", "pressure")

@@ -1,0 +1,155 @@
+"""Bodies of a problem document: rigid, one material, or layers on a base."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BeforeValidator, ConfigDict, Field, model_validator
+
+from ...core.errors import InputError
+from .body_text import base_from_text, body_from_text, material_from_text
+from .values import Count, Length, NonNegativeLength, Number, PoissonRatio, Pressure, Table, Text
+
+CONSTANTS = ("youngs_modulus", "poisson_ratio")
+"""Keys of the elastic constants, which go together."""
+
+BESIDE = ("hardness", "yield_stress")
+"""Keys that elastic constants may bring along; a named material has its own."""
+
+
+def _text_too(schema: dict[str, Any]) -> None:
+    """Let the JSON ``schema`` of a table accept text, which stands for the table."""
+    table = dict(schema)
+    schema.clear()
+    schema.update({"title": table["title"], "anyOf": [{"type": "string"}, table]})
+
+
+class MaterialTable(Table):
+    """One material: a name of the library, or elastic constants with what is known of the strength.
+
+    It may be text, such as ``"steel"`` or ``"E=140GPa,nu=0.25"``.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_text_too)
+
+    material: Text | None = None
+    youngs_modulus: Pressure | None = None
+    poisson_ratio: PoissonRatio | None = None
+    hardness: Pressure | None = None
+    yield_stress: Pressure | None = None
+    name: Text | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_text(cls, value: Any) -> Any:
+        return material_from_text(value) if isinstance(value, str) else value
+
+    @model_validator(mode="after")
+    def _check(self) -> MaterialTable:
+        self._one_of({})
+        return self
+
+    def _one_of(self, others: dict[str, bool]) -> None:
+        """Refuse all but one way to say what this is: a material, constants, or one of the ``others`` that are given."""
+        constants = [key for key in CONSTANTS if getattr(self, key) is not None]
+        ways = [*(way for way, given in others.items() if given), *(["material"] if self.material else [])]
+        ways += constants[:1]
+        if len(ways) != 1:
+            choices = ", or ".join(["a material", "youngs_modulus and poisson_ratio", *others])
+            raise InputError(f" must give {choices}, but gives {' and '.join(ways) or 'none of these'}.")
+        if len(constants) == 1:
+            raise InputError(f" must give youngs_modulus and poisson_ratio together, but gives only {constants[0]}.")
+        allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else ()
+        beside = [key for key in (*BESIDE, "name") if getattr(self, key) is not None and key not in allowed]
+        if beside:
+            raise InputError(f" may give {beside[0]} only together with youngs_modulus, but gives it with {ways[0]}.")
+
+
+class LayerTable(MaterialTable):
+    """Homogeneous layer; ``interface`` is how it is joined to what lies below it."""
+
+    model_config = ConfigDict(json_schema_extra=None)
+
+    kind: Literal["layer"] = "layer"
+    thickness: NonNegativeLength
+    interface: Literal["bonded", "frictionless"] = "bonded"
+
+
+class GradedTable(Table):
+    """Coating whose Young's modulus changes from that of ``top`` to that of ``bottom``, as thin homogeneous layers.
+
+    ``kind`` says how it changes with depth: ``"linear"``, ``"exponential"``, or ``"power"`` with its ``exponent``.
+    """
+
+    kind: Literal["linear", "exponential", "power"]
+    top: MaterialTable
+    bottom: MaterialTable
+    thickness: Length
+    exponent: Number | None = None
+    sublayers: Count = 32
+    interface: Literal["bonded", "frictionless"] = "bonded"
+
+    @model_validator(mode="after")
+    def _exponent(self) -> GradedTable:
+        if self.kind == "power" and self.exponent is None:
+            raise InputError(".exponent must be given for a graded layer of kind power, but is missing.")
+        if self.kind != "power" and self.exponent is not None:
+            raise InputError(f".exponent must be left out for a graded layer of kind {self.kind}, but is given.")
+        return self
+
+
+def _layers(value: object) -> object:
+    """Layers as a tuple, each with its kind: a table without one is a homogeneous layer."""
+    if not isinstance(value, list | tuple):
+        return value
+    return tuple({"kind": "layer"} | layer if isinstance(layer, dict) else layer for layer in value)
+
+
+AnyLayer: TypeAlias = Annotated[LayerTable | GradedTable, Field(discriminator="kind")]
+"""One layer or graded coating, told apart by the key ``kind``."""
+
+
+class BaseTable(MaterialTable):
+    """What lies under all layers: a material, or ``rigid = true``."""
+
+    rigid: bool = False
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_text(cls, value: Any) -> Any:
+        return base_from_text(value) if isinstance(value, str) else value
+
+    @model_validator(mode="after")
+    def _check(self) -> BaseTable:
+        self._one_of({"rigid = true": self.rigid})
+        return self
+
+
+class BodyTable(BaseTable):
+    """One body: a named ``material``, elastic constants, ``rigid = true``, or ``layers`` from the surface down on a ``base``.
+
+    In a document it may be text as on the command line, such as ``"DLC:5nm/Cr:2nm/steel"``. ``materials_file`` holds
+    the named materials of all its parts; a relative path starts at the folder of the document.
+    """
+
+    materials_file: Text | None = None
+    layers: Annotated[tuple[AnyLayer, ...], BeforeValidator(_layers)] = ()
+    base: BaseTable | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_text(cls, value: Any) -> Any:
+        return body_from_text(value) if isinstance(value, str) else value
+
+    @model_validator(mode="after")
+    def _check(self) -> BodyTable:
+        self._one_of({"rigid = true": self.rigid, "layers": "layers" in self.model_fields_set})
+        if "layers" in self.model_fields_set and not self.layers:
+            raise InputError(".layers must hold at least one layer, but is empty; give the material alone.")
+        if self.layers and self.base is None:
+            raise InputError('.base must be given together with layers, such as base = { material = "steel" }.')
+        if self.base is not None and not self.layers:
+            raise InputError(" may give a base only together with layers, but gives it without.")
+        if self.materials_file is not None and self.material is None and not self.layers:
+            raise InputError(" may give a materials_file only together with a material, but gives it without.")
+        return self
