@@ -1,0 +1,68 @@
+"""Every page of validation on rough contacts, on fewer surfaces and points: all its claims hold, and it is the script's."""
+
+from functools import cache
+from pathlib import Path
+
+import peng_table_3_1
+import pytest
+from page import Claim, Page
+
+FOLDER = Path(peng_table_3_1.__file__).parent
+RUNS = {
+    "peng_table_3_1": lambda: peng_table_3_1.compare(20, peng_table_3_1.PUBLISHED[::5], variants=False),
+}
+
+
+@cache
+def page_of(name):
+    return RUNS[name]()
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_every_claim_holds(name):
+    page = page_of(name)
+    assert page.claims
+    for claim in page.claims:
+        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_page_belongs_to_the_script(name):
+    """Title and claims; numbers are those of more surfaces and points."""
+    page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")
+    assert written.startswith(f"# {page.title}\n")
+    claims = written[written.index("## What is claimed") :]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
+    assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
+    assert {row[-1] for row in rows[1:]} == {"yes"}
+
+
+@pytest.mark.parametrize(
+    ("claim", "holds"),
+    [
+        (Claim("a", 1.0, 0.9, 1.1), True),
+        (Claim("a", 1.2, 0.9, 1.1), False),
+        (Claim("a", 0.8, low=0.9), False),
+        (Claim("a", 0.95, high=0.9), False),
+        (Claim("a", float("nan"), 0.9, 1.1), False),
+    ],
+)
+def test_a_claim_that_fails_is_told(claim, holds):
+    page = Page("title", "about", (), (claim,))
+    assert page.agrees is holds
+    assert ("| NO |" in page.markdown()) is not holds
+
+
+def test_every_published_area_is_a_whole_number_of_pixels():
+    """Within one unit of the last printed digit (0.0001 %), which is a fifteenth of a pixel."""
+    for row in peng_table_3_1.PUBLISHED:
+        pixels = row[3] / 100.0 * peng_table_3_1.PIXELS**2
+        assert abs(pixels - round(pixels)) <= 1.01e-6 * peng_table_3_1.PIXELS**2
+
+
+def test_written_table_has_every_published_row():
+    written = (FOLDER / "peng_table_3_1.md").read_text(encoding="utf-8").splitlines()
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in written if line.startswith("| ")]
+    found = [(row[0], row[1], row[2], row[4], row[7]) for row in lines if len(row) == 10][1:]
+    expected = [(f"{r:g}", f"{p:g}", f"{s:g}", f"{a:.4f}", f"{m:.4f}") for r, p, s, a, m in peng_table_3_1.PUBLISHED]
+    assert found == expected

@@ -1,0 +1,81 @@
+"""Pages with several tables and claims that a number lies within bounds, as Markdown."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Table:
+    """Texts in rows under a head, with a line above that says what they are."""
+
+    about: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+    def lines(self) -> list[str]:
+        """The table in Markdown."""
+        lines = ([self.about, ""] if self.about else []) + ["| " + " | ".join(self.head) + " |"]
+        lines.append("|" + "---|" * len(self.head))
+        return lines + ["| " + " | ".join(row) + " |" for row in self.rows]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement that holds if ``low`` <= ``found`` <= ``high``."""
+
+    text: str
+    found: float
+    low: float = -math.inf
+    high: float = math.inf
+
+    @property
+    def holds(self) -> bool:
+        """Whether the number lies within the bounds."""
+        return self.low <= self.found <= self.high
+
+    @property
+    def expected(self) -> str:
+        """The bounds in words."""
+        if self.low == self.high:
+            return f"{self.low:.3g}"
+        if math.isinf(self.low):
+            return f"at most {self.high:.3g}"
+        if math.isinf(self.high):
+            return f"at least {self.low:.3g}"
+        return f"{self.low:.3g} to {self.high:.3g}"
+
+
+@dataclass(frozen=True)
+class Page:
+    """A published result: text and tables in order, and what is claimed of them."""
+
+    title: str
+    about: str
+    parts: tuple[str | Table, ...]
+    claims: tuple[Claim, ...]
+
+    @property
+    def agrees(self) -> bool:
+        """Whether every claim holds."""
+        return all(claim.holds for claim in self.claims)
+
+    def markdown(self) -> str:
+        """The whole page."""
+        lines = [f"# {self.title}", "", self.about, ""]
+        for part in self.parts:
+            lines += [*(part.lines() if isinstance(part, Table) else [part]), ""]
+        rows = tuple(
+            (claim.text, f"{claim.found:.3g}", claim.expected, "yes" if claim.holds else "NO") for claim in self.claims
+        )
+        lines += Table("## What is claimed", ("claim", "found", "expected", "holds"), rows).lines()
+        return "\n".join(lines) + "\n"
+
+
+def write_page(page: Page, script: str) -> None:
+    """Write the page beside its ``script``."""
+    path = Path(script).with_suffix(".md")
+    path.write_text(page.markdown(), encoding="utf-8")
+    print(f"{path.name}: {'agrees' if page.agrees else 'DISAGREES'}")
