@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ..core import require
 from ..core.errors import InputError
 from ..io.schemas.body_text import SYMBOLS, body_from_text
-from .options import BodyOptions, PreparationOptions, ReadingOptions, SolveOptions
+from .options import BodyOptions, ReadingOptions, SolveOptions
+from .preparing import PreparationOptions, steps
 
 CONTROLS = MappingProxyType(
     {"mean_pressure": "pressure", "force": "load", "approach": "approach", "mean_gap": "mean_gap"}
@@ -26,6 +25,8 @@ NAMES = MappingProxyType(
             for table in ("surface", "counter_surface")
             for key in ("channel", "size", "height_unit", "z_scale", "mirror")
         },
+        "counter_surface.place.shift": "--shift",
+        "counter_surface.place.angle": "--rotate",
         "boundary.kind": "--boundary",
         "law.hardness": "--hardness",
         "solver.method": "--solver",
@@ -51,9 +52,13 @@ def composed(
     table: dict[str, Any] = {"version": 1, "surface": _surface(file, reading, preparation)}
     if bodies.counter_surface is not None:
         counter = _surface(bodies.counter_surface, reading, preparation)
-        table["counter_surface"] = {**counter, "mirror": bodies.mirror or "x"}
-    elif bodies.mirror is not None:
-        raise InputError("--mirror must be given together with --counter-surface only, but is given without.")
+        table["counter_surface"] = {**counter, "mirror": bodies.mirror or "x", **_place(bodies)}
+    else:
+        given = {"--mirror": bodies.mirror, "--shift": bodies.shift, "--rotate": bodies.rotate}
+        given["--common-grid"] = "" if bodies.common_grid else None
+        for option, value in given.items():
+            if value is not None:
+                raise InputError(f"{option} must be given together with --counter-surface only, but is given without.")
     return table
 
 
@@ -111,58 +116,19 @@ def body_names(table: Mapping[str, Any]) -> dict[str, str]:
     return names
 
 
+def _place(bodies: BodyOptions) -> dict[str, Any]:
+    """Where the counter surface lies, if anything is said of it."""
+    if bodies.shift is None and bodies.rotate is None and not bodies.common_grid:
+        return {}
+    parts = [] if bodies.shift is None else [part.strip() for part in bodies.shift.split(",")]
+    if len(parts) not in (0, 2):
+        raise InputError(f'--shift must be two lengths, such as "1um,0um", but is {bodies.shift!r}.')
+    shift = {"shift": parts} if parts else {}
+    return {"place": {**shift, **({} if bodies.rotate is None else {"angle": bodies.rotate})}}
+
+
 def _surface(file: Path, reading: ReadingOptions, preparation: PreparationOptions) -> dict[str, Any]:
     keys = {"channel": reading.channel, "size": reading.size}
     keys |= {"height_unit": reading.height_unit, "z_scale": reading.z_scale}
     given = {key: value for key, value in keys.items() if value is not None}
     return {"kind": "file", "path": str(file), **given, "prepare": steps(preparation)}
-
-
-def steps(preparation: PreparationOptions) -> list[dict[str, Any]]:
-    """Preparation steps in the order crop, level, fill, resample, taper, periodise."""
-    level = require.one_of(preparation.level, ("mean", "plane", "quadratic", "none"), "--level")
-    fill = require.one_of(preparation.fill, ("harmonic", "nearest", "mean", "none"), "--fill")
-    result: list[dict[str, Any]] = []
-    if preparation.crop is not None:
-        result.append({"step": "crop", **_crop(preparation.crop)})
-    if level != "none":
-        result.append({"step": "level", "form": level})
-    if fill != "none":
-        result.append({"step": "fill", "method": fill})
-    if preparation.resample is not None:
-        result.append({"step": "resample", "points": _points(preparation.resample)})
-    if preparation.taper is not None:
-        result.append({"step": "taper", "width": preparation.taper})
-    if preparation.periodise:
-        result.append({"step": "periodise"})
-    return result
-
-
-def step_names(steps: Sequence[Mapping[str, Any]]) -> dict[str, str]:
-    """What the user calls the keys of the preparation ``steps``: the option that made the step."""
-    return {
-        f"{table}.prepare[{number}].{key}": f"{key} of --crop" if step["step"] == "crop" else f"--{step['step']}"
-        for table in ("surface", "counter_surface")
-        for number, step in enumerate(steps, start=1)
-        for key in step
-    }
-
-
-def _crop(text: str) -> dict[str, list[str]]:
-    """Ranges of ``"X0:X1,Y0:Y1"``; an empty part keeps the full side."""
-    parts = [part.strip() for part in text.split(",")]
-    ends = [[end.strip() for end in part.split(":")] for part in parts]
-    if (
-        len(parts) != 2
-        or not any(parts)
-        or any(part and len(pair) != 2 for part, pair in zip(parts, ends, strict=True))
-    ):
-        raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
-    return {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
-
-
-def _points(text: str) -> list[int]:
-    match = re.fullmatch(r"\s*(\d+)\s*(?:[x×]\s*(\d+)\s*)?", text)
-    if match is None:
-        raise InputError(f"--resample must be one or two numbers of points, such as 256x256, but is {text!r}.")
-    return [int(match.group(1)), int(match.group(2) or match.group(1))]

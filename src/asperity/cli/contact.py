@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .options import BodyOptions, OutputOptions, PreparationOptions, ReadingOptions, SolveOptions, SourceOptions
+from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions, SourceOptions
+from .preparing import PreparationOptions
 
 if TYPE_CHECKING:
     from ..io.documents import ProblemDocument
@@ -67,7 +68,8 @@ def _from_options(
 ) -> ProblemDocument:
     from ..core.errors import InputError
     from ..io.documents import checked
-    from .compose import NAMES, body_names, composed, overlaid, step_names
+    from .compose import NAMES, body_names, composed, overlaid
+    from .preparing import step_names
 
     if file is None:
         raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
@@ -98,7 +100,8 @@ def _require_no_surface(
         file is not None
         or reading != ReadingOptions()
         or preparation != PreparationOptions()
-        or (bodies.counter_surface, bodies.mirror) != (None, None)
+        or (bodies.counter_surface, bodies.mirror, bodies.shift, bodies.rotate) != (None, None, None, None)
+        or bodies.common_grid
     ):
         raise InputError(
             "FILE and the options for reading, preparation and counter surface must be left out together with --from, "

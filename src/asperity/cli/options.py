@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from typer import Argument, Option
 
-READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
+READING, BODIES = "Reading the file", "Bodies and interface"
 LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
 
 
@@ -41,26 +41,6 @@ class ReadingOptions:
     z_scale: Annotated[
         str | None, _option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
     ] = None
-
-
-@dataclass(frozen=True)
-class PreparationOptions:
-    """Steps between the file and the contact; they apply to the counter surface too."""
-
-    crop: Annotated[str | None, _option("--crop", 'Part to keep: "0um:5um,0um:4um".', PREPARATION, "X0:X1,Y0:Y1")] = (
-        None
-    )
-    level: Annotated[str, _option("--level", "Remove mean, plane or quadratic; or none.", PREPARATION)] = "plane"
-    fill: Annotated[str, _option("--fill", "Fill missing points: harmonic, nearest or mean; or none.", PREPARATION)] = (
-        "harmonic"
-    )
-    resample: Annotated[str | None, _option("--resample", "New number of points.", PREPARATION, "NX[xNY]")] = None
-    taper: Annotated[
-        float | None, _option("--taper", "Taper this fraction of the side at each border.", PREPARATION, "FRACTION")
-    ] = None
-    periodise: Annotated[bool, _option("--periodise", "Remove the jumps between opposite borders.", PREPARATION)] = (
-        False
-    )
 
 
 @dataclass(frozen=True)
@@ -97,6 +77,17 @@ class BodyOptions:
         str | None,
         _option("--mirror", "How the counter surface is turned over: x (default), y or none.", BODIES),
     ] = None
+    shift: Annotated[
+        str | None,
+        _option("--shift", "Place of the counter surface's middle from that of the surface.", BODIES, "LENGTH,LENGTH"),
+    ] = None
+    rotate: Annotated[
+        str | None, _option("--rotate", "Angle from +x towards +y of the counter surface: 30deg.", BODIES, "ANGLE")
+    ] = None
+    common_grid: Annotated[
+        bool,
+        _option("--common-grid", "Bring both surfaces on one grid; so do --shift and --rotate.", BODIES),
+    ] = False
     hardness: Annotated[
         str | None,
         _option(

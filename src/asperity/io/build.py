@@ -18,7 +18,7 @@ from ..core.errors import InputError
 from ..solids.body import Body, surface_material
 from ..solids.layers import Layered
 from .build_body import build_body
-from .build_surface import build_counter_surface, build_surface
+from .build_surface import build_surfaces
 from .schemas.problem import BoundaryTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
 from .schemas.values import FROM_BODY
 
@@ -44,10 +44,11 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     folder = Path(base_folder)
     body = build_body(document.body, folder)
     counter_body = build_body(document.counter_body, folder)
+    surface, counter_surface = build_surfaces(document.surface, document.counter_surface, folder)
     problem = ContactProblem(
-        build_surface(document.surface, folder),
+        surface,
         body,
-        Flat() if document.counter_surface is None else build_counter_surface(document.counter_surface, folder),
+        Flat() if counter_surface is None else counter_surface,
         counter_body,
         build_boundary(document.boundary),
         build_law(document.law, (body, counter_body)),

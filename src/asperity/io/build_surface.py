@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from ..core import units
+from ..surfaces.common_grid import on_common_grid
 from ..surfaces.pair import turned_over
 from ..surfaces.prepare.crop import cropped
 from ..surfaces.prepare.fill import filled
@@ -50,10 +51,21 @@ def build_file_surface(table: tables.FileSurface, folder: Path) -> Surface:
     return _prepared(_from_file(table, folder), table)
 
 
-def build_counter_surface(table: _Table, folder: Path) -> Surface:
-    """Counter surface of ``table``, mirrored as it asks so that it lies in the frame of the other surface."""
+def build_surfaces(table: _Table, counter: _Table | None, folder: Path) -> tuple[Surface, Surface | None]:
+    """Surface and counter surface, the latter turned over and placed as it asks, so that it lies in the frame of the first."""
     surface = build_surface(table, folder)
-    return surface if table.mirror in (None, "none") else turned_over(surface, axis=str(table.mirror))
+    if counter is None:
+        return surface, None
+    other = build_surface(counter, folder)
+    if counter.mirror not in (None, "none"):
+        other = turned_over(other, axis=str(counter.mirror))
+    if counter.place is None:
+        return surface, other
+    place = si_values(counter.place)
+    pair = on_common_grid(
+        surface, other, shift=place.get("shift", (0.0, 0.0)), angle=place.get("angle", 0.0), spacing=place.get("pixel")
+    )
+    return pair.surface, pair.counter_surface
 
 
 def _prepared(surface: Surface, table: _Table) -> Surface:

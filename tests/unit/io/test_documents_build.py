@@ -439,3 +439,26 @@ def test_counter_surface_is_turned_over(tmp_path: Path, mirror: str) -> None:
         expected = np.flip(expected, "xy".index(mirror))
         assert counter.origin.history[-1] == f"turned over: mirrored along {mirror}"
     np.testing.assert_allclose(counter.heights, expected * 1e-9, rtol=1e-12, atol=0.0)
+
+
+def test_counter_surface_is_placed_on_a_common_grid(tmp_path: Path) -> None:
+    for name, shape in (("a", (32, 24)), ("b", (40, 30))):
+        np.save(tmp_path / f"{name}.npy", np.random.default_rng(len(name)).standard_normal(shape))
+    surface = {"kind": "file", "path": "a.npy", "size": "8 um x 6 um", "height_unit": "nm"}
+    counter = {"kind": "file", "path": "b.npy", "size": "8 um x 6 um", "height_unit": "nm", "mirror": "y"}
+    place = {"shift": ["1 um", "-0.5 um"], "angle": "20 deg"}
+    problem = build(checked(table(surface=surface, counter_surface=counter | {"place": place})), tmp_path).problem
+    assert isinstance(problem.counter_surface, Surface)
+    expected = asp.on_common_grid(
+        asp.read(tmp_path / "a.npy", size=(8e-6, 6e-6), height_unit="nm"),
+        asp.read(tmp_path / "b.npy", size=(8e-6, 6e-6), height_unit="nm"),
+        shift=(1e-6, -0.5e-6),
+        angle=np.radians(20.0),
+        mirrored="y",
+    )
+    np.testing.assert_allclose(problem.surface.heights, expected.surface.heights, atol=1e-18)
+    np.testing.assert_allclose(problem.counter_surface.heights, expected.counter_surface.heights, atol=1e-18)
+    with pytest.raises(InputError, match="two surfaces of a pair"):
+        build(checked(table(surface=surface, counter_surface=counter)), tmp_path)
+    with pytest.raises(InputError, match=r"surface\.place must be left out"):
+        checked(table(surface=surface | {"place": {}}))

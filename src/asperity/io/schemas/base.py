@@ -5,18 +5,42 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from .preparation import Step
-from .values import ORDERED, Channel, HeightUnit, Length, Points, Size, Table, Text
+from .values import (
+    ORDERED,
+    Angle,
+    Channel,
+    HeightUnit,
+    Length,
+    Lengths,
+    Points,
+    SignedLengths,
+    Size,
+    Table,
+    Text,
+)
+
+
+class Place(Table):
+    """Where a counter surface lies: ``shift`` of its middle from that of the surface, ``angle`` from +x towards +y.
+
+    Both surfaces are resampled on one grid that covers their overlap, with the finer pixel or the given one.
+    """
+
+    shift: SignedLengths | None = None
+    angle: Angle | None = None
+    pixel: Lengths | None = None
 
 
 class AnySurface(Table):
-    """What all surfaces have: preparation steps, and for a counter surface how it is turned over.
+    """What all surfaces have: preparation steps, and for a counter surface how it is turned over and where it lies.
 
     ``mirror`` is ``"x"`` or ``"y"`` for a map measured facing its own body, and ``"none"`` for one that is already
-    in the lateral frame of the other surface.
+    in the lateral frame of the other surface. With ``place`` the two need not have the same grid.
     """
 
     prepare: Annotated[tuple[Step, ...], ORDERED] = ()
     mirror: Literal["x", "y", "none"] | None = None
+    place: Place | None = None
 
 
 class GeneratedSurface(AnySurface):

@@ -1,4 +1,4 @@
-"""The whole problem document: two surfaces, two bodies, boundary, law, control and solver."""
+"""The whole problem document: two surfaces, two bodies, boundary, law, control, stress and solver."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from ...core.errors import InputError
 from .bodies import BodyTable
+from .stress import StressTable
 from .surfaces import FileSurface, SurfaceTable
 from .values import Count, Force, Fraction, Length, Method, Pressure, PressureOrBody, Table
 
@@ -91,12 +92,15 @@ class ProblemDocument(Table):
     boundary: BoundaryTable = BoundaryTable()
     law: LawTable = HardWallTable(kind="hard_wall")
     control: ControlTable
+    stress: StressTable | None = None
     solver: SolverTable = SolverTable()
 
     @model_validator(mode="after")
     def _pair(self) -> ProblemDocument:
         if self.surface.mirror is not None:
             raise InputError("surface.mirror must be left out: only the counter_surface is turned over.")
+        if self.surface.place is not None:
+            raise InputError("surface.place must be left out: the counter_surface is placed against the surface.")
         if isinstance(self.counter_surface, FileSurface) and self.counter_surface.mirror is None:
             raise InputError(
                 'counter_surface.mirror must be given: "x" or "y" for a map measured facing its own body (how it is '

@@ -137,8 +137,16 @@ SignedLength: TypeAlias = Annotated[
 ]
 """Text of a length of either sign."""
 
+PositionOrMax: TypeAlias = Annotated[
+    str, _quantity("length", "max", check=lambda value: _not_negative(value)), _as_quantity("length", "30 nm")
+]
+"""Text of a position >= 0, or the word that stands for that of the highest pressure."""
+
 Lengths: TypeAlias = Annotated[tuple[Length, Length], BeforeValidator(_ordered)]
 """Texts of two lengths > 0, along x and y."""
+
+SignedLengths: TypeAlias = Annotated[tuple[SignedLength, SignedLength], BeforeValidator(_ordered)]
+"""Texts of two lengths of either sign, along x and y."""
 
 Angle: TypeAlias = Annotated[
     str, _quantity("angle", check=lambda value: require.finite(value, "")), _as_quantity("angle", "30 deg")

@@ -1,0 +1,107 @@
+"""Options of the preparation and of the place of a counter surface: the steps they stand for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from cli.conftest import BODY, LOAD, SCALE, Runner
+
+from asperity import InputError
+from asperity.cli.preparing import PreparationOptions, step_names, steps
+from asperity.io.documents import load_document
+
+
+def kinds(**options: object) -> list[str]:
+    return [step["step"] for step in steps(PreparationOptions(**options))]  # type: ignore[arg-type]
+
+
+def test_order_of_the_steps() -> None:
+    everything = {
+        "crop": "0um:5um,0um:4um",
+        "despike": 6.0,
+        "line_correct": "x",
+        "tip_radius": "10nm",
+        "short_cutoff": "1um",
+        "resample": "64",
+        "taper": 0.1,
+        "periodise": True,
+    }
+    before = [
+        "crop",
+        "despike",
+        "line_correct",
+        "level",
+        "fill",
+        "tip_limit",
+        "filter",
+        "resample",
+        "taper",
+        "periodise",
+    ]
+    assert kinds(**everything) == before
+    assert kinds(**everything, filter="sharp")[-1] == "filter"
+    assert kinds() == ["level", "fill"]
+    assert kinds(level="none", fill="none") == []
+
+
+def test_values_of_the_steps() -> None:
+    made = steps(
+        PreparationOptions(level="5", robust_level=True, short_cutoff="1um", long_cutoff="9um", filter="robust")
+    )
+    assert made[0] == {"step": "level", "degree": 5, "robust": True}
+    assert made[-1] == {"step": "filter", "short": "1um", "long": "9um", "kind": "robust"}
+    names = step_names(made)
+    assert names["surface.prepare[1].degree"] == "--level"
+    assert names["surface.prepare[3].short"] == "--short-cutoff"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"level": "cubic"}, "--level"),
+        ({"filter": "spline"}, "--filter"),
+        ({"filter": "robust"}, "together with --short-cutoff"),
+        ({"resample": "x"}, "--resample"),
+        ({"crop": "1um"}, "--crop"),
+    ],
+)
+def test_refusals(options: dict[str, str], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        steps(PreparationOptions(**options))  # type: ignore[arg-type]
+
+
+def test_a_contact_of_a_filtered_scan_writes_its_steps(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    options = ("--despike", "5", "--level", "3", "--short-cutoff", "1um", "--periodise")
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options, "--save-document", tmp_path / "a.toml")
+    assert result.exit_code == 0, result.stderr
+    written = load_document(tmp_path / "a.toml").surface.prepare
+    assert [step.step for step in written] == ["despike", "level", "fill", "filter", "periodise"]
+    assert "filtered: short waves from 1 µm" in result.stdout
+
+
+def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
+    for options, words in (
+        (("--short-cutoff", "1"), "--short-cutoff must have a unit"),
+        (("--short-cutoff", "2nm"), "must be at least 4 pixels"),
+        (("--tip-radius", "-1nm"), "--tip-radius must be greater than zero"),
+        (("--level", "21"), "--level must be a whole number from 0 to 20"),
+        (("--line-correct", "z"), "--line-correct must be 'x' or 'y'"),
+        (("--despike", "0"), "--despike must be greater than zero"),
+        (("--shift", "1um,0um"), "--shift must be given together with --counter-surface"),
+        (("--common-grid",), "--common-grid must be given together with --counter-surface"),
+    ):
+        result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options)
+        assert result.exit_code == 2
+        assert words in result.stderr, options
+
+
+def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    place = ("--counter-surface", matrix, "--shift", "1um,0um", "--rotate", "90deg")
+    result = run("contact", matrix, *SCALE, *BODY, *LOAD, *place, "--save-document", tmp_path / "a.toml")
+    assert result.exit_code == 0, result.stderr
+    placed = load_document(tmp_path / "a.toml").counter_surface.place  # type: ignore[union-attr]
+    assert placed is not None
+    assert (placed.shift, placed.angle) == (("1um", "0um"), "90deg")
+    wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--shift", "1um")
+    assert "--shift must be" in wrong.stderr
