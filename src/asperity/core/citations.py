@@ -21,6 +21,7 @@ REFERENCES = {
     "Dietrich1997": "Dietrich, C. R., Newsam, G. N. (1997). Fast and exact simulation of stationary Gaussian processes through circulant embedding of the covariance matrix. SIAM Journal on Scientific Computing 18, 1088-1107.",
     "Dundurs1969": "Dundurs, J. (1969). Discussion of Edge-bonded dissimilar orthogonal elastic wedges under normal and shear loading. Journal of Applied Mechanics 36, 650-652.",
     "Eberly2014": "Eberly, D. (2014). A robust eigensolver for 3 x 3 symmetric matrices. Geometric Tools.",
+    "Flamant1892": "Flamant, A. (1892). Sur la repartition des pressions dans un solide rectangulaire charge transversalement. Comptes Rendus de l'Academie des Sciences 114, 1465-1468.",
     "Ganti1995": "Ganti, S., Bhushan, B. (1995). Generalized fractal analysis and its applications to engineering surfaces. Wear 180, 17-34.",
     "Greenwood1966": "Greenwood, J. A., Williamson, J. B. P. (1966). Contact of nominally flat surfaces. Proceedings of the Royal Society A 295, 300-319.",
     "Hamilton2000": "Hamilton, A. J. S. (2000). Uncorrelated modes of the non-linear power spectrum. Monthly Notices of the Royal Astronomical Society 312, 257-284.",

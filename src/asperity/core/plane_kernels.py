@@ -87,8 +87,6 @@ def _stress_under_pressure(used, d, v, nu, K):  # type: ignore[no-untyped-def]
     for j in range(used):
         T = nu * (A[j] - M[j])
         xx[j] = cc[j] * A[j] + ss[j] * T
-    for j in range(used):
-        T = nu * (A[j] - M[j])
         yy[j] = ss[j] * A[j] + cc[j] * T
     for j in range(used):
         zz[j] = -M[j]
@@ -110,12 +108,9 @@ def _stress_under_shear(used, d, v, nu, K):  # type: ignore[no-untyped-def]
     for j in range(used):
         T = nu * (A[j] - M[j])
         xx[j] = -c[j] * (cc[j] * A[j] + ss[j] * (T - 2.0 * g[j]))
-    for j in range(used):
-        T = nu * (A[j] - M[j])
         yy[j] = -c[j] * (ss[j] * (A[j] + 2.0 * g[j]) + cc[j] * T)
     for j in range(used):
-        T = nu * (A[j] - M[j])
-        xy[j] = -s[j] * (cc[j] * (A[j] - T) + (cc[j] - ss[j]) * g[j])
+        xy[j] = -s[j] * (cc[j] * (A[j] - nu * (A[j] - M[j])) + (cc[j] - ss[j]) * g[j])
     for j in range(used):
         zz[j] = c[j] * M[j]
     for j in range(used):

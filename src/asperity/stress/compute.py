@@ -64,8 +64,8 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
             shear = Sliding(shear.coefficient, shear.direction + math.pi)
         else:
             shear = ShearTraction(-shear.x, -shear.y)
-    problem = result.problem
-    return Tractions(problem.grid, result.pressure, shear, problem.boundary.name)
+    grid, boundary = result.problem.grid, result.problem.boundary
+    return Tractions(grid, result.pressure, shear, boundary.name, getattr(boundary, "datum", None))
 
 
 def stress(
@@ -111,7 +111,8 @@ def stress(
     -----
     Periodic boundary: exact for the trigonometric interpolation of the tractions, no mean lateral strain, displacements
     relative to the mean of the surface (or to a rigid base). Free boundary: exact for constant tractions on pixels, to
-    rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity.
+    rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity
+    (free line: at the datum of the contact).
     Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
 
     Raises
@@ -226,6 +227,8 @@ def _citation_keys(tractions: Tractions, body: object) -> tuple[str, ...]:
     keys = {"Johnson1985"}
     if stack(body).layers:
         keys |= {"Burmister1945", "Tan2006"}
-    if tractions.boundary == "free":
+    if tractions.boundary == "free line":
+        keys |= {"Liu2002", "Flamant1892"}
+    elif tractions.boundary == "free":
         keys |= {"Liu2002", "Love1929"} | ({"Cerruti1882"} if tractions.sheared else set())
     return tuple(sorted(keys))

@@ -1,4 +1,7 @@
-"""Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002)."""
+"""Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002).
+
+Of pixels in space, or of strips in plane strain.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ from ..core.arrays import ComplexArray, RealArray
 from ..core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .coefficients import PlaneCoefficients
+from .line_coefficients import LineCoefficients
 from .patch import Load
 from .regions import Plane, stack
 from .tractions import ShearTraction, Tractions
@@ -36,7 +40,7 @@ class FreePlanes:
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
         """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
-        coefficients = PlaneCoefficients(self._body, plane, self.tractions.grid)
+        coefficients = self._coefficients(plane)
         by_load = {load: vars(coefficients.stress(load)) for load in self._loads}
         found = StressTensor(*self._convolved(STRESSES, by_load, None if out is None else list(vars(out).values())))
         if plane.side == "surface":  # exact, whatever the rounding of the transforms
@@ -47,9 +51,15 @@ class FreePlanes:
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement (m) of ``plane``, zero at infinity."""
-        coefficients = PlaneCoefficients(self._body, plane, self.tractions.grid)
+        coefficients = self._coefficients(plane)
         by_load = {load: vars(coefficients.displacement(load)) for load in self._loads}
         return Displacement(*self._convolved(AXES, by_load, None if out is None else list(vars(out).values())))
+
+    def _coefficients(self, plane: Plane) -> PlaneCoefficients | LineCoefficients:
+        grid = self.tractions.grid
+        if self.tractions.boundary == "free line":
+            return LineCoefficients(self._body, plane, grid, self.tractions.datum or grid.size[0])
+        return PlaneCoefficients(self._body, plane, grid)
 
     @property
     def _loads(self) -> list[Load]:

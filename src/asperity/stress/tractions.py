@@ -69,6 +69,13 @@ Shear: TypeAlias = Sliding | ShearTraction
 """Shear traction on the body."""
 
 
+Boundary: TypeAlias = Literal["periodic", "free", "free line"]
+"""What lies outside the grid."""
+
+BOUNDARIES = ("periodic", "free", "free line")
+"""Names of the boundaries."""
+
+
 @dataclass(frozen=True, eq=False)
 class Tractions:
     """Tractions on the surface of one body.
@@ -83,7 +90,11 @@ class Tractions:
         ``Sliding(...)`` or ``ShearTraction(...)``; none by default.
     boundary
         ``"periodic"``: the load repeats, and is the trigonometric interpolation of its values. ``"free"``: nothing
-        loads the surface outside the grid, and each pixel carries a constant traction.
+        loads the surface outside the grid, and each pixel carries a constant traction. ``"free line"``: the same along
+        x, and along y, where the grid has one point, everything goes on unchanged (plane strain).
+    datum
+        Only for a free line: distance in m from a line load at which the displacement of the surface is called zero; None
+        takes the length of the grid.
 
     Raises
     ------
@@ -94,10 +105,13 @@ class Tractions:
     grid: Grid
     pressure: RealArray
     shear: Shear = Sliding(0.0)
-    boundary: Literal["periodic", "free"] = "periodic"
+    boundary: Boundary = "periodic"
+    datum: float | None = None
 
     def __post_init__(self) -> None:
-        require.one_of(self.boundary, ("periodic", "free"), "boundary of tractions")
+        require.one_of(self.boundary, BOUNDARIES, "boundary of tractions")
+        if self.boundary == "free line" and self.grid.shape[1] != 1:
+            raise InputError(f"grid of a free line must have one point along y, but has {self.grid.shape[1]}.")
         pressure = require.field(self.pressure, "pressure of tractions (Pa)", self.grid.shape)
         object.__setattr__(self, "pressure", pressure)
         if not isinstance(self.shear, Sliding | ShearTraction):

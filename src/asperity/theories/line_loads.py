@@ -1,6 +1,6 @@
 """Line forces and uniform strips on a half-space in plane strain (Flamant 1892; Johnson 1985, ch. 2).
 
-Plane problems fix displacements up to a constant only; here it is the constant for which the formulas are shortest.
+Plane problems fix displacements up to a constant only; here surface displacements along the force are multiples of ln r.
 """
 
 from __future__ import annotations
@@ -37,9 +37,20 @@ def flamant_tangential(x: RealArray, z: RealArray | float, *, shear: float, nu: 
     x, z = np.broadcast_arrays(x, z)
     r2 = x**2 + z**2
     theta = np.arctan2(x, z)
-    u = Displacement(-(1.0 - nu) * np.log(r2) + x**2 / r2, 0.0 * x, (1.0 - 2.0 * nu) * theta + x * z / r2)
+    u = Displacement(-(1.0 - nu) * np.log(r2) - z**2 / r2, 0.0 * x, (1.0 - 2.0 * nu) * theta + x * z / r2)
     k = -2.0 / (np.pi * r2**2)
     return ElasticFields(u * (0.5 / (np.pi * shear)), _plane_strain(k * x**3, k * x * z**2, k * x**2 * z, nu))
+
+
+def flamant_out_of_plane(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
+    """Displacement and stress per unit force per length (N/m) along +y on the line x = z = 0 (antiplane strain).
+
+    u_y = -ln(r)/πG, whatever Poisson's ratio ``nu``. Parameters and units as for ``flamant_normal``.
+    """
+    x, z = np.broadcast_arrays(x, z)
+    r2, zero = x**2 + z**2, 0.0 * x * nu
+    stress = StressTensor(zero, zero, zero, xy=-x / (np.pi * r2), xz=zero, yz=-z / (np.pi * r2))
+    return ElasticFields(Displacement(zero, -0.5 * np.log(r2) / (np.pi * shear), zero), stress)
 
 
 def strip_pressure(x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float) -> ElasticFields:
@@ -70,13 +81,26 @@ def strip_shear(x: RealArray, z: RealArray | float, half_width: float, *, shear:
     fields = []
     for X, z_, angle, log, r2 in ends:
         u = Displacement(
-            -(1.0 - nu) * (X * log - 2.0 * X + 2.0 * z_ * angle) + X - z_ * angle,
+            -(1.0 - nu) * (X * log - 2.0 * X + 2.0 * z_ * angle) - z_ * angle,
             0.0 * X,
             (1.0 - 2.0 * nu) * (X * angle - 0.5 * z_ * log) + 0.5 * z_ * log,
         )
         dip = z_**2 / r2
         s = _plane_strain(-(log + dip) / np.pi, dip / np.pi, (z_ * X / r2 - angle) / np.pi, nu)
         fields.append(ElasticFields(u * (0.5 / (np.pi * shear)), s))
+    return fields[0] + fields[1] * -1.0
+
+
+def strip_out_of_plane(
+    x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float
+) -> ElasticFields:
+    """Displacement (m/Pa) and stress under unit shear traction along +y on |x| < half_width (m); see ``strip_pressure``."""
+    fields = []
+    for X, z_, angle, log, _ in (_end(x, z, half_width), _end(x, z, -half_width)):
+        zero = 0.0 * X * nu
+        u = Displacement(zero, (X - 0.5 * X * log - z_ * angle) / (np.pi * shear), zero)
+        s = StressTensor(zero, zero, zero, xy=-0.5 * log / np.pi, xz=zero, yz=-angle / np.pi)
+        fields.append(ElasticFields(u, s))
     return fields[0] + fields[1] * -1.0
 
 

@@ -1,0 +1,96 @@
+"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run.
+
+python benchmarks/stress.py --size 1024 --threads 2 --repeats 15
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+import asperity as asp
+from asperity.core.spectral import RealTransform, fft_library
+from asperity.core.tensor import STRESSES, StressTensor
+from asperity.stress.free import FreePlanes
+from asperity.stress.periodic import PeriodicPlanes
+from asperity.stress.regions import planes
+from asperity.stress.tractions import Tractions
+
+DX = 10e-9
+SUBSTRATE = asp.Elastic(70e9, 0.33)
+BODIES = {
+    "half-space": SUBSTRATE,
+    "1 layer": asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25), 5 * DX)], SUBSTRATE),
+    "5 layers": asp.Layered([asp.Layer(asp.Elastic(280e9 - k * 40e9, 0.25), 2 * DX) for k in range(5)], SUBSTRATE),
+}
+DEPTH = 3 * DX
+
+
+def milliseconds(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return 1e3 * (time.perf_counter() - start)
+
+
+def shears(shape: tuple[int, int], rng: np.random.Generator) -> dict[str, asp.Sliding | asp.ShearTraction]:
+    """Pressure alone, shear in proportion to it, shear of its own."""
+    fields = asp.ShearTraction(*rng.standard_normal((2, *shape)))
+    return {"pressure": asp.Sliding(0.0), "sliding": asp.Sliding(0.3, 0.4), "shear fields": fields}
+
+
+def periodic(n: int, threads: int, repeats: int) -> None:
+    """Print the ratio of a plane to six inverse transforms for every body, load and precision."""
+    rng = np.random.default_rng(0)
+    grid, pressure = asp.Grid((n, n), (DX, DX)), rng.random((n, n))
+    print(
+        f"{'precision':9} {'body':11} {'load':13} {'6 inverse FFTs':>14} {'plane':>8} {'ratio':>6}   (ms, medians of {repeats})"
+    )
+    for dtype in ("float64", "float32"):
+        transform = RealTransform((n, n), threads)
+        spectra = [transform.forward(pressure.astype(dtype)) for _ in STRESSES]
+        fields = [np.empty((n, n), dtype) for _ in STRESSES]
+
+        def bare(spectra=spectra, fields=fields, transform=transform) -> None:
+            for spectrum, field in zip(spectra, fields, strict=True):
+                transform.backward(spectrum, field)
+
+        for name, body in BODIES.items():
+            for load, shear in shears((n, n), rng).items():
+                source = PeriodicPlanes(Tractions(grid, pressure, shear), body, dtype=dtype, threads=threads)
+                out = StressTensor(*(np.empty((n, n), dtype) for _ in STRESSES))
+                plane = planes(body, [DEPTH])[0]
+                source.stress(plane, out)
+                rounds = [
+                    (milliseconds(bare), milliseconds(lambda s=source, p=plane, o=out: s.stress(p, o)))
+                    for _ in range(repeats)
+                ]
+                six, one = (statistics.median(column) for column in zip(*rounds, strict=True))
+                print(f"{dtype:9} {name:11} {load:13} {six:14.2f} {one:8.2f} {one / six:6.2f}")
+
+
+def free(n: int, threads: int) -> None:
+    """Print the time of a plane with nothing outside the grid: influence coefficients, their transforms, the products."""
+    grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
+    print(f"\nfree boundary, {n}²: seconds for one plane")
+    for name, body in BODIES.items():
+        for load, shear in (("pressure", asp.Sliding(0.0)), ("sliding", asp.Sliding(0.3, 0.4))):
+            source = FreePlanes(Tractions(grid, pressure, shear, "free"), body, threads=threads)
+            seconds = 1e-3 * milliseconds(lambda s=source, b=body: s.stress(planes(b, [DEPTH])[0]))
+            print(f"{name:11} {load:13} {seconds:6.2f}")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--size", type=int, default=1024, help="points along a side")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--repeats", type=int, default=15)
+    parser.add_argument("--no-free", action="store_true", help="leave out the free boundary")
+    options = parser.parse_args()
+    print(f"{options.size}², {options.threads} threads, transforms by {fft_library()}")
+    periodic(options.size, options.threads, options.repeats)
+    if not options.no_free:
+        free(options.size, options.threads)
