@@ -3,6 +3,7 @@
 from functools import cache
 from pathlib import Path
 
+import peng_scaling
 import peng_table_3_1
 import pytest
 from page import Claim, Page
@@ -10,6 +11,7 @@ from page import Claim, Page
 FOLDER = Path(peng_table_3_1.__file__).parent
 RUNS = {
     "peng_table_3_1": lambda: peng_table_3_1.compare(20, peng_table_3_1.PUBLISHED[::5], variants=False),
+    "peng_scaling": lambda: peng_scaling.compare(count=8, stressed=2),
 }
 
 
