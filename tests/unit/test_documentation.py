@@ -58,6 +58,17 @@ def test_the_examples_of_layered_bodies(scan, capsys):
     assert len(capsys.readouterr().out.splitlines()) == 3
 
 
+def test_the_examples_of_stresses(scan, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    names = {"scan": scan}
+    for number, code in enumerate(blocks(ROOT / "docs/how-to/stress.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["section.nc", "stress.png", "volume.vtr"]
+    assert names["report"].first is not None
+    assert names["found"].report.load_factor == pytest.approx(1.0, abs=0.02)
+    assert "DLC" in capsys.readouterr().out
+
+
 def test_the_problem_document_of_the_guide_is_valid():
     (text,) = blocks(ROOT / "docs/how-to/problem-document.md", "toml")
     assert loads(text).title == "Two rough bodies"
