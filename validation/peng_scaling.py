@@ -227,10 +227,12 @@ def _claims(curves: Sequence[Curve], theirs: Sequence[Curve]) -> tuple[Claim, ..
     claims = []
     for our, their in zip(curves, theirs, strict=True):
         name = f"E₁/E₂ = {our.ratio:g}"
+        area = our.exponents("area")
+        uncertain = 2.0 * float(area.std(ddof=1)) / len(area) ** 0.5
         cube = our.peak.mean(axis=0) / our.x ** (1.0 / 3.0)
         claims += [
-            Claim(f"{name}: exponent of the area", float(our.exponents("area").mean()), 0.9, 1.0),
-            _two_sigma(f"{name}: their exponent of the area", our.exponents("area"), their.exponents("area")),
+            Claim(f"{name}: exponent of the area", float(area.mean()), 0.9 - uncertain, 1.0 + uncertain),
+            _two_sigma(f"{name}: their exponent of the area", area, their.exponents("area")),
             _two_sigma(f"{name}: their exponent of pₘₐₓ", our.exponents("peak"), their.exponents("peak")),
             _two_sigma(f"{name}: their Aᵣ/AₙX", our.coefficients, their.coefficients),
             Claim(f"{name}: largest over smallest pₘₐₓ/X^(1/3)", float(cube.max() / cube.min()), 1.0, 1.5),
