@@ -137,10 +137,13 @@ SignedLength: TypeAlias = Annotated[
 ]
 """Text of a length of either sign."""
 
-PositionOrMax: TypeAlias = Annotated[
-    str, _quantity("length", "max", check=lambda value: _not_negative(value)), _as_quantity("length", "30 nm")
+PLACES = ("max", "pressure")
+"""Words for positions: of the largest stress, and of the highest pressure."""
+
+PlaceOfMaximum: TypeAlias = Annotated[
+    str, _quantity("length", *PLACES, check=lambda value: _not_negative(value)), _as_quantity("length", "30 nm")
 ]
-"""Text of a position >= 0, or the word that stands for that of the highest pressure."""
+"""Text of a position >= 0, or one of the ``PLACES``."""
 
 Lengths: TypeAlias = Annotated[tuple[Length, Length], BeforeValidator(_ordered)]
 """Texts of two lengths > 0, along x and y."""

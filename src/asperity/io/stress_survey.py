@@ -1,0 +1,250 @@
+"""The stresses a document asks for: sections, profiles and maxima, from planes that need not fit in memory together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact.result import ContactResult
+from ..core.arrays import RealArray
+from ..core.grid import Grid
+from ..core.progress import NoProgress, Progress
+from ..core.tensor import StressTensor
+from ..stress.compute import stress_planes
+from ..stress.field import Peak, StressField
+from ..stress.regions import regions
+from ..stress.sampling import depths_through
+from ..stress.where import DepthProfile, Position, Section, Selection, Where, selection
+from ..stress.yielding import YieldReport, first_yield
+from .build_stress import Place, StressRequest, WantedSection
+from .stress_maxima import InterfaceMaxima, Maxima, RegionMaxima
+
+RATIO = 1.25
+"""Depths below a contact grow by this factor: the largest √J2 under a sphere, found on such planes, is at most 0.6 % low."""
+
+SHALLOWEST, DEEPEST = 0.1, 3.0
+"""First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is largest at 0.48."""
+
+INTERVALS = 64
+"""Number of intervals of planes in all layers together, at most 4 and at least 1 in each."""
+
+SAME, CLOSE = 1e-9, 0.1
+"""Relative differences of depths that are one and the same, and so close that no plane is needed between."""
+
+FAR_LAYERS = 6.0
+"""Layers that end within this many radii of the largest spot are sampled to their end."""
+
+
+@dataclass(frozen=True, eq=False)
+class SurveyedSection:
+    """A vertical plane: its stresses, and the ``quantities`` that it is to show."""
+
+    field: StressField
+    quantities: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class StressSurvey:
+    """What was asked for, and found.
+
+    ``depths`` are those of all planes, on which the maxima and the onset of yield rest.
+    """
+
+    request: StressRequest
+    result: ContactResult
+    depths: RealArray
+    sections: tuple[SurveyedSection, ...]
+    profiles: tuple[StressField, ...]
+    maxima: tuple[RegionMaxima, ...]
+    interfaces: tuple[InterfaceMaxima, ...]
+    yielding: YieldReport
+    citation_keys: tuple[str, ...]
+
+    def planes(self, depths: Iterable[float]) -> Iterator[StressField]:
+        """Whole planes at ``depths`` in m, one by one, computed anew."""
+        return _planes(self.request, self.result, depths)
+
+
+def survey(
+    request: StressRequest, result: ContactResult, *, threads: int | None = None, progress: Progress = NoProgress()
+) -> StressSurvey:
+    """Compute the stresses of ``request`` in the contact ``result``.
+
+    The planes are computed once for the maxima, and a second time where sections or profiles go through these.
+
+    Parameters
+    ----------
+    request, result
+        What is wanted, and of what contact.
+    threads
+        Number of threads.
+    progress
+        Told after each plane: the number of planes done, and as error the share of all that is left.
+
+    Raises
+    ------
+    InputError
+        As of ``stress``.
+    """
+    depths = survey_depths(request, result)
+    maxima = Maxima()
+    tracked = _Tracked(progress, len(depths) * (2 if _wants_lines(request) else 1))
+    found = tracked.planes(_planes(request, result, depths, threads))
+    report = first_yield(maxima.watching(found), request.criterion)
+    wanted = _resolved(request, result, maxima.drawn)
+    lines = _cut(tracked.planes(_planes(request, result, depths, threads)), list(wanted), result) if wanted else []
+    named = list(zip(wanted.values(), lines, strict=True))
+    return StressSurvey(
+        request,
+        result,
+        depths,
+        tuple(SurveyedSection(field, shown) for shown, field in named if len(field.dims) == 2),
+        tuple(field for _, field in named if len(field.dims) == 1),
+        maxima.regions(),
+        maxima.interfaces(),
+        report,
+        maxima.citation_keys,
+    )
+
+
+def survey_depths(request: StressRequest, result: ContactResult) -> RealArray:
+    """Increasing depths (m) of all planes: those asked for, and for sections and profiles those that show the contact.
+
+    The latter are dense against the contact spots and reach both faces of each layer (see the constants above).
+    """
+    asked = _distinct(np.array(request.depths), SAME)
+    if not _wants_lines(request):
+        return asked
+    body = getattr(result.problem, request.of)
+    small, large = _spot_radii(result)
+    bottom = request.deepest or _deepest(body, large)
+    layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
+    needed = _distinct(np.concatenate([layered, asked]), SAME)
+    shallow = SHALLOWEST * small
+    count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
+    graded = shallow * RATIO ** np.arange(count)
+    away = [depth for depth in graded if np.abs(needed - depth).min() > CLOSE * depth]
+    return np.unique([*needed, *away])
+
+
+def _wants_lines(request: StressRequest) -> bool:
+    return bool(request.sections or request.profiles)
+
+
+def _deepest(body: object, radius: float) -> float:
+    """Depth (m) at which stresses have mostly decayed, below the layers where these are not far below the contact."""
+    layers = [region.bottom for region in regions(body) if math.isfinite(region.bottom)]
+    near = max((bottom for bottom in layers if bottom <= FAR_LAYERS * radius), default=0.0)
+    return max(DEEPEST * radius, 1.5 * near)
+
+
+def _spot_radii(result: ContactResult) -> tuple[float, float]:
+    """Mean and largest radius (m) of circles as large as the contact spots, at least half a pixel.
+
+    On a grid of one row spots are strips, and half their widths take the place of radii.
+    """
+    grid = result.problem.grid
+    least = 0.5 * min(
+        (step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1), default=grid.spacing[0]
+    )
+    if not result.spot_areas.size:
+        return least, least
+    if 1 in grid.shape:
+        radii = 0.5 * result.spot_areas / grid.spacing[grid.shape.index(1)]
+    else:
+        radii = np.sqrt(result.spot_areas / math.pi)
+    return max(float(radii.mean()), least), max(float(radii.max()), least)
+
+
+def _distinct(depths: RealArray, tolerance: float) -> RealArray:
+    """Sorted ``depths`` without those that differ from the one before by a relative ``tolerance`` at most."""
+    ordered = np.unique(depths)
+    return ordered[np.diff(ordered, prepend=-1.0) > tolerance * np.abs(ordered)]
+
+
+def _planes(
+    request: StressRequest, result: ContactResult, depths: Iterable[float], threads: int | None = None
+) -> Iterator[StressField]:
+    return stress_planes(
+        result,
+        [float(depth) for depth in depths],
+        friction=request.friction,
+        direction=request.direction,
+        of=request.of,
+        dtype=request.dtype,
+        threads=threads,
+    )
+
+
+def _resolved(request: StressRequest, result: ContactResult, peaks: dict[str, Peak]) -> dict[Where, tuple[str, ...]]:
+    """Sections and profiles at positions of nodes, each with what it is to show.
+
+    A section through the maximum is one for each stress, on the plane through its own largest magnitude.
+    """
+    grid = result.problem.grid
+    found: dict[Where, tuple[str, ...]] = {}
+    for section in request.sections:
+        for quantity in _shown_on(section):
+            place = getattr(peaks[quantity], section.axis) if section.place == "max" else section.place
+            where = Section(**{section.axis: _on_node(place, section.place, grid, section.axis)})
+            found[where] = tuple(dict.fromkeys((*found.get(where, ()), quantity)))
+    top = peaks["von_mises"]
+    for line in request.profiles:
+        x, y = (_on_node(getattr(top, a) if p == "max" else p, p, grid, a) for a, p in (("x", line.x), ("y", line.y)))
+        found[DepthProfile(x, y)] = ()
+    return found
+
+
+def _shown_on(section: WantedSection) -> tuple[str, ...]:
+    return ("von_mises", "principal_tensile", "shear_xz" if section.axis == "y" else "shear_yz")
+
+
+def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
+    """Position of a node: the user's is that of figures, where a node owns the pixel that begins there."""
+    if place == "pressure":
+        return "max"  # as the library calls the place of the highest pressure
+    assert isinstance(place, float)
+    return place - 0.5 * grid.spacing["xy".index(axis)] if isinstance(wanted, float) else place
+
+
+def _cut(planes: Iterator[StressField], lines: list[Where], result: ContactResult) -> list[StressField]:
+    """The ``lines`` out of whole planes."""
+    places = [selection(line, result.problem.grid, result.pressure) for line in lines]
+    cuts: list[list[StressField]] = [[] for _ in lines]
+    for field in planes:
+        for place, cut in zip(places, cuts, strict=True):
+            cut.append(_at(field, place))
+    return [_joined(cut) for cut in cuts]
+
+
+def _at(field: StressField, place: Selection) -> StressField:
+    """The points of a whole plane that ``place`` picks."""
+    part = (slice(None), *place.index)
+    tensor = field.tensor.map(lambda component: component[part].copy())
+    return replace(field, tensor=tensor, x=place.x, y=place.y, dims=("plane", *place.dims))
+
+
+def _joined(planes: list[StressField]) -> StressField:
+    """One field of the fields of single ``planes``."""
+    components = (np.concatenate([getattr(f.tensor, name) for f in planes]) for name in vars(planes[0].tensor))
+    return replace(planes[0], planes=tuple(f.planes[0] for f in planes), tensor=StressTensor(*components))
+
+
+class _Tracked:
+    """Counts planes and tells the progress."""
+
+    def __init__(self, progress: Progress, total: int) -> None:
+        self._progress, self._total, self._done = progress, total, 0
+
+    def planes(self, fields: Iterator[StressField]) -> Iterator[StressField]:
+        """The same ``fields``."""
+        for field in fields:
+            yield field
+            self._done += 1
+            self._progress.update(self._done, 1.0 - self._done / self._total, 0.0)
+
+
+__all__ = ["StressSurvey", "SurveyedSection", "survey", "survey_depths"]
