@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from . import contact, info, materials, results
+from . import contact, generate, info, materials, results
 from .failures import Reporting
 from .groups import grouped
 
@@ -36,6 +36,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
 
 for _command in COMMANDS:
     app.command()(grouped(_command))
+app.add_typer(generate.app)
 
 
 def _version(wanted: bool) -> None:

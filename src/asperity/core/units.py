@@ -21,6 +21,7 @@ DIMENSIONS = {
     "angle": "rad",
     "temperature": "K",
     "time": "s",
+    "memory": "byte",
     "number": "dimensionless",
 }
 """Kinds of quantity that can be asked for, with the SI unit in which they are returned."""

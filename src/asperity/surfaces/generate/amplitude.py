@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from ...core import require
 from ...core.errors import InputError
+from ...core.units import show
 
 
 @dataclass(frozen=True)
@@ -59,5 +60,7 @@ def require_amplitude(amplitude: object, what: str) -> None:
 
 def amplitude_text(amplitude: Amplitude) -> str:
     """Words and number of ``amplitude`` for the history of a surface."""
-    names = {RmsHeight: "rms height {:.4g} m", RmsSlope: "rms slope {:.4g}", PlateauPSD: "plateau {:.4g} m^4"}
-    return names[type(amplitude)].format(amplitude.value)
+    if isinstance(amplitude, RmsHeight):
+        return f"rms height {show(amplitude.value, 'm')}"
+    name, unit = ("rms slope", "") if isinstance(amplitude, RmsSlope) else ("plateau", " m^4")
+    return f"{name} {amplitude.value:.4g}{unit}"

@@ -11,6 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.grid import Grid
+from ...core.units import show
 from .embedding import clipped_eigenvalues, clipping_text
 
 _EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
@@ -96,8 +97,10 @@ class ExponentialAutocorrelation:
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         beta_x, beta_y = self.decay_lengths
-        lengths = f"decay lengths {beta_x:.4g} m x {beta_y:.4g} m"
-        return f"exponential autocorrelation, rms height {self.rms_height:.4g} m, {lengths}" + clipping_text(self, grid)
+        lengths = f"decay lengths {show(beta_x, 'm')} x {show(beta_y, 'm')}"
+        return f"exponential autocorrelation, rms height {show(self.rms_height, 'm')}, {lengths}" + clipping_text(
+            self, grid
+        )
 
 
 @dataclass(frozen=True)
@@ -161,8 +164,10 @@ class GaussianAutocorrelation:
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         b_x, b_y = self.decay_lengths
-        lengths = f"decay lengths {b_x:.4g} m x {b_y:.4g} m"
-        return f"Gaussian autocorrelation, rms height {self.rms_height:.4g} m, {lengths}" + clipping_text(self, grid)
+        lengths = f"decay lengths {show(b_x, 'm')} x {show(b_y, 'm')}"
+        return f"Gaussian autocorrelation, rms height {show(self.rms_height, 'm')}, {lengths}" + clipping_text(
+            self, grid
+        )
 
 
 def _require_lengths(rms_height: float, along_x: float, drop: float, along_y: float | None) -> None:

@@ -15,6 +15,7 @@ from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from ..surface import Origin, Surface
 from .embedding import Spectrum
 from .gaussian import random_field
@@ -70,7 +71,7 @@ def bimodal(
     mask /= np.sqrt(np.mean(np.square(mask)))
     heights = np.where(mask < float(ndtri(share)), texture + separation, other)
     text = (
-        f"generated: two textures, {share:.4g} of the area {first.describe(grid)}, {separation:.4g} m above "
+        f"generated: two textures, {share:.4g} of the area {first.describe(grid)}, {show(separation, 'm')} above "
         f"{second.describe(grid)}, in patches of {patches.describe(grid)}, seed {seed}"
     )
     return _surface(grid, heights, "bimodal", text, (first, second, patches))
@@ -108,7 +109,7 @@ def two_process(
     first, second = (random_field(grid, s, n) for s, n in zip((plateau, valleys), sub_seeds(seed, 2), strict=True))
     heights = (np.minimum if keep == "lower" else np.maximum)(first, second + offset)
     text = (
-        f"generated: two processes, the {keep} of {plateau.describe(grid)} and, {offset:.4g} m above, "
+        f"generated: two processes, the {keep} of {plateau.describe(grid)} and, {show(offset, 'm')} above, "
         f"{valleys.describe(grid)}, seed {seed}"
     )
     return _surface(grid, heights, "two processes", text, (plateau, valleys))
@@ -162,7 +163,7 @@ def particles(
     for place, size in zip(places, _radii(draw, count, radius, radius_deviation), strict=True):
         _add_sphere(heights, ground, grid, place, float(size), exposure)
     text = (
-        f"generated: {count} particles of radius {radius:.4g} m ± {radius_deviation:.4g} m, exposed by {exposure:.4g} radii, "
+        f"generated: {count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
         f"on {matrix.describe(grid)}, seed {seed}"
     )
     return _surface(grid, heights, "particles", text, (matrix,))

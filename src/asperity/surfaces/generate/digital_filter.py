@@ -12,6 +12,7 @@ from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, thread_count
+from ...core.units import show
 from ..surface import Origin, Surface
 from .embedding import Spectrum, lattice_eigenvalues
 from .johnson import Johnson, johnson, require_possible
@@ -130,7 +131,7 @@ def endless(
     kernel = filter_kernel(spectrum, (dx, dy), reach=reach)
     noise = input_noise(kernel.weights, skewness, kurtosis)
     grid = Grid((2 * kernel.reach[0] + 1, 2 * kernel.reach[1] + 1), (dx, dy))
-    length = f"{kernel.reach[0] * dx:.3g} m x {kernel.reach[1] * dy:.3g} m"
+    length = f"{show(kernel.reach[0] * dx, 'm')} x {show(kernel.reach[1] * dy, 'm')}"
     how = f"reach {length}, error of the autocorrelation {kernel.error:.1e}, Philox seed {seed}"
     return EndlessSurface(kernel, noise, seed, _origin(spectrum, _embedded(spectrum, grid), (skewness, kurtosis), how))
 

@@ -20,6 +20,7 @@ from .modes import mode_sum
 CLIP_LIMIT = 1e-4
 """Largest negative part of a circulant spectrum, relative to its positive part, that may be clipped."""
 
+_AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
 _NOISE = 1e-15  # negative part that rounding of the transform leaves
 
 
@@ -86,6 +87,8 @@ def clipped_eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
 
 def clipping_text(model: Autocovariance, grid: Grid) -> str:
     """Words on the clipped part of the spectrum, empty if it is no more than rounding."""
+    if all(size >= _AMPLE * length for size, length in zip(grid.size, model.embedding_lengths, strict=True)):
+        return ""
     negative = negative_part(grid, eigenvalues(model, grid))
     return f", negative part {negative:.1e} of the spectrum clipped" if negative > _NOISE else ""
 

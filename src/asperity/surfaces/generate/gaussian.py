@@ -10,6 +10,7 @@ from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, thread_count
+from ...core.units import show
 from ..surface import Origin, Surface
 from .embedding import Spectrum, lattice_eigenvalues
 from .modes import mode_sum
@@ -76,7 +77,7 @@ def gaussian(
         text += f", window of a periodic surface of {parent.shape[0]} x {parent.shape[1]} points"
     if exact_rms:
         heights *= target / heights.std()
-        text += f", rescaled to the rms height {target:g} m"
+        text += f", rescaled to the rms height {show(target, 'm')}"
     dx, dy = grid.spacing
     keys = (*citation_keys(spectrum), *(("Wu2000",) if variant == "fixed" else ()))
     origin = Origin(source="gaussian", history=(text,), citation_keys=keys)

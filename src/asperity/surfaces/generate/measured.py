@@ -12,6 +12,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from ..surface import Surface
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ class TabulatedSpectrum:
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         longest, shortest = 2.0 * np.pi / self.q[0], 2.0 * np.pi / self.q[-1]
-        return f"{self.words}, waves of {shortest:.4g} to {longest:.4g} m"
+        return f"{self.words}, waves of {show(shortest, 'm')} to {show(longest, 'm')}"
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from ..surface import Origin, Surface
 
 
@@ -27,7 +28,7 @@ def sphere(grid: Grid, *, radius: float, exact: bool = False) -> Surface:
     radius = require.positive(radius, "sphere radius (m)")
     r_squared = _radius_squared(grid)
     if not exact:
-        return _shape(grid, -r_squared / (2.0 * radius), f"paraboloid of a sphere, radius {radius:g} m")
+        return _shape(grid, -r_squared / (2.0 * radius), f"paraboloid of a sphere, radius {show(radius, 'm')}")
     farthest = float(np.sqrt(r_squared.max()))
     if farthest > radius:
         raise InputError(
@@ -35,7 +36,7 @@ def sphere(grid: Grid, *, radius: float, exact: bool = False) -> Surface:
             f"but reaches {farthest:g} m. Use a smaller grid, a larger radius or exact=False."
         )
     sag = r_squared / (radius + np.sqrt(radius**2 - r_squared))  # = R - sqrt(R² - r²) without cancellation
-    return _shape(grid, -sag, f"exact sphere, radius {radius:g} m")
+    return _shape(grid, -sag, f"exact sphere, radius {show(radius, 'm')}")
 
 
 def elliptic_paraboloid(grid: Grid, *, radius_x: float, radius_y: float) -> Surface:
@@ -50,7 +51,7 @@ def elliptic_paraboloid(grid: Grid, *, radius_x: float, radius_y: float) -> Surf
     radius_y = require.positive(radius_y, "paraboloid radius along y (m)")
     x, y = grid.centred_coordinates()
     heights = -(x**2) / (2.0 * radius_x) - y**2 / (2.0 * radius_y)
-    return _shape(grid, heights, f"elliptic paraboloid, radii {radius_x:g} m and {radius_y:g} m")
+    return _shape(grid, heights, f"elliptic paraboloid, radii {show(radius_x, 'm')} and {show(radius_y, 'm')}")
 
 
 def cylinder(grid: Grid, *, radius: float, axis: str = "y") -> Surface:
@@ -65,7 +66,7 @@ def cylinder(grid: Grid, *, radius: float, axis: str = "y") -> Surface:
     require.one_of(axis, ("x", "y"), "cylinder axis")
     x, y = grid.centred_coordinates()
     across = x if axis == "y" else y
-    return _shape(grid, -(across**2) / (2.0 * radius), f"parabolic cylinder along {axis}, radius {radius:g} m")
+    return _shape(grid, -(across**2) / (2.0 * radius), f"parabolic cylinder along {axis}, radius {show(radius, 'm')}")
 
 
 def cone(grid: Grid, *, slope: float) -> Surface:
@@ -108,7 +109,7 @@ def power_law(grid: Grid, *, exponent: float, radius: float, height: float) -> S
     radius = require.positive(radius, "radius of a power-law indenter (m)")
     height = require.positive(height, "height of a power-law indenter (m)")
     heights = -height * (_radius_squared(grid) / radius**2) ** (0.5 * exponent)
-    return _shape(grid, heights, f"power law, exponent {exponent:g}, height {height:g} m at {radius:g} m")
+    return _shape(grid, heights, f"power law, exponent {exponent:g}, height {show(height, 'm')} at {show(radius, 'm')}")
 
 
 def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 0.0) -> Surface:
@@ -125,13 +126,13 @@ def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 
     radius = require.positive(radius, "punch radius (m)")
     depth = require.positive(depth, "punch depth (m)")
     r_squared = _radius_squared(grid)
-    text = f"flat punch, radius {radius:g} m, depth {depth:g} m"
+    text = f"flat punch, radius {show(radius, 'm')}, depth {show(depth, 'm')}"
     heights = np.where(r_squared <= radius**2, 0.0, -depth)
     if edge_radius != 0.0:
         edge = require.at_most(edge_radius, min(radius, depth), "edge radius of a punch (m)")
         into = np.clip(np.sqrt(r_squared) - (radius - edge), 0.0, edge)
         heights = np.where(r_squared <= radius**2, np.sqrt(edge**2 - into**2) - edge, -depth)
-        text += f", edge radius {edge:g} m"
+        text += f", edge radius {show(edge, 'm')}"
     return _shape(grid, heights, text)
 
 
@@ -148,7 +149,7 @@ def sinusoid(grid: Grid, *, amplitude: float, wavelength: float, axis: str = "x"
     amplitude = require.positive(amplitude, "sinusoid amplitude (m)")
     require.one_of(axis, ("x", "y"), "sinusoid axis")
     wave = _wave(grid, wavelength, "xy".index(axis))
-    text = f"sinusoid along {axis}, amplitude {amplitude:g} m, wavelength {wavelength:g} m"
+    text = f"sinusoid along {axis}, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
     return _shape(grid, amplitude * (wave - 1.0), text, periodic=True)
 
 
@@ -164,7 +165,7 @@ def bisinusoid(grid: Grid, *, amplitude: float, wavelength: float) -> Surface:
     """
     amplitude = require.positive(amplitude, "bisinusoid amplitude (m)")
     heights = amplitude * (_wave(grid, wavelength, 0) + _wave(grid, wavelength, 1) - 2.0)
-    text = f"bisinusoid, amplitude {amplitude:g} m, wavelength {wavelength:g} m"
+    text = f"bisinusoid, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
     return _shape(grid, heights, text, periodic=True)
 
 

@@ -17,6 +17,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from .amplitude import Amplitude, PlateauPSD, RmsHeight, RmsSlope, amplitude_text, require_amplitude
 from .embedding import Spectrum
 from .modes import mode_sum
@@ -88,7 +89,9 @@ class SelfAffine:
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
-        waves = f"roll-off {self.rolloff_wavelength:.4g} m, {_ends(self.shortest_wavelength, self.longest_wavelength)}"
+        waves = (
+            f"roll-off {show(self.rolloff_wavelength, 'm')}, {_ends(self.shortest_wavelength, self.longest_wavelength)}"
+        )
         return f"self-affine, Hurst exponent {self.hurst:.4g}, {waves}, {amplitude_text(self.amplitude)}"
 
 
@@ -165,7 +168,7 @@ class TwoSlopes:
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         first, second = self.exponents
-        bends = f"q^-{first:.4g} from {self.rolloff_wavelength:.4g} m, q^-{second:.4g} from {self.crossover_wavelength:.4g} m"
+        bends = f"q^-{first:.4g} from {show(self.rolloff_wavelength, 'm')}, q^-{second:.4g} from {show(self.crossover_wavelength, 'm')}"
         ends = _ends(self.shortest_wavelength, self.longest_wavelength)
         return f"two slopes, {bends}, {ends}, {amplitude_text(self.amplitude)}"
 
@@ -189,5 +192,5 @@ def _correlation_range(rolloff: float, longest: float) -> float:
 
 
 def _ends(shortest: float, longest: float) -> str:
-    short = "all short waves of the grid" if shortest == 0.0 else f"shortest wave {shortest:.4g} m"
-    return short if math.isinf(longest) else f"{short}, longest wave {longest:.4g} m"
+    short = "all short waves of the grid" if shortest == 0.0 else f"shortest wave {show(shortest, 'm')}"
+    return short if math.isinf(longest) else f"{short}, longest wave {show(longest, 'm')}"

@@ -8,6 +8,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from ..surface import Origin, Surface
 
 GROOVES = ("vee", "round", "cosine")
@@ -51,7 +52,7 @@ def laser_bumps(
     radius = require.positive(crater_radius or rim or width, "radius of the crater (m)")
     r = np.hypot(*_from_centres(grid, pitch))
     heights = height * np.exp(-(((r - rim) / width) ** 2)) - crater * np.exp(-((r / radius) ** 2))
-    text = f"laser bumps, rim {height:g} m high at {rim:g} m, {width:g} m wide, crater {crater:g} m deep"
+    text = f"laser bumps, rim {show(height, 'm')} high at {show(rim, 'm')}, {show(width, 'm')} wide, crater {show(crater, 'm')} deep"
     return _texture(grid, heights, text, pitch)
 
 
@@ -77,7 +78,9 @@ def dimples(
         shape = np.exp(-(((x**2 + y**2) / radius**2) ** sharpness))
     heights = depth * (shape - 1.0) if raised else -depth * shape
     name = "pillars" if raised else "dimples"
-    return _texture(grid, heights, f"{name}, radius {radius:g} m, {depth:g} m, sharpness {sharpness:g}", pitch)
+    return _texture(
+        grid, heights, f"{name}, radius {show(radius, 'm')}, {show(depth, 'm')}, sharpness {sharpness:g}", pitch
+    )
 
 
 def grooves(grid: Grid, *, pitch: float, width: float, depth: float, section: str = "vee", axis: str = "y") -> Surface:
@@ -103,7 +106,7 @@ def grooves(grid: Grid, *, pitch: float, width: float, depth: float, section: st
     across = 0 if axis == "y" else 1
     u = np.minimum(np.abs(_from_nearest(grid, pitch, across)) / (0.5 * width), 1.0)
     profile = {"vee": 1.0 - u, "round": 1.0 - u**2, "cosine": 0.5 * (1.0 + np.cos(np.pi * u))}[section]
-    text = f"{section} grooves along {axis}, {width:g} m wide, {depth:g} m deep, pitch {pitch:g} m"
+    text = f"{section} grooves along {axis}, {show(width, 'm')} wide, {show(depth, 'm')} deep, pitch {show(pitch, 'm')}"
     return _made(grid, -depth * profile, text)
 
 
@@ -135,7 +138,7 @@ def _not_negative(value: float, what: str) -> float:
 
 
 def _texture(grid: Grid, heights: RealArray, text: str, pitch: tuple[float, float]) -> Surface:
-    return _made(grid, heights, f"{text}, pitch {pitch[0]:g} m x {pitch[1]:g} m")
+    return _made(grid, heights, f"{text}, pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}")
 
 
 def _made(grid: Grid, heights: RealArray, text: str) -> Surface:

@@ -10,6 +10,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.units import show
 from ..surface import Origin, Surface
 
 _MOST_WAVES = 100_000
@@ -68,8 +69,8 @@ def weierstrass_mandelbrot(
     amplitude = np.broadcast_to(-level * gamma ** ((dimension - 3.0) * powers), phases.shape)
     heights = _waves(grid, (q * np.cos(angle)).ravel(), (q * np.sin(angle)).ravel(), amplitude.ravel(), phases.ravel())
     text = (
-        f"generated: Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {roughness:.4g} m, γ {gamma:.4g}, "
-        f"{ridges} ridges, {powers.size} waves each from {longest:.4g} m down, PCG64 seed {seed}"
+        f"generated: Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
+        f"{ridges} ridges, {powers.size} waves each from {show(longest, 'm')} down, PCG64 seed {seed}"
     )
     return _surface(grid, heights, text, ("Ausloos1985", "Yan1998"))
 
@@ -123,7 +124,7 @@ def weierstrass_mandelbrot_profile(
     profile = np.cos(2.0 * np.pi * gamma**powers * x + phases) @ amplitude
     how = "phases 0" if seed is None else f"phases of PCG64 seed {seed}"
     text = (
-        f"generated: Weierstrass-Mandelbrot profile, dimension {dimension:.4g}, roughness {roughness:.4g} m, γ {gamma:.4g}, "
+        f"generated: Weierstrass-Mandelbrot profile, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
         f"powers {first} to {int(powers[-1])}, {how}"
     )
     return _surface(grid, np.broadcast_to(profile[:, None], grid.shape), text, ("Majumdar1990",))

@@ -1,0 +1,189 @@
+"""The command ``generate``: every kind, units at the door, files that come back, and errors that name options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import Runner
+
+import asperity as asp
+from asperity.cli.generator_options import KINDS, explained, keys
+
+GRID = ("--points", "24x16", "--size", "12um x 8um")
+EXPONENTIAL = ("--spectrum", "exponential", "--rms-height", "5nm", "--correlation-length", "0.6um")
+SELF_AFFINE = (
+    "--spectrum",
+    "self_affine",
+    "--hurst",
+    "0.8",
+    "--rolloff-wavelength",
+    "4um",
+    "--shortest-wavelength",
+    "2um",
+)
+SEED = ("--seed", "3")
+
+
+def spectrum(table: str) -> tuple[str, ...]:
+    return (f"--{table}", "exponential", f"--{table}-rms-height", "5nm", f"--{table}-correlation-length", "0.6um")
+
+
+EXAMPLES = {
+    "rough": (*SEED, *EXPONENTIAL, "--variant", "fixed"),
+    "digital_filter": (*SEED, *EXPONENTIAL, "--skewness", "-0.3", "--kurtosis", "4"),
+    "translated": (*SEED, *EXPONENTIAL, "--skewness", "0.7", "--kurtosis", "5", "--no-predistorted"),
+    "rank_ordered": (*SEED, *EXPONENTIAL, "--heights", "two_levels", "--share", "0.4", "--separation", "3"),
+    "bimodal": (
+        *SEED,
+        *spectrum("first"),
+        *spectrum("second"),
+        *spectrum("patches"),
+        "--share",
+        "0.3",
+        "--separation",
+        "-2nm",
+    ),
+    "two_process": (*SEED, *spectrum("plateau"), *spectrum("valleys"), "--offset", "3nm", "--keep", "upper"),
+    "particles": (*SEED, *spectrum("matrix"), "--density", "0.1um**-2", "--radius", "0.5um", "--exposure", "1"),
+    "weierstrass_mandelbrot": (*SEED, "--dimension", "2.3", "--roughness", "1pm", "--ridges", "7"),
+    "weierstrass_mandelbrot_profile": ("--dimension", "1.3", "--roughness", "1pm"),
+    "sphere": ("--radius", "30um", "--exact"),
+    "elliptic_paraboloid": ("--radius-x", "30um", "--radius-y", "10um"),
+    "cylinder": ("--radius", "30um", "--axis", "x"),
+    "cone": ("--slope", "0.1"),
+    "wedge": ("--slope", "0.1", "--axis", "x"),
+    "power_law": ("--exponent", "4", "--radius", "3um", "--height", "10nm"),
+    "flat_punch": ("--radius", "3um", "--depth", "1um", "--edge-radius", "0.5um"),
+    "sinusoid": ("--amplitude", "5nm", "--wavelength", "4um"),
+    "bisinusoid": ("--amplitude", "5nm", "--wavelength", "4um"),
+    "flat": (),
+    "laser_bumps": ("--pitch", "4um,8um", "--rim-height", "20nm", "--rim-radius", "1um", "--rim-width", "0.4um"),
+    "dimples": ("--pitch", "4um,8um", "--radius", "1um", "--depth", "20nm", "--raised"),
+    "grooves": ("--pitch", "4um", "--width", "1um", "--depth", "20nm", "--section", "cosine"),
+}
+
+
+def test_every_kind_has_an_example() -> None:
+    assert set(EXAMPLES) == set(KINDS)
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_every_kind_is_generated_and_comes_back(run: Runner, tmp_path: Path, kind: str) -> None:
+    result = run("generate", kind, *GRID, *EXAMPLES[kind], "--out", tmp_path / "a.nc")
+    assert result.exit_code == 0, result.stderr
+    surface = asp.read(tmp_path / "a.nc")
+    assert surface.shape == (24, 16)
+    assert surface.size == pytest.approx((12e-6, 8e-6))
+    assert surface.origin.history[0].startswith("generated: ")
+    assert "24 × 16 points, 12 µm × 8 µm" in result.stdout
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_every_option_of_every_kind_is_explained(run: Runner, kind: str) -> None:
+    result = run("generate", kind, "--help")
+    assert result.exit_code == 0
+    unexplained = [key.option for key in keys(KINDS[kind]) if not explained(key)]
+    assert unexplained == []
+    assert len({key.parameter for key in keys(KINDS[kind])}) == len(keys(KINDS[kind]))
+
+
+def test_units_and_values_reach_the_generator(run: Runner, tmp_path: Path) -> None:
+    run("generate", "rough", *GRID, *SEED, *SELF_AFFINE, "--rms", "5nm", "--out", tmp_path / "a.nc")
+    expected = asp.generate.gaussian(
+        asp.Grid((24, 16), (0.5e-6, 0.5e-6)),
+        asp.generate.SelfAffine(
+            amplitude=asp.generate.RmsHeight(5e-9), hurst=0.8, rolloff_wavelength=4e-6, shortest_wavelength=2e-6
+        ),
+        seed=3,
+    )
+    np.testing.assert_allclose(asp.read(tmp_path / "a.nc").heights, expected.heights, rtol=1e-9, atol=1e-20)
+
+
+def test_dashes_serve_as_underscores(run: Runner, tmp_path: Path) -> None:
+    assert run("generate", "flat-punch", *GRID, *EXAMPLES["flat_punch"], "--out", tmp_path / "a.nc").exit_code == 0
+
+
+def test_two_slopes_from_numbers_with_commas(run: Runner, tmp_path: Path) -> None:
+    options = ("--spectrum", "two_slopes", "--plateau", "1.5e8nm**4", "--exponents", "6.5,4.6")
+    waves = ("--rolloff-wavelength", "5um", "--crossover-wavelength", "3um")
+    result = run("generate", "rough", *GRID, *SEED, *options, *waves, "--out", tmp_path / "a.nc")
+    assert result.exit_code == 0, result.stderr
+    assert "q^-6.5 from 5 µm, q^-4.6 from 3 µm" in result.stdout
+
+
+def test_more_like_a_measured_file(run: Runner, tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "seen.txt", np.random.default_rng(1).normal(size=(32, 32)))
+    scale = ("--spectrum-file-size", "8um", "--spectrum-file-height-unit", "nm")
+    options = ("--spectrum", "measured", "--spectrum-file", tmp_path / "seen.txt", *scale, "--floor", "1nm**4")
+    result = run("generate", "rough", *GRID, *SEED, *options, "--out", tmp_path / "a.nc")
+    assert result.exit_code == 0, result.stderr
+    assert "radial spectrum of seen.txt" in " ".join(result.stdout.split())
+
+
+@pytest.mark.parametrize("ending", ["txt", "asc", "npy"])
+def test_other_files(run: Runner, tmp_path: Path, ending: str) -> None:
+    command = (
+        "generate",
+        "rough",
+        *GRID,
+        *SEED,
+        *EXPONENTIAL,
+        "--out",
+        tmp_path / f"a.{ending}",
+        "--plot",
+        tmp_path / "a.png",
+    )
+    assert run(*command).exit_code == 0
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert run(*command).exit_code == 2
+    assert run(*command, "--force").exit_code == 0
+    if ending != "npy":
+        assert asp.read(tmp_path / f"a.{ending}").size == pytest.approx((12e-6, 8e-6), rel=1e-9)
+
+
+def test_tiles_within_a_memory(run: Runner, tmp_path: Path) -> None:
+    big = ("--points", "500x300", "--size", "10um x 6um", *SEED, "--spectrum", "exponential")
+    rough = ("--rms-height", "5nm", "--correlation-length", "80nm")
+    result = run("generate", "digital_filter", *big, *rough, "--memory", "2MB", "--out", tmp_path / "a.npy")
+    assert result.exit_code == 0, result.stderr
+    whole = run("generate", "digital_filter", *big, *rough, "--out", tmp_path / "b.npy")
+    assert whole.exit_code == 0
+    np.testing.assert_allclose(np.load(tmp_path / "a.npy"), np.load(tmp_path / "b.npy"), atol=1e-20)
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "words"),
+    [
+        ("rough", (*SEED, *SELF_AFFINE), "must give exactly one of rms_height, rms_slope, plateau"),
+        ("rough", (*SEED, *EXPONENTIAL, "--variant", "other"), "--variant must be 'random', 'fixed' or 'nested'"),
+        ("rough", (*SEED, "--spectrum", "exponential", "--rms-height", "5"), "--rms-height must have a unit"),
+        ("rough", (*SEED, "--spectrum", "white"), "must be one of"),
+        ("rough", (*SEED, *EXPONENTIAL, "--hurst", "0.8"), "--hurst is not a known key"),
+        ("rough", EXPONENTIAL, "Missing option '--seed'"),
+        ("sphere", ("--radius", "-3um"), "--radius must be greater than zero"),
+        ("sphere", ("--radius", "1um", "--exact"), "larger radius"),
+        ("digital_filter", (*SEED, *EXPONENTIAL, "--kurtosis", "1"), "kurtosis of the heights"),
+        ("digital_filter", (*SEED, *EXPONENTIAL, "--periodic", "--memory", "1GB"), "--memory must be left out"),
+        ("dimples", ("--pitch", "4um", "--radius", "1um", "--depth", "1nm"), "--pitch"),
+        ("laser_bumps", (), "Missing option"),
+    ],
+)
+def test_errors_name_the_option(run: Runner, tmp_path: Path, kind: str, options: tuple[str, ...], words: str) -> None:
+    out = tmp_path / ("a.npy" if "--memory" in options else "a.nc")
+    result = run("generate", kind, *GRID, *options, "--out", out)
+    assert result.exit_code == 2
+    assert words in " ".join(result.stderr.split())
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_unknown_kind_and_wrong_files(run: Runner, tmp_path: Path) -> None:
+    assert "No such command 'plane'" in run("generate", "plane", "--out", "x").stderr
+    assert "must end in" in run("generate", "flat", *GRID, "--out", tmp_path / "a.csv").stderr
+    assert "PNG" in run("generate", "flat", *GRID, "--out", tmp_path / "a.nc", "--plot", tmp_path / "a.jpg").stderr
+    assert (
+        "--points must be one or two numbers"
+        in run("generate", "flat", "--points", "4,4", "--size", "1um", "--out", tmp_path / "a.nc").stderr
+    )
+    assert all(kind in run("generate", "--help").stdout for kind in KINDS)
