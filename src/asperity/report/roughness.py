@@ -66,7 +66,7 @@ def _spectrum_sentence(spectrum: SpectralParameters) -> str:
     law = f"The spectrum falls as q to the power −{spectrum.exponent_1:.2f}"
     if math.isfinite(spectrum.exponent_2):
         law += f", below {show(spectrum.crossover_wavelength, 'm', 3)} as −{spectrum.exponent_2:.2f}"
-    elif 0.0 < spectrum.hurst <= 1.0:
+    elif math.isfinite(spectrum.hurst):
         law += f" (Hurst exponent {spectrum.hurst:.2f})"
     if math.isfinite(spectrum.rolloff_wavelength):
         return f"{law}, with a roll-off at {show(spectrum.rolloff_wavelength, 'm', 3)}."

@@ -63,7 +63,8 @@ class SummitDensities:
 class SpectralParameters:
     """Fitted form of the spectrum; relative standard errors (``*_error``) but for exponents, whose are absolute.
 
-    ``exponent_1``, ``exponent_2`` of C ~ q^-a and ``hurst`` = (a1 - 2)/2; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
+    ``exponent_1``, ``exponent_2`` of C ~ q^-a; ``hurst`` = (a1 - 2)/2 where that is a Hurst exponent, between 0 and 1 to
+    two standard errors; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
     (m), NaN if the scan shows no roll-off; ``crossover_wavelength`` (m) between two power laws; ``floor`` (m⁴) of white
     noise; ``short_cutoff`` wavelength (m) at which the spectrum ends. NaN for what the spectrum does not have.
     """
@@ -102,9 +103,10 @@ def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
     """The numbers of ``fit``."""
     model, errors = fit.model, fit.errors
     two = len(model.exponents) == 2
+    self_affine = 0.0 < model.hurst[0] <= 1.0 + 2.0 * fit.hurst_error
     return SpectralParameters(
-        hurst=model.hurst[0],
-        hurst_error=fit.hurst_error,
+        hurst=model.hurst[0] if self_affine else _NAN,
+        hurst_error=fit.hurst_error if self_affine else _NAN,
         exponent_1=model.exponents[0],
         exponent_1_error=errors["exponent_1"],
         exponent_2=model.exponents[1] if two else _NAN,

@@ -133,7 +133,7 @@ QUANTITIES = (
     Quantity("fractal_y.roughness", "G_y", "fractal roughness along y", "m", "of the Weierstrass-Mandelbrot profile with γ = 1.5; NaN if not self-affine", "Majumdar & Bhushan (1990)"),
     Quantity("fractal_y.first_lag", "", "shortest lag of the fit along y", "m", "beginning of the fitted range", _FRACTAL),
     Quantity("fractal_y.last_lag", "", "longest lag of the fit along y", "m", "end of the fitted range", _FRACTAL),
-    Quantity("spectrum.hurst", "H", "Hurst exponent", "1", "(a1 - 2)/2 of the fitted spectrum; self-affine only between 0 and 1", _SPECTRUM),
+    Quantity("spectrum.hurst", "H", "Hurst exponent", "1", "(a1 - 2)/2 of the fitted spectrum, where it lies between 0 and 1 to two standard errors", _SPECTRUM),
     Quantity("spectrum.hurst_error", "", "standard error of H", "1", "Fisher information of the Whittle likelihood", _SPECTRUM),
     Quantity("spectrum.exponent_1", "a1", "exponent of the spectrum", "1", "C ~ q^-a1 beyond the roll-off", _SPECTRUM),
     Quantity("spectrum.exponent_1_error", "", "standard error of a1", "1", "Fisher information of the Whittle likelihood", _SPECTRUM),

@@ -1,0 +1,74 @@
+"""Pages on surfaces: what they claim holds on fewer realisations, and they belong to their scripts."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import gallery
+import gold_film
+import pytest
+import scan_size
+import standard_surface
+
+FOLDER = Path(gold_film.__file__).parent
+RUNS = {
+    "gold_film": lambda: gold_film.page(realisations=6),
+    "standard_surface": lambda: standard_surface.page(realisations=8),
+    "scan_size": lambda: scan_size.page(count=8, sides=(4e-6, 64e-6)),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_what_is_claimed_holds(name):
+    page = RUNS[name]()
+    for claim in page.claims:
+        assert claim.low <= claim.found <= claim.high, claim.text
+    assert page.agrees
+    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8")
+    assert written.splitlines()[0] == f"# {page.title}"
+    assert page.about in written
+    assert "| NO |" not in written
+    for claim in page.claims:
+        assert f"| {claim.text} |" in written
+
+
+def test_moments_of_the_printed_spectrum_are_the_reference(reference):
+    rows = {row["estimate"]: row for row in reference("au_psd_moments")}
+    names = (None, "spectral_k_below_pi_over_delta", "spectral_all_modes", "finite_difference_all_modes")
+    for found, name in zip(gold_film.printed(), names, strict=True):
+        if name is None or "k_below" in name:
+            continue  # integrals, not sums over the modes of the grid
+        row = rows[f"grid_512_{name}"]
+        assert found.alpha == pytest.approx(row["nayak_alpha"], rel=1e-9)
+        assert found.m0 == pytest.approx((1e-9 * row["sigma_nm"]) ** 2, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_the_gallery_of_measured_surfaces(shared_data, tmp_path):
+    made = gallery.write_gallery(shared_data, tmp_path / "gallery")
+    assert len(made) == 6
+    index = (tmp_path / "gallery" / "index.html").read_text(encoding="utf-8")
+    for entry in made:
+        assert entry.fault == ""
+        assert (tmp_path / "gallery" / f"{entry.name}.html").stat().st_size > 100_000
+        assert f'href="{entry.name}.html"' in index
+        assert entry.found.heights.Sq > 0.0
+        assert entry.found.summits.eight.count > 0
+    assert index.count("<img ") == 6 * len(gallery.SHOWN)
+    assert not re.search(r'src="(?!data:)', index)
+
+
+def test_a_file_that_cannot_be_read_is_told_in_the_gallery(tmp_path):
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "broken.opd").write_bytes(b"nothing")
+    (tmp_path / "data" / "README.md").write_text("notes")
+    (entry,) = gallery.write_gallery(tmp_path / "data", tmp_path / "gallery")
+    assert entry.found is None
+    assert "cannot be read" in (tmp_path / "gallery" / "index.html").read_text(encoding="utf-8")
+
+
+def test_a_spectrum_of_another_amplitude_disagrees():
+    page = standard_surface.page(realisations=8)
+    spoiled = [claim for claim in page.claims if claim.text.startswith("rms height")]
+    assert not type(spoiled[0])(spoiled[0].text, 1.2 * spoiled[0].found, spoiled[0].low, spoiled[0].high).holds
