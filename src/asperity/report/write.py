@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from ..plots.figures import PLOTS, render
 from .bodies import body_rows
 from .inputs import Rows, surface_rows
 from .outputs import certificate_rows, headline_rows, result_rows, summary
+from .page import rendered
 from .settings import setting_rows
 
 TEMPLATE = "report.html"
@@ -65,14 +65,9 @@ def write_report(
 
 
 def _html(result: ContactResult, advice: Sequence[Advice], document: str | None, title: str) -> str:
-    import jinja2
-
-    text = resources.files(__package__).joinpath("templates", TEMPLATE).read_text(encoding="utf-8")
-    environment = jinja2.Environment(
-        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
     warnings = [item for item in advice if item.level == "warning"]
-    return environment.from_string(text).render(
+    return rendered(
+        TEMPLATE,
         title=title,
         result=result,
         summary=summary(result),
