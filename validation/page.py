@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class Table:
@@ -46,6 +48,12 @@ class Claim:
         if math.isinf(self.high):
             return f"at least {self.low:.3g}"
         return f"{self.low:.3g} to {self.high:.3g}"
+
+
+def within_scatter(text: str, theirs: float, ours: np.ndarray) -> Claim:
+    """That a published number lies within two standard deviations of the mean of ours."""
+    mean, width = float(ours.mean()), 2.0 * float(ours.std(ddof=1))
+    return Claim(f"{text}, within two standard deviations of ours", theirs, mean - width, mean + width)
 
 
 @dataclass(frozen=True)

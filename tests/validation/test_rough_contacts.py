@@ -3,6 +3,7 @@
 from functools import cache
 from pathlib import Path
 
+import peng_layer_effect
 import peng_scaling
 import peng_table_3_1
 import pytest
@@ -11,6 +12,7 @@ from page import Claim, Page
 FOLDER = Path(peng_table_3_1.__file__).parent
 RUNS = {
     "peng_table_3_1": lambda: peng_table_3_1.compare(20, peng_table_3_1.PUBLISHED[::5], variants=False),
+    "peng_layer_effect": lambda: peng_layer_effect.compare(8, (0.001, 0.1, 2.0, 100.0)),
     "peng_scaling": lambda: peng_scaling.compare(count=8, stressed=2),
 }
 
