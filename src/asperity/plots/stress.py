@@ -35,10 +35,11 @@ COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 
 @dataclass(frozen=True)
 class Quantity:
-    """A stress that can be drawn: its ``label``, and whether it has either ``signed``."""
+    """A stress that can be drawn: its ``label``, whether it is ``signed``, and whether its ``tension`` matters alone."""
 
     label: str
     signed: bool
+    tension: bool = False
 
 
 QUANTITIES = {
@@ -46,8 +47,8 @@ QUANTITIES = {
     "von_mises": Quantity("von Mises stress", signed=False),
     "tresca": Quantity("Tresca stress", signed=False),
     "max_shear": Quantity("largest shear stress", signed=False),
-    "max_principal": Quantity("largest principal stress", signed=True),
-    "principal_tensile": Quantity("principal stress in the plane", signed=True),
+    "max_principal": Quantity("largest principal stress", signed=True, tension=True),
+    "principal_tensile": Quantity("principal stress in the plane", signed=True, tension=True),
     "hydrostatic": Quantity("mean normal stress", signed=True),
     "normal_xx": Quantity("σxx", signed=True),
     "normal_yy": Quantity("σyy", signed=True),
@@ -65,7 +66,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     With ``log`` the steps are equal factors over two decades below the maximum, for magnitudes such as √J2.
 
     Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross marks the largest
-    value. Depth is to the scale of the section unless that were less than a sixth of its length.
+    magnitude, of principal stresses the largest tension. Signed stresses are white about zero. Depth is to the scale of the section unless that were less than a sixth of its length.
 
     Raises
     ------
@@ -85,7 +86,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     levels = _levels(in_unit(values), kind, log=log)
     contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
     _draw_interfaces(field, ax, depth_unit)
-    _mark_peak(field, ax, values, (axis, length, depth_unit))
+    _mark_peak(field, ax, values if kind.tension else np.abs(values), (axis, length, depth_unit))
     ax.set(
         xlabel=f"{axis} ({length.symbol}), at {other} = {show(at, 'm')}",
         ylabel=f"depth ({depth_unit.symbol})",
@@ -94,8 +95,11 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     )
     if 6.0 * field.depth[-1] > line[-1] - line[0] and field.depth[-1] < 6.0 * (line[-1] - line[0]):
         ax.set_aspect(length.factor**-1 * depth_unit.factor, adjustable="box")
-    bar = ax.figure.colorbar(contours, cax=ax.inset_axes((1.03, 0.0, 0.035, 1.0)), format="%.2g" if log else "%g")
+    bar = ax.figure.colorbar(contours, cax=ax.inset_axes((1.03, 0.0, 0.035, 1.0)), format=_two_digits if log else "%g")
     bar.set_label(f"{kind.label} ({in_unit.symbol})")
+    if kind.signed:
+        bar.set_ticks(levels.tolist())
+        bar.minorticks_off()
     return ax
 
 
@@ -171,14 +175,22 @@ def _parts(field: StressField) -> list[list[int]]:
     return [list(part) for _, part in numbered]
 
 
+def _two_digits(value: float, _: object) -> str:
+    return f"{float(f'{value:.2g}'):g}"
+
+
 def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
-    """Steps of the contours: symmetric about zero for signed stresses, from zero or by equal factors for magnitudes."""
+    """Steps of the contours: from zero or by equal factors for magnitudes; for signed stresses symmetric about zero.
+
+    Zero itself is no step of signed stresses: far from the contact its line would wander through rounding.
+    """
     from matplotlib.ticker import MaxNLocator
 
     high = float(np.abs(values).max()) or 1.0
     if log:
         return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
-    return np.array(MaxNLocator(LEVELS, symmetric=kind.signed).tick_values(-high if kind.signed else 0.0, high))
+    steps = np.array(MaxNLocator(LEVELS, symmetric=kind.signed).tick_values(-high if kind.signed else 0.0, high))
+    return steps[np.abs(steps) > 1e-9 * high] if kind.signed else steps
 
 
 def _contours(
@@ -225,7 +237,7 @@ def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> None:
 
 def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str, Any, Any]) -> None:
     axis, length, depth_unit = axes
-    peak = field.peak(np.abs(values))
+    peak = field.peak(values)
     ax.plot(
         float(length(getattr(peak, axis) + 0.5 * field.spacing["xy".index(axis)])),
         float(depth_unit(peak.depth)),

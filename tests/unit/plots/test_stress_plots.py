@@ -65,12 +65,37 @@ def test_the_cross_is_at_the_largest_value(contact, ax):
     assert cross.get_xdata()[0] * 1e-6 == pytest.approx((column + 0.5) * field.spacing[0])
 
 
+def test_the_cross_of_a_principal_stress_is_at_the_largest_tension(contact, ax):
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    plots.plot_stress_section(field, ax, "principal_tensile")
+    (cross,) = [line for line in ax.lines if line.get_marker() == "x"]
+    plane, column = np.unravel_index(field.principal_tensile.argmax(), field.principal_tensile.shape)
+    assert cross.get_ydata()[0] == pytest.approx(field.depth[plane] * 1e9)
+    assert cross.get_xdata()[0] * 1e-6 == pytest.approx((column + 0.5) * field.spacing[0])
+
+
+def test_signed_stresses_are_white_about_zero(contact, ax):
+    """No contour at zero, whose line would follow rounding; colours of either sign are mirror images."""
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    plots.plot_stress_section(field, ax, "shear_xz")
+    levels = ax.collections[0].levels
+    assert np.abs(levels).min() > 0.01 * levels.max()
+    np.testing.assert_allclose(levels, -levels[::-1])
+    below, white, above = ax.collections[0].to_rgba([levels[0], 0.0, levels[-1]])
+    assert white[:3].min() > 0.9
+    assert below[2] > below[0]
+    assert above[0] > above[2]
+
+
 def test_logarithmic_steps(contact, ax):
     field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
     plots.plot_stress_section(field, ax, "sqrt_J2", log=True)
     ax.figure.canvas.draw()
     low, high = ax.child_axes[0].get_ylim()
     assert high / low == pytest.approx(100.0)
+    labels = [text.get_text() for text in ax.child_axes[0].get_yticklabels()]
+    assert labels
+    assert not any("e" in label for label in labels)
 
 
 def test_sections_as_deep_as_long_are_to_scale(ax):
