@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -103,6 +104,30 @@ def test_gold_film_in_the_continuum():
     q = np.array([0.01, 0.08, 0.2, 0.9])
     np.testing.assert_allclose(by_height.psd(q), spectrum.psd(q), rtol=1e-8)
     np.testing.assert_allclose(by_slope.psd(q), spectrum.psd(q), rtol=1e-8)
+
+
+@pytest.mark.parametrize("row", reference("surfaces_psd_pairs"), ids=lambda r: f"{r['model']}-{r['q']:g}")
+def test_closed_spectra_of_the_reference(row):
+    numbers = json.loads(row["parameters"])
+    if "exponential" in row["model"]:
+        length = numbers.get("beta_e", numbers.get("beta_x"))
+        spectrum = ExponentialAutocorrelation(
+            numbers["sigma"], length, drop=np.exp(-1.0), correlation_length_y=numbers.get("beta_y")
+        )
+    elif "Gaussian" in row["model"]:
+        spectrum = GaussianAutocorrelation(numbers["sigma"], numbers["b"], drop=np.exp(-1.0))
+    elif "without limits" in row["model"]:
+        # a plateau below all wavenumbers of interest; C0 there continues the power law
+        low = 1e-3
+        spectrum = SelfAffine(
+            amplitude=PlateauPSD(numbers["C0"] * low ** (-2 - 2 * numbers["H"])),
+            hurst=numbers["H"],
+            rolloff_wavelength=2 * np.pi / low,
+            shortest_wavelength=0.0,
+        )
+    else:
+        pytest.skip(f"no generator of the spectrum {row['model']!r}")
+    assert float(spectrum.psd(row["q"])) == pytest.approx(row["C2D_jacobs"], rel=1e-10)
 
 
 def test_equal_slopes_are_one_slope():

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from ensemble import average, periodic_statistics, require_accepted, rows
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import sinusoid, sphere
+from asperity.surfaces.generate import PlateauPSD, SelfAffine, gaussian, sinusoid, sphere
 from asperity.surfaces.pair import composite
 from asperity.surfaces.surface import Origin, Surface
 
@@ -74,3 +75,17 @@ def test_refusals():
         composite(noise(1), Surface(other.heights, 1.0, 2.001))
     with pytest.raises(InputError, match="mirror"):
         composite(noise(1), other, mirrored="z")
+
+
+def test_composite_of_two_random_surfaces_meets_its_acceptance_intervals():
+    """Moments and spectra of independent surfaces add."""
+    grid = Grid((128, 128), (0.1, 0.1))
+    one = SelfAffine(amplitude=PlateauPSD(2e-5), hurst=0.8, rolloff_wavelength=2.9, shortest_wavelength=0.47)
+    two = SelfAffine(amplitude=PlateauPSD(1e-5), hurst=0.6, rolloff_wavelength=1.7, shortest_wavelength=0.53)
+
+    def statistics(seed):
+        pair = composite(gaussian(grid, one, seed=2 * seed), gaussian(grid, two, seed=2 * seed + 1), mirrored="x")
+        found = periodic_statistics(pair.heights, grid.spacing)
+        return {name: found[name] for name in ("m0", "m2x_fd", "m4x_fd")}
+
+    require_accepted("G12", average(statistics(seed) for seed in range(int(rows("G12")[0]["n_realisations"]))))

@@ -15,6 +15,9 @@ SHAPES = {
     "cylinder": lambda grid: g.cylinder(grid, radius=1e-3),
     "cone": lambda grid: g.cone(grid, slope=0.1),
     "punch": lambda grid: g.flat_punch(grid, radius=1e-6, depth=1e-6),
+    "rounded punch": lambda grid: g.flat_punch(grid, radius=1e-6, depth=1e-6, edge_radius=4e-7),
+    "wedge": lambda grid: g.wedge(grid, slope=0.1),
+    "power law": lambda grid: g.power_law(grid, exponent=3.0, radius=2e-6, height=5e-8),
     "sinusoid": lambda grid: g.sinusoid(grid, amplitude=1e-9, wavelength=1.6e-6),
     "bisinusoid": lambda grid: g.bisinusoid(grid, amplitude=1e-9, wavelength=1.6e-6),
     "flat": g.flat,
@@ -48,6 +51,9 @@ def test_closed_forms_at_a_node():
         "cylinder": -(x**2) / 2e-3,
         "cone": -0.1 * r,
         "punch": 0.0,
+        "rounded punch": -(4e-7 - np.sqrt(4e-7**2 - (r - 6e-7) ** 2)),
+        "wedge": -0.1 * x,
+        "power law": -5e-8 * (r / 2e-6) ** 3,
         "sinusoid": 1e-9 * (np.cos(2 * np.pi * x / 1.6e-6) - 1),
         "bisinusoid": 1e-9 * (np.cos(2 * np.pi * x / 1.6e-6) + np.cos(2 * np.pi * y / 1.6e-6) - 2),
     }
@@ -84,9 +90,35 @@ def test_punch_depth_outside():
     assert heights[27, 12] == -1e-6
 
 
+def test_power_laws_between_cone_and_punch():
+    cone, parabola = (g.power_law(GRID, exponent=n, radius=1e-6, height=1e-8).heights for n in (1.0, 2.0))
+    np.testing.assert_allclose(cone, g.cone(GRID, slope=0.01).heights, rtol=1e-12)
+    np.testing.assert_allclose(parabola, g.sphere(GRID, radius=1e-6**2 / 2e-8).heights, rtol=1e-12)
+
+
+def test_rounded_edge_meets_flat_and_flank():
+    fine = Grid((400, 3), (1e-8, 1e-8))
+    h = g.flat_punch(fine, radius=1e-6, depth=1e-6, edge_radius=4e-7).heights[200:, 1]
+    r = np.arange(200) * 1e-8
+    assert np.all(h[r <= 6e-7 + 1e-15] == 0.0)
+    assert h[99] == pytest.approx(-4e-7 + np.sqrt(4e-7**2 - 3.9e-7**2))  # nearly a quarter circle down
+    assert h[101] == -1e-6
+    np.testing.assert_allclose(np.hypot(h[60:100] + 4e-7, r[60:100] - 6e-7), 4e-7, rtol=1e-9)
+
+
+def test_wedge_along_x_varies_along_y_only():
+    heights = g.wedge(GRID, slope=0.1, axis="x").heights
+    assert np.ptp(heights, axis=0).max() == 0.0
+    assert heights[0, 0] == pytest.approx(-0.1 * 12 * 2e-7, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
+        (lambda: g.wedge(GRID, slope=0.0), "wedge slope"),
+        (lambda: g.wedge(GRID, slope=0.1, axis="z"), "wedge axis"),
+        (lambda: g.power_law(GRID, exponent=-1.0, radius=1.0, height=1.0), "exponent"),
+        (lambda: g.flat_punch(GRID, radius=1e-6, depth=1e-7, edge_radius=2e-7), "edge radius"),
         (lambda: g.sphere(GRID, radius=0.0), "sphere radius"),
         (lambda: g.sphere(GRID, radius=1e-6, exact=True), "larger radius"),
         (lambda: g.cylinder(GRID, radius=1.0, axis="z"), "cylinder axis"),

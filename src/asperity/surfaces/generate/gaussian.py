@@ -55,8 +55,8 @@ def gaussian(
         Rescale this realisation to the expected rms height. That is another ensemble: mean square slopes and
         curvatures are then biased by up to the relative variance of the mean square height.
     periodic
-        If false, a window of a periodic surface of at least twice the size and at least ``spectrum.correlation_range``
-        more, so that opposite borders are independent. Its mean, tilt and rms height scatter.
+        If false, a window of a periodic surface that is longer by ``spectrum.correlation_range`` (twice as long if the
+        spectrum has none), so that opposite borders are independent. Its mean, tilt and rms height scatter.
 
     Raises
     ------
@@ -92,9 +92,10 @@ def parent_grid(grid: Grid, spectrum: object) -> Grid:
     InputError
         If it would have more than 2^29 points.
     """
-    reach = float(getattr(spectrum, "correlation_range", 0.0))
+    reach = getattr(spectrum, "correlation_range", None)
     sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
-    lengths = [max(2.0 * size, size + reach, side) for size, side in zip(grid.size, sides, strict=True)]
+    margins = grid.size if reach is None else (float(reach), float(reach))
+    lengths = [max(size + margin, side) for size, margin, side in zip(grid.size, margins, sides, strict=True)]
     nx, ny = (fast_length(int(np.ceil(length / d))) for length, d in zip(lengths, grid.spacing, strict=True))
     if nx * ny > _LARGEST_PARENT:
         raise InputError(

@@ -31,7 +31,7 @@ class PowerLaws:
     def relative(self, q: RealArray) -> RealArray:
         """C/C0 at the wavenumbers ``q``, any shape."""
         inside = (q > 0.0) & (q >= self.low * (1.0 - _ROUNDING)) & (q <= self.high * (1.0 + _ROUNDING))
-        values = inside.astype(np.float64)
+        values = np.array(inside, dtype=np.float64)
         before = 0.0
         for bend, exponent in zip(self.bends, self.exponents, strict=True):
             # only the inside beyond the bend takes the power, the slow part on large grids
