@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from reference_data import FOLDER, reference
+from spectra_cases import with_fixed_amplitudes
 
 import asperity as asp
 from asperity.core.errors import InputError
@@ -16,6 +17,7 @@ from asperity.surfaces.characterise.expectation import (
     expected_difference_moments,
     mean_square_after_levelling,
 )
+from asperity.surfaces.characterise.moments import difference_moments
 from asperity.surfaces.characterise.spectral_model import SpectralModel
 from asperity.surfaces.characterise.spectrum import power_spectrum
 
@@ -41,6 +43,20 @@ def test_differences_of_plateau_and_power_law(row):
     assert second / m4 == pytest.approx(row["m4fd_over_m4"], rel=1e-8)
     assert m0 * m4 / m2**2 == pytest.approx(row["alpha"], rel=1e-10)
     assert m0 * second / first**2 == pytest.approx(row["alpha_fd"], rel=1e-8)
+
+
+@pytest.mark.parametrize("row", reference("surfaces_sampled_peaks"), ids=lambda row: f"{row['delta_over_beta_e']:g}")
+def test_differences_of_an_exponential_autocorrelation(row):
+    """A periodic surface with exactly this autocovariance shows 2[R(0) - R(Δ)]/Δ² and its like for curvature."""
+    decay = 1.0 / row["delta_over_beta_e"]
+    grid = asp.Grid((16 * math.ceil(decay), 16 * math.ceil(decay)), (1.0, 1.0))
+    spectrum = asp.generate.ExponentialAutocorrelation(1.0, decay, drop=math.exp(-1.0))
+    surface = with_fixed_amplitudes(spectrum.lattice_psd(grid), grid, seed=1)
+    found = difference_moments(surface)
+    # the domain of 16 decays clips a negative part of the spectrum, below 1e-10 of the whole
+    for m2, m4 in ((found.m2_x, found.m4_x), (found.m2_y, found.m4_y)):
+        assert m2 == pytest.approx(row["m2_fd_times_delta2_over_sigma2"], rel=1e-8)
+        assert m4 == pytest.approx(row["m4_fd_times_delta4_over_sigma2"], rel=1e-8)
 
 
 def test_differences_over_a_short_distance_are_derivatives():

@@ -246,6 +246,30 @@ def test_moments_of_the_gold_film(row):
     assert moments[0] * moments[2] / moments[1] ** 2 == pytest.approx(row["nayak_alpha"], rel=1e-10)
 
 
+@pytest.mark.parametrize(
+    "row", reference("surfaces_psd_pairs"), ids=lambda row: f"{row['model'][:20]}-{row['parameters']}-{row['q']:g}"
+)
+def test_profile_and_areal_spectra_belong_together(row):
+    """C1D(q) = (1/2π) ∫ C dq_y: the spectrum of lines across a surface of the areal spectrum."""
+    given_ = json.loads(row["parameters"])
+    if "H" in given_:
+        exponent = 2.0 + 2.0 * given_["H"]
+        model = SpectralModel(
+            level=given_["C0"] * 1e-6**-exponent, rolloff_wavelength=2e6 * math.pi, exponents=(exponent,)
+        )
+        psd = model.psd
+    elif "beta_e" in given_:
+        drop = math.exp(-1.0)
+        psd = asp.generate.ExponentialAutocorrelation(given_["sigma"], given_["beta_e"], drop=drop).psd
+    else:
+        psd = asp.generate.GaussianAutocorrelation(given_["sigma"], given_["b"], drop=math.exp(-1.0)).psd
+    assert float(np.squeeze(psd(np.array([row["q"]])))) == pytest.approx(row["C2D_jacobs"], rel=1e-9)
+    integral = quad(
+        lambda q_y: float(np.squeeze(psd(np.array([math.hypot(row["q"], q_y)])))), 0.0, math.inf, epsabs=0.0
+    )[0]
+    assert integral / math.pi == pytest.approx(row["C1D_jacobs_two_sided"], rel=1e-6)
+
+
 def test_refusals():
     with pytest.raises(InputError, match="8 rings"):
         fit_spectrum(power_spectrum(asp.Surface(np.zeros((64, 64)), 1.0, periodic=True)))
