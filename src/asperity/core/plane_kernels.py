@@ -157,10 +157,12 @@ def _field(used, parity, mirror, K, loads, out):  # type: ignore[no-untyped-def]
     A, X, Y = K
     if fields and real:
         for j in range(used):
-            out[j] = z * A[j] * p[j] + complex(0.0, x * X[j]) * qx[j] + complex(0.0, z * Y[j]) * qy[j]
+            a, b, c, u, v, w = z * A[j], x * X[j], z * Y[j], p[j], qx[j], qy[j]
+            out[j] = complex(a * u.real - b * v.imag - c * w.imag, a * u.imag + b * v.real + c * w.real)
     elif fields:
         for j in range(used):
-            out[j] = complex(0.0, z * A[j]) * p[j] + x * X[j] * qx[j] + z * Y[j] * qy[j]
+            a, b, c, u, v, w = z * A[j], x * X[j], z * Y[j], p[j], qx[j], qy[j]
+            out[j] = complex(b * v.real + c * w.real - a * u.imag, b * v.imag + c * w.imag + a * u.real)
     elif real:
         a, b = x * kx, z * ky
         for j in range(used):

@@ -18,7 +18,7 @@ from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .mean_mode import mean_displacement, mean_stress
 from .regions import Plane, stack
 from .tractions import ShearTraction, Tractions
-from .transfer import Transfer, transfer
+from .transfer import Transfers
 
 _NEGLIGIBLE = 60.0  # depth times wavenumber from which exp(-αz) is below anything that counts
 _PRESSURE = ("tau_zz", "tau_Lz", "LL_z")
@@ -46,11 +46,11 @@ class PeriodicPlanes:
     ) -> None:
         self.tractions = tractions
         self.dtype = np.dtype(dtype)
-        self._body = stack(body)
         self._given = body
         self._blocks = Blocks(thread_count(threads))
         self._transform = RealTransform(tractions.grid.shape, self._blocks.threads)
         self._panels: Panels = panels(tractions.grid)
+        self._transfers = Transfers(stack(body), self._panels.points)
         self._sheared = tractions.sheared
         self._means = tractions.means
         self._loads = self._transformed()
@@ -76,7 +76,7 @@ class PeriodicPlanes:
 
     def _spectra(self, kernel: str, plane: Plane, functions: tuple[str, ...], count: int, *constants: float) -> Any:
         """Spectra (count, nx, ny // 2 + 1) of a plane, in the buffer."""
-        found: Transfer = transfer(self._body, plane, self._panels.points)
+        found = self._transfers.to(plane)
         coefficients = self._panels.coefficients(np.stack([getattr(found, name) for name in functions]))
         limit = _NEGLIGIBLE / plane.depth if plane.depth > 0.0 else np.inf
         if self._buffer.shape[0] < count:

@@ -58,20 +58,42 @@ def transfer(body: Layered, plane: Plane, alpha: RealArray) -> Transfer:
 
     ``body`` has layers of finite, positive thickness only, see ``regions.stack``. Accurate to 5e-13 of the local field.
     """
-    below = interface_compliances(body, alpha)
-    one, zero = np.ones_like(alpha), np.zeros_like(alpha)
-    traction = PlaneVector(L=np.stack([zero, one]), z=np.stack([one, zero]), T=one)
-    number = plane.region.index
-    for k, layer in enumerate(body.layers[:number]):
-        traction = lowered(traction, below[k + 1], _matrices(layer, alpha, layer.thickness), layer.interface)
-    if number == len(body.layers):
-        assert isinstance(body.base, Elastic)
-        traction, displacement = _in_half_space(body.base, traction, alpha, plane.local_depth)
-    elif plane.side in ("surface", "below"):
-        displacement = below[number].displacement(traction)
-    else:
-        traction, displacement = _in_layer(body.layers[number], traction, below[number + 1], alpha, plane)
-    return _transfer(plane.region.material, traction, displacement, alpha)
+    return Transfers(body, alpha).to(plane)
+
+
+class Transfers:
+    """Transfer to any plane of ``body`` at the wavenumbers ``alpha``; what planes have in common is computed once."""
+
+    def __init__(self, body: Layered, alpha: RealArray) -> None:
+        self._body = body
+        self._alpha = alpha
+        self._below = interface_compliances(body, alpha)
+        one, zero = np.ones_like(alpha), np.zeros_like(alpha)
+        self._tops = [PlaneVector(L=np.stack([zero, one]), z=np.stack([one, zero]), T=one)]
+
+    def to(self, plane: Plane) -> Transfer:
+        """Transfer to ``plane``; costs two layer matrices, however many layers lie above."""
+        number, alpha = plane.region.index, self._alpha
+        traction = self._at_top(number)
+        if number == len(self._body.layers):
+            assert isinstance(self._body.base, Elastic)
+            traction, displacement = _in_half_space(self._body.base, traction, alpha, plane.local_depth)
+        elif plane.side in ("surface", "below"):
+            displacement = self._below[number].displacement(traction)
+        else:
+            traction, displacement = _in_layer(
+                self._body.layers[number], traction, self._below[number + 1], alpha, plane
+            )
+        return _transfer(plane.region.material, traction, displacement, alpha)
+
+    def _at_top(self, number: int) -> PlaneVector:
+        """Traction on the top of a region, under unit traction of the surface."""
+        while len(self._tops) <= number:
+            k = len(self._tops) - 1
+            layer = self._body.layers[k]
+            matrices = _matrices(layer, self._alpha, layer.thickness)
+            self._tops.append(lowered(self._tops[k], self._below[k + 1], matrices, layer.interface))
+        return self._tops[number]
 
 
 def _in_half_space(
