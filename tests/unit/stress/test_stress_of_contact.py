@@ -274,3 +274,45 @@ def test_depths_through_a_body():
     np.testing.assert_allclose(asp.depths_through(DISK, 150e-9, per_region=1), [0.0, 50e-9, 150e-9])
     with pytest.raises(asp.InputError, match="deepest depth"):
         asp.depths_through(DISK, 0.0)
+
+
+def test_free_fields_pass_through_interfaces():
+    """Coefficients above and below an interface come by different routes (closed forms and transforms, transforms)."""
+    body = asp.Layered(
+        [asp.Layer(asp.Elastic(5.0, 0.2), 0.7), asp.Layer(asp.Elastic(0.4, 0.4), 2.0)], asp.Elastic(1.0, 0.3)
+    )
+    grid = asp.Grid((30, 24), (1.0, 0.8))
+    loads = Tractions(grid, np.random.default_rng(1).random(grid.shape), asp.Sliding(0.4, 1.0), "free")
+    field = StressPlanes(loads, body, [0.7, 2.7]).whole(displacement=True)
+    for above in (0, 2):
+        for component in (field.normal_zz, field.shear_xz, field.shear_yz, *vars(field.displacement).values()):
+            scale = np.abs(component[above]).max()
+            np.testing.assert_allclose(component[above + 1], component[above], atol=1e-7 * scale)
+
+
+def test_trends_of_a_rough_coated_contact():
+    """Friction raises the largest √J2 and σxz and lifts them to the surface; the pressure has nothing to do with it.
+
+    A stiffer layer bears higher stresses on less area (Peng & Bhushan 2001, figs 8 to 11, in character).
+    """
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(1e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.25e-6
+    )
+    scan = asp.generate.gaussian(asp.Grid((128, 128), (25e-9, 25e-9)), spectrum, seed=4)
+    largest, areas = {}, {}
+    for ratio in (0.5, 2.0):
+        body = asp.Layered([asp.Layer(asp.Elastic(ratio * 100e9, 0.3), 1e-6)], asp.Elastic(100e9, 0.3))
+        result = asp.solve(asp.ContactProblem(scan, body), asp.MeanPressure(20e6))
+        areas[ratio] = result.area_fraction
+        depths = np.concatenate([[0.0], np.geomspace(12e-9, 2e-6, 24)])
+        for mu in (0.0, 0.25, 0.5):
+            field = asp.stress(result, depths, friction=mu)
+            largest[ratio, mu] = field.peak(field.sqrt_J2), field.peak(np.abs(field.shear_xz))
+        root, shear = zip(*(largest[ratio, mu] for mu in (0.0, 0.25, 0.5)), strict=True)
+        assert root[0].value < root[1].value < root[2].value
+        assert shear[0].value < shear[1].value < shear[2].value
+        assert root[2].depth < root[0].depth
+        assert shear[2].depth < shear[0].depth
+    for mu in (0.0, 0.25, 0.5):
+        assert largest[2.0, mu][0].value > 1.5 * largest[0.5, mu][0].value
+    assert areas[0.5] > 1.5 * areas[2.0]
