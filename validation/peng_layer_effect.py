@@ -31,7 +31,8 @@ def compare(count: int = 20, thicknesses: Sequence[float] = THICKNESSES) -> Page
     """Ours on ``count`` surfaces for every thickness, which includes 2 and ends with one far beyond the cell."""
     shapes = surfaces(count, grid())
     bare = ensemble(contacts(Case(1.0, LOAD, RMS), shapes))
-    tables, claims = [], []
+    tables: list[Table] = []
+    claims: list[Claim] = []
     for ratio in RATIOS:
         case = Case(ratio, LOAD, RMS)
         found = [ensemble(contacts(case, shapes, body=coated(ratio, h * CORRELATION_LENGTH))) for h in thicknesses]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from page import Claim, Page, Table, within_scatter, write_page
-from peng import BASE, CORRELATION_LENGTH, SIDE, THICKNESS, Case, contacts, grid, surfaces
-from peng_table_3_1 import PIXELS, PUBLISHED, ROUNDING
+from peng import BASE, CORRELATION_LENGTH, PIXELS, SIDE, THICKNESS, Case, contacts, grid, surfaces
+from peng_table_3_1 import PUBLISHED, ROUNDING
 
 import asperity as asp
 
