@@ -69,6 +69,39 @@ def test_the_examples_of_stresses(scan, tmp_path, monkeypatch, capsys):
     assert "DLC" in capsys.readouterr().out
 
 
+def test_the_examples_of_generation(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for number, code in enumerate(blocks(ROOT / "docs/how-to/generate.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    made = [value for value in names.values() if isinstance(value, asp.Surface)]
+    assert len(made) > 15
+    assert np.load(tmp_path / "big.npy", mmap_mode="r").shape == (2000, 1500)
+    np.testing.assert_array_equal(asp.read(tmp_path / "rough.nc").heights, names["rough"].heights)
+    printed = capsys.readouterr().out
+    assert "must be at least 2.799" in printed
+    assert "Jacobs" in printed
+    assert asp.rms_height(names["grooved"]) == pytest.approx(1e-9, rel=0.01)
+    (text,) = blocks(ROOT / "docs/how-to/generate.md", "toml")
+    rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
+    assert loads("version = 1\n" + text + rest).surface.kind == "rough"
+
+
+def test_the_examples_of_preparation(scan, capsys):
+    first, second = blocks(ROOT / "docs/how-to/prepare.md", "python")
+    names = {"scan": asp.Surface(scan.heights, scan.dx)}
+    assert 'asp.read("scan.di")' in first
+    exec(compile(first.replace('asp.read("scan.di")', "scan"), "first block", "exec"), names)  # noqa: S102 - running the page is the test
+    exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
+    words = ["despiked", "line-corrected", "filled", "levelled", "tip-limited", "filtered", "resampled", "periodised"]
+    assert [line.split(":")[0] for line in capsys.readouterr().out.splitlines()] == words
+    assert names["problem"].surface.dx == pytest.approx(scan.dx)
+    (text,) = blocks(ROOT / "docs/how-to/prepare.md", "toml")
+    table = 'version = 1\n[surface]\nkind = "file"\npath = "a.di"\n' + text
+    rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
+    assert len(loads(table + rest).surface.prepare) == 6
+
+
 def test_the_problem_document_of_the_guide_is_valid():
     (text,) = blocks(ROOT / "docs/how-to/problem-document.md", "toml")
     assert loads(text).title == "Two rough bodies"
