@@ -47,7 +47,7 @@ class FractalParameters:
     first_lag: float
     last_lag: float
     residual: float
-    citation_keys: ClassVar[tuple[str, ...]] = ("Ganti1995", "Majumdar1990")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Ganti1995", "Majumdar1990")
 
     @property
     def hurst(self) -> float:

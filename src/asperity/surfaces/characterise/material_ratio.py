@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +31,7 @@ class MaterialRatioCurve:
     """
 
     heights: RealArray
+    citation_keys: ClassVar[tuple[str, ...]] = ("Abbott1933", "ISO25178")
 
     @property
     def ratios(self) -> RealArray:

@@ -66,6 +66,8 @@ class Characterisation:
     remarks: tuple[str, ...] = ()
 
     _KEYS: ClassVar[tuple[str, ...]] = (
+        "Abbott1933",
+        "Bhushan1998",
         "Ganti1995",
         "ISO25178",
         "Jacobs2017",
