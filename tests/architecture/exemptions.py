@@ -27,6 +27,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.core.engine.cell_kernels.stiffen": "a compiled pass takes its arrays and numbers one by one",
         "asperity.core.engine.cell_kernels.deflect": "a compiled pass takes its arrays and numbers one by one",
         "asperity.core.engine.cell_kernels.relieve": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.cli.contact.contact": "one group of options each, in the order of the help",
+        "asperity.report.write.write_report": "independent keyword-only parts of a report, each with a default",
         "asperity.contact.assemble.assemble": "gathers what the separate stages of a solve produced, in one place",
         "asperity.contact.path.solve_path": "the choices of solve, for a sequence of controls",
         "asperity.contact.path.steps": "the choices of solve, for a sequence of controls",

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions, SourceOptions
 from .preparing import PreparationOptions
-
-if TYPE_CHECKING:
-    from ..io.documents import ProblemDocument
+from .stressing import StressOptions
 
 
 def contact(
@@ -20,22 +18,30 @@ def contact(
     preparation: PreparationOptions,
     bodies: BodyOptions,
     solve: SolveOptions,
+    stress: StressOptions,
     output: OutputOptions,
 ) -> None:
-    """Press a rough surface against another body and report contact area, pressure and gap.
+    """Press a rough surface against another body: contact area, pressure and gap, and the stresses inside if asked for.
 
-    Example: asperity contact scan.di --body DLC --pressure 50kPa --hardness body --out run
+    Examples: asperity contact scan.di --body DLC --pressure 50kPa --hardness body --out run;
+    asperity contact scan.di --body DLC:5nm/steel --pressure 50MPa --friction 0.3 --section y=max --out run
 
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
     """
+    from ..io.documents import checked
     from .perform import perform
+    from .stressing import stress_names, with_stress
 
     if source.from_ is None:
-        document, base = _from_options(source.file, reading, preparation, bodies, solve), Path()
+        table, names = _from_options(source.file, reading, preparation, bodies, solve)
+        where, base = "command line", Path()
     else:
         _require_no_surface(source.file, reading, preparation, bodies)
-        document, base = _from_document(source.from_, bodies, solve), source.from_.parent
+        table, names = _from_document(source.from_, bodies, solve), {}
+        where, base = f"problem document {source.from_}", source.from_.parent
+    table = with_stress(table, stress, wanted=output.wants_stress)
+    document = checked(table, where, names | (stress_names(table) if source.from_ is None else {}))
     raise typer.Exit(perform(document, base, output))
 
 
@@ -65,22 +71,22 @@ def _from_options(
     preparation: PreparationOptions,
     bodies: BodyOptions,
     solve: SolveOptions,
-) -> ProblemDocument:
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """Document without its stresses, and what the user calls its keys."""
     from ..core.errors import InputError
-    from ..io.documents import checked
     from .compose import NAMES, body_names, composed, overlaid
     from .preparing import step_names
 
     if file is None:
         raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
     table = overlaid(composed(file, reading, preparation, bodies), bodies, solve)
-    return checked(table, "command line", {**NAMES, **body_names(table), **step_names(table["surface"]["prepare"])})
+    return table, {**NAMES, **body_names(table), **step_names(table["surface"]["prepare"])}
 
 
-def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> ProblemDocument:
+def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:
     from dataclasses import replace
 
-    from ..io.documents import checked, read_table
+    from ..io.documents import read_table
     from .compose import overlaid
 
     table: dict[str, Any] = read_table(path)
@@ -88,7 +94,7 @@ def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> Prob
         bodies = replace(bodies, materials_file=bodies.materials_file.absolute())
     if bodies != BodyOptions() or solve != SolveOptions():
         table = overlaid({"control": {}} | table, bodies, solve)
-    return checked(table, f"problem document {path}")
+    return table
 
 
 def _require_no_surface(

@@ -139,3 +139,14 @@ class OutputOptions:
     ] = None
     csv: Annotated[Path | None, _option("--csv", "Write the scalars as a CSV file.", OUTPUT)] = None
     vtk: Annotated[Path | None, _option("--vtk", "Write the fields as a VTK image file (.vti).", OUTPUT)] = None
+    stress_vtk: Annotated[
+        Path | None, _option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).", OUTPUT)
+    ] = None
+    stress_nc: Annotated[
+        Path | None, _option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).", OUTPUT)
+    ] = None
+
+    @property
+    def wants_stress(self) -> bool:
+        """Whether a file is asked for that holds stresses."""
+        return self.stress_vtk is not None or self.stress_nc is not None

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
@@ -13,8 +14,11 @@ from .options import OutputOptions
 if TYPE_CHECKING:
     from ..contact.finding import Advice
     from ..contact.result import ContactResult
+    from ..contact.solvers.protocol import Solver
     from ..io.build import Case
     from ..io.documents import ProblemDocument
+    from ..io.stress_request import StressRequest
+    from ..io.stress_survey import StressSurvey
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 """What a run leaves in its folder."""
@@ -25,20 +29,27 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..contact.advice import advise, review
     from ..io.atomic import require_new_files
     from ..io.build import build
+    from ..io.documents import relocated
     from .show import print_advice, print_files, print_result
+    from .stress_run import print_stress, surveyed, write_volume
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with _folder(output) as folder:
-        result = _solved(case)
+        result = _solved(case, chosen=_chooses_solver(document))
+        stress = surveyed(case, result, lines=folder is not None)
         findings = (*before, *review(result))
         if folder is not None and output.out is not None:
-            _write_folder(result, findings, document, base_folder, (folder, output.out))
+            moved = relocated(document, base_folder, output.out)
+            _write_folder(Run(result, findings, moved, stress), folder)
     _write_files(result, document, base_folder, output)
     print_result(result, document.title)
+    if stress is not None:
+        write_volume(stress, output)
+        print_stress(stress)
     print_advice(findings)
-    print_files(_written(output))
+    print_files(_written(output, stressed=stress is not None))
     return OK if result.converged else NOT_CONVERGED
 
 
@@ -54,7 +65,15 @@ def _folder(options: OutputOptions) -> Iterator[Path | None]:
         yield folder
 
 
-def _solved(case: Case) -> ContactResult:
+def _chooses_solver(document: ProblemDocument) -> bool:
+    """Whether the user has said anything of the method."""
+    return any(value is not None for key, value in document.solver if key != "threads")
+
+
+def _solved(case: Case, *, chosen: bool) -> ContactResult:
+    """Contact of ``case``; one that slides is solved as ``solve_sliding`` likes best unless the solver was ``chosen``."""
+    if case.stress is not None and case.stress.coupled and case.stress.friction:
+        return _slid(case, case.stress, case.solver if chosen else None)
     from ..contact.solve import solve
     from ..core.engine import CpuEngine
     from .interrupt import interruptible
@@ -71,28 +90,42 @@ def _solved(case: Case) -> ContactResult:
         )
 
 
-def _write_folder(
-    result: ContactResult,
-    findings: tuple[Advice, ...],
-    document: ProblemDocument,
-    base_folder: Path,
-    folders: tuple[Path, Path],
-) -> None:
-    """Write everything into the first of ``folders``, which will be renamed to the second."""
-    from ..io.documents import dumps, relocated, save_document
+def _slid(case: Case, stress: StressRequest, solver: Solver | None) -> ContactResult:
+    """Contact whose pressure the shear traction has changed; not converged if that did not settle."""
+    from ..contact.sliding import solve_sliding
+
+    options: dict[str, Any] = {"direction": stress.direction, "solver": solver, "on_failure": "return"}
+    slid = solve_sliding(case.problem, case.control, stress.friction, **options)
+    return slid.contact if slid.converged else replace(slid.contact, status=slid.status)
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What a run has found: result, findings, the document with paths from its folder, and the stresses if any."""
+
+    result: ContactResult
+    findings: tuple[Advice, ...]
+    document: ProblemDocument
+    stress: StressSurvey | None
+
+
+def _write_folder(run: Run, folder: Path) -> None:
+    """Write everything into ``folder``."""
+    from ..io.documents import dumps, save_document
     from ..io.export import export_csv
     from ..io.results import save
     from ..plots.figures import save_plots
     from ..report import write_report
+    from .stress_run import write_stress
 
-    folder, final = folders
-    moved = relocated(document, base_folder, final)
-    text = dumps(moved)
-    save_document(moved, folder / "problem.toml")
+    result, text = run.result, dumps(run.document)
+    save_document(run.document, folder / "problem.toml")
     save(result, folder / "result.nc", document=text)
     export_csv(result, folder / "scalars.csv")
     save_plots(result, folder / "plots")
-    write_report(result, folder / "report.html", advice=findings, document=text, title=document.title)
+    part = None if run.stress is None else write_stress(run.stress, folder)
+    page, title = folder / "report.html", run.document.title
+    write_report(result, page, advice=run.findings, document=text, title=title, stress=part)
 
 
 def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
@@ -109,9 +142,13 @@ def _write_files(result: ContactResult, document: ProblemDocument, base_folder: 
 
 
 def _single_files(output: OutputOptions) -> list[Path]:
-    return [path for path in (output.save_document, output.csv, output.vtk) if path is not None]
+    files = (output.save_document, output.csv, output.vtk, output.stress_vtk, output.stress_nc)
+    return [path for path in files if path is not None]
 
 
-def _written(output: OutputOptions) -> list[Path]:
-    inside = [] if output.out is None else [output.out / name for name in NAMES_IN_FOLDER]
+def _written(output: OutputOptions, *, stressed: bool) -> list[Path]:
+    from .stress_run import FOLDER, TABLE
+
+    names = [*NAMES_IN_FOLDER, *((FOLDER, TABLE) if stressed else ())]
+    inside = [] if output.out is None else [output.out / name for name in names]
     return [*inside, *_single_files(output)]

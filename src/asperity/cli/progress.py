@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING
 
 from ..core.progress import NoProgress, Progress
@@ -14,9 +14,18 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 
+def shown(text: str) -> AbstractContextManager[Progress]:
+    """Progress of a solver on a bar with ``text``, silent when stderr is not a terminal."""
+    return _shown(text, OnBar)
+
+
+def shown_planes(text: str) -> AbstractContextManager[Progress]:
+    """Progress of planes of stresses, in the same way."""
+    return _shown(text, PlanesOnBar)
+
+
 @contextmanager
-def shown(text: str) -> Iterator[Progress]:
-    """Progress on a bar with ``text``, silent when stderr is not a terminal."""
+def _shown(text: str, kind: type[OnBar] | type[PlanesOnBar]) -> Iterator[Progress]:
     if sys.stderr is None or not sys.stderr.isatty():
         yield NoProgress()
         return
@@ -27,7 +36,7 @@ def shown(text: str) -> Iterator[Progress]:
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[state]}"), TimeElapsedColumn())
     with Bar(*columns, console=error_console(), transient=True) as bar:
-        yield OnBar(bar, text)
+        yield kind(bar, text)
 
 
 class OnBar:
@@ -43,6 +52,18 @@ class OnBar:
         self._largest = max(self._largest, error)
         share = done(error, self._largest, tolerance)
         self._bar.update(self._task, completed=share, state=f"iteration {iteration}, error {error:.1e}")
+
+
+class PlanesOnBar:
+    """Progress of the planes of a body: the error is the share that is left."""
+
+    def __init__(self, bar: Bar, text: str) -> None:
+        self._bar = bar
+        self._task = bar.add_task(text, total=1.0, state="")
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        """Move the bar."""
+        self._bar.update(self._task, completed=1.0 - error, state=f"plane {iteration}")
 
 
 def done(error: float, largest: float, tolerance: float) -> float:

@@ -18,19 +18,22 @@ from ..core.errors import InputError
 from ..solids.body import Body, surface_material
 from ..solids.layers import Layered
 from .build_body import build_body
+from .build_stress import build_stress
 from .build_surface import build_surfaces
 from .schemas.problem import BoundaryTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
 from .schemas.values import FROM_BODY
+from .stress_request import StressRequest
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a document asks for: ``problem``, ``control``, ``solver`` and ``threads``."""
+    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any the ``stress``."""
 
     problem: ContactProblem
     control: Control
     solver: Solver
     threads: int | None = None
+    stress: StressRequest | None = None
 
 
 def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
@@ -54,7 +57,10 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         build_law(document.law, (body, counter_body)),
     )
     solver = build_solver(document.solver, problem)
-    return Case(problem, build_control(document.control), solver, document.solver.threads)
+    stress = None if document.stress is None else build_stress(document.stress)
+    if stress is not None:
+        stress.check(problem)
+    return Case(problem, build_control(document.control), solver, document.solver.threads, stress)
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

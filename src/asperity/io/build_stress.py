@@ -1,120 +1,13 @@
-"""From the table [stress] of a document to the stresses that are computed, checked before the contact is solved."""
+"""From the table [stress] of a document to the stresses that are computed."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
-
-import numpy as np
-
-from ..contact.problem import ContactProblem
 from ..core import units
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..stress.criteria import Criterion, Tresca, VonMises
-from ..stress.mean_mode import require_held
-from ..stress.regions import planes
-from ..stress.tractions import Sliding, Tractions
+from ..stress.criteria import Tresca, VonMises
 from .quantities import si_values
 from .schemas.stress import StressTable
 from .schemas.values import PLACES
-
-Place: TypeAlias = float | Literal["max", "pressure"]
-"""Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
-
-
-@dataclass(frozen=True)
-class WantedSection:
-    """Vertical plane at ``place`` of the ``axis`` "x" or "y"."""
-
-    axis: Literal["x", "y"]
-    place: Place
-
-
-@dataclass(frozen=True)
-class WantedProfile:
-    """Line into the body at ``x`` and ``y``."""
-
-    x: Place
-    y: Place
-
-
-@dataclass(frozen=True)
-class Strengths:
-    """Strengths in Pa with which the largest tension, shear and peel are compared; NaN where not given."""
-
-    tensile: float = math.nan
-    interface_shear: float = math.nan
-    interface_peel: float = math.nan
-
-
-@dataclass(frozen=True)
-class StressRequest:
-    """Stresses that a document asks for, all values SI.
-
-    Attributes
-    ----------
-    friction, direction, coupled
-        Friction coefficient, angle in rad of the shear traction on the body, and whether it may change the pressure.
-    of
-        ``"body"`` or ``"counter_body"``.
-    depths
-        Depths in m of whole planes.
-    sections, profiles
-        Vertical planes and lines.
-    deepest
-        Depth in m at which those end; None for one that suits the contact.
-    criterion, strengths
-        What decides on yield, and strengths beside those of the materials.
-    dtype
-        Type of the numbers.
-    """
-
-    friction: float = 0.0
-    direction: float = 0.0
-    coupled: bool = False
-    of: Literal["body", "counter_body"] = "body"
-    depths: tuple[float, ...] = ()
-    sections: tuple[WantedSection, ...] = (WantedSection("y", "max"),)
-    profiles: tuple[WantedProfile, ...] = ()
-    deepest: float | None = None
-    criterion: Criterion = VonMises()
-    strengths: Strengths = Strengths()
-    dtype: str = "float64"
-
-    def check(self, problem: ContactProblem) -> None:
-        """Refuse what ``problem`` has no stress for, before it is solved.
-
-        Raises
-        ------
-        InputError
-            If the body does not deform, a depth lies below its rigid base, a position outside the grid, or shear would
-            act above a frictionless interface.
-        """
-        body, grid = getattr(problem, self.of), problem.grid
-        planes(body, self.depths or (0.0,))
-        boundary: Any = problem.boundary.name
-        require_held(Tractions(grid, np.ones(grid.shape), Sliding(self.friction), boundary), body)
-        for section in self.sections:
-            _require_within(section.place, section.axis, "section", grid)
-            if grid.shape["yx".index(section.axis)] == 1:
-                raise InputError(
-                    f"stress section must hold more than one point, but that at {section.axis} = const is one point wide "
-                    f"on this surface of {grid.shape[0]} x {grid.shape[1]} points."
-                )
-        for line in self.profiles:
-            _require_within(line.x, "x", "profile", grid)
-            _require_within(line.y, "y", "profile", grid)
-
-
-def _require_within(place: Place, axis: str, kind: str, grid: Grid) -> None:
-    size = grid.size["xy".index(axis)]
-    if isinstance(place, float) and place > size:
-        raise InputError(
-            f"{axis} of a stress {kind} must be at most the length {units.show(size, 'm')} of the surface, "
-            f"but is {units.show(place, 'm')}."
-        )
+from .stress_request import Place, Strengths, StressRequest, WantedProfile, WantedSection
 
 
 def build_stress(table: StressTable) -> StressRequest:

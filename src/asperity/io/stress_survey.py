@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
+from ..core.citations import citation_keys
 from ..core.grid import Grid
 from ..core.progress import NoProgress, Progress
 from ..core.tensor import StressTensor
@@ -19,14 +20,17 @@ from ..stress.regions import regions
 from ..stress.sampling import depths_through
 from ..stress.where import DepthProfile, Position, Section, Selection, Where, selection
 from ..stress.yielding import YieldReport, first_yield
-from .build_stress import Place, StressRequest, WantedSection
 from .stress_maxima import InterfaceMaxima, Maxima, RegionMaxima
+from .stress_request import Place, StressRequest, WantedSection
 
 RATIO = 1.25
 """Depths below a contact grow by this factor: the largest √J2 under a sphere, found on such planes, is at most 0.6 % low."""
 
 SHALLOWEST, DEEPEST = 0.1, 3.0
 """First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is largest at 0.48."""
+
+PIXELS = 0.5
+"""First depth in pixels at least: shallower the trigonometric interpolation of pressures ripples as it does on the surface."""
 
 INTERVALS = 64
 """Number of intervals of planes in all layers together, at most 4 and at least 1 in each."""
@@ -69,7 +73,12 @@ class StressSurvey:
 
 
 def survey(
-    request: StressRequest, result: ContactResult, *, threads: int | None = None, progress: Progress = NoProgress()
+    request: StressRequest,
+    result: ContactResult,
+    *,
+    lines: bool = True,
+    threads: int | None = None,
+    progress: Progress = NoProgress(),
 ) -> StressSurvey:
     """Compute the stresses of ``request`` in the contact ``result``.
 
@@ -79,6 +88,8 @@ def survey(
     ----------
     request, result
         What is wanted, and of what contact.
+    lines
+        Whether to keep sections and profiles, or only the maxima on the same planes.
     threads
         Number of threads.
     progress
@@ -91,12 +102,12 @@ def survey(
     """
     depths = survey_depths(request, result)
     maxima = Maxima()
-    tracked = _Tracked(progress, len(depths) * (2 if _wants_lines(request) else 1))
+    tracked = _Tracked(progress, len(depths) * (2 if lines and _wants_lines(request) else 1))
     found = tracked.planes(_planes(request, result, depths, threads))
     report = first_yield(maxima.watching(found), request.criterion)
-    wanted = _resolved(request, result, maxima.drawn)
-    lines = _cut(tracked.planes(_planes(request, result, depths, threads)), list(wanted), result) if wanted else []
-    named = list(zip(wanted.values(), lines, strict=True))
+    wanted = _resolved(request, result, maxima.drawn) if lines else {}
+    again = tracked.planes(_planes(request, result, depths, threads)) if wanted else iter(())
+    named = list(zip(wanted.values(), _cut(again, list(wanted), result), strict=True))
     return StressSurvey(
         request,
         result,
@@ -106,7 +117,7 @@ def survey(
         maxima.regions(),
         maxima.interfaces(),
         report,
-        maxima.citation_keys,
+        citation_keys(maxima, request.criterion, request),
     )
 
 
@@ -123,7 +134,7 @@ def survey_depths(request: StressRequest, result: ContactResult) -> RealArray:
     bottom = request.deepest or _deepest(body, large)
     layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
     needed = _distinct(np.concatenate([layered, asked]), SAME)
-    shallow = SHALLOWEST * small
+    shallow = max(SHALLOWEST * small, PIXELS * max(_pixels(result)))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
     away = [depth for depth in graded if np.abs(needed - depth).min() > CLOSE * depth]
@@ -157,6 +168,12 @@ def _spot_radii(result: ContactResult) -> tuple[float, float]:
     else:
         radii = np.sqrt(result.spot_areas / math.pi)
     return max(float(radii.mean()), least), max(float(radii.max()), least)
+
+
+def _pixels(result: ContactResult) -> list[float]:
+    """Spacing (m) along the axes with more than one point, or along x."""
+    grid = result.problem.grid
+    return [step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1] or [grid.spacing[0]]
 
 
 def _distinct(depths: RealArray, tolerance: float) -> RealArray:

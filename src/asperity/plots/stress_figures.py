@@ -66,7 +66,8 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
     at = show(float(getattr(field, axis)) + 0.5 * field.spacing["xy".index(axis)], "m")
     for quantity in section.quantities:
         kind = QUANTITIES[quantity]
-        title = f"{kind.label[:1].upper()}{kind.label[1:]} at {axis} = {at}"
+        label = kind.label if kind.label.startswith("σ") else f"{kind.label[:1].upper()}{kind.label[1:]}"
+        title = f"{label} at {axis} = {at}"
         name = f"stress_section_{number}_{quantity}"
         said = "depth downwards, interfaces as lines, a cross at the largest "
         said += "tension." if kind.tension else "magnitude."

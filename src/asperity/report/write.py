@@ -19,6 +19,16 @@ from .inputs import Rows, surface_rows
 from .outputs import certificate_rows, headline_rows, result_rows, summary
 from .page import rendered
 from .settings import setting_rows
+from .stress import (
+    StressPart,
+    interface_table,
+    maxima_table,
+    remarks,
+    strength_table,
+    yield_sentence,
+    yield_table,
+)
+from .stress import setting_rows as stress_rows
 
 TEMPLATE = "report.html"
 """Template in the folder ``templates``."""
@@ -31,6 +41,7 @@ def write_report(
     advice: Sequence[Advice] = (),
     document: str | None = None,
     title: str = "",
+    stress: StressPart | None = None,
     overwrite: bool = False,
 ) -> None:
     """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
@@ -47,6 +58,8 @@ def write_report(
         Text of the problem document that the result came from.
     title
         Heading; made from the source of the surface if empty.
+    stress
+        Stresses inside a body and their figures, as of ``asperity contact``.
     overwrite
         Whether an existing file is replaced.
 
@@ -61,10 +74,12 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(result, advice, document, title or _title(result)), encoding="utf-8")
+        file.write_text(_html(result, advice, document, title or _title(result), stress), encoding="utf-8")
 
 
-def _html(result: ContactResult, advice: Sequence[Advice], document: str | None, title: str) -> str:
+def _html(
+    result: ContactResult, advice: Sequence[Advice], document: str | None, title: str, stress: StressPart | None
+) -> str:
     warnings = [item for item in advice if item.level == "warning"]
     return rendered(
         TEMPLATE,
@@ -75,11 +90,12 @@ def _html(result: ContactResult, advice: Sequence[Advice], document: str | None,
         inputs=_inputs(result),
         certificate=certificate_rows(result),
         results=result_rows(result),
-        figures=_figures(result),
+        figures=[_shown(plot.title, plot.caption, render(plot, result)) for plot in PLOTS],
+        stress=None if stress is None else _stress(stress),
         warnings=warnings,
         notes=[item for item in advice if item.level != "warning"],
         provenance=_provenance_rows(provenance(result)),
-        references=[(key, REFERENCES.get(key, "unknown reference")) for key in result.citation_keys],
+        references=[(key, REFERENCES.get(key, "unknown reference")) for key in _citation_keys(result, stress)],
         document=document,
     )
 
@@ -100,16 +116,32 @@ def _inputs(result: ContactResult) -> list[tuple[str, Rows]]:
     ]
 
 
-def _figures(result: ContactResult) -> list[dict[str, str]]:
-    """Title, caption and base64 PNG of the standard figures."""
-    return [
-        {
-            "title": plot.title,
-            "caption": plot.caption,
-            "picture": base64.b64encode(render(plot, result)).decode("ascii"),
-        }
-        for plot in PLOTS
+def _shown(title: str, caption: str, picture: bytes) -> dict[str, str]:
+    """A figure for the template: the picture as base64."""
+    return {"title": title, "caption": caption, "picture": base64.b64encode(picture).decode("ascii")}
+
+
+def _stress(part: StressPart) -> dict[str, Any]:
+    """The part on stresses for the template."""
+    survey = part.survey
+    tables = [
+        ("Largest stresses of each layer", maxima_table(survey)),
+        ("Interfaces", interface_table(survey)),
+        ("Onset of yield", yield_table(survey)),
+        ("Given strengths", strength_table(survey)),
     ]
+    return {
+        "summary": yield_sentence(survey),
+        "settings": stress_rows(survey),
+        "tables": [(heading, table) for heading, table in tables if table.cells],
+        "remarks": remarks(survey),
+        "figures": [_shown(figure.title, figure.caption, figure.picture) for figure in part.figures],
+    }
+
+
+def _citation_keys(result: ContactResult, stress: StressPart | None) -> tuple[str, ...]:
+    more = () if stress is None else stress.survey.citation_keys
+    return tuple(dict.fromkeys((*result.citation_keys, *more)))
 
 
 def _provenance_rows(described: dict[str, Any]) -> Rows:

@@ -1,0 +1,94 @@
+"""The stresses of a run: computed, drawn, written and printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .options import OutputOptions
+
+if TYPE_CHECKING:
+    from ..contact.result import ContactResult
+    from ..io.build import Case
+    from ..io.stress_survey import StressSurvey
+    from ..plots.stress_figures import Figure
+    from ..report.stress import StressPart
+    from ..stress.field import StressField
+
+FOLDER, TABLE = "stress", "stress.csv"
+"""Names in the folder of a run: the fields, and the table of the largest stresses."""
+
+
+def surveyed(case: Case, result: ContactResult, *, lines: bool) -> StressSurvey | None:
+    """Stresses that ``case`` asks for, without sections and profiles unless these ``lines`` are wanted."""
+    from ..io.stress_survey import survey
+    from .interrupt import interruptible
+    from .progress import shown_planes
+
+    if case.stress is None:
+        return None
+    with shown_planes("stresses") as bar, interruptible(bar) as progress:
+        return survey(case.stress, result, lines=lines, threads=case.threads, progress=progress)
+
+
+def write_stress(survey: StressSurvey, folder: Path) -> StressPart:
+    """Write table, fields and figures of ``survey`` into the ``folder`` of a run; what its report is to show."""
+    from ..io.stress_files import save_stress
+    from ..io.stress_table import export_stress_csv
+    from ..plots.stress_figures import line_figures
+    from ..report.stress import StressPart
+
+    export_stress_csv(survey, folder / TABLE)
+    fields = folder / FOLDER
+    fields.mkdir()
+    figures = list(line_figures(survey))
+    if survey.request.depths:
+        save_stress(_drawn(survey.planes(survey.request.depths), figures), fields / "planes.nc")
+    for number, section in enumerate(survey.sections, start=1):
+        save_stress(section.field, fields / f"section_{number}.nc")
+    for number, field in enumerate(survey.profiles, start=1):
+        save_stress(field, fields / f"profile_{number}.nc")
+    for figure in figures:
+        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+    return StressPart(survey, tuple(figures))
+
+
+def write_volume(survey: StressSurvey, output: OutputOptions) -> None:
+    """Write all planes of ``survey`` to the files that are asked for."""
+    from ..io.stress_files import save_stress
+    from ..io.stress_vtk import export_stress_vtk
+
+    if output.stress_nc is not None:
+        save_stress(survey.planes(survey.depths), output.stress_nc, overwrite=output.force)
+    if output.stress_vtk is not None:
+        export_stress_vtk(survey.planes(survey.depths), output.stress_vtk, overwrite=output.force)
+
+
+def print_stress(survey: StressSurvey) -> None:
+    """Print the largest stresses of each layer and interface, and what yields first."""
+    from ..report.stress import interface_table, maxima_table, strength_table, yield_sentence, yield_table
+    from .show import console, say, table
+
+    out = console()
+    titles = ("Largest stresses inside", "Interfaces", "Onset of yield", "Given strengths")
+    makers = (maxima_table, interface_table, yield_table, strength_table)
+    for title, made in zip(titles, (maker(survey) for maker in makers), strict=True):
+        if made.cells:
+            out.print(table(title, _once(made.cells), made.headings))
+    say(yield_sentence(survey), "yellow" if survey.yielding.yields else "")
+
+
+def _once(cells: tuple[tuple[str, ...], ...]) -> list[tuple[str, ...]]:
+    """The same ``cells``, without the name of a row where the row above has it too."""
+    above = ("", *(row[0] for row in cells))
+    return [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, cells, strict=False)]
+
+
+def _drawn(planes: Iterator[StressField], figures: list[Figure]) -> Iterator[StressField]:
+    """The same ``planes``, each drawn as it passes."""
+    from ..plots.stress_figures import map_figure
+
+    for number, plane in enumerate(planes, start=1):
+        figures.append(map_figure(plane, number))
+        yield plane
