@@ -90,7 +90,7 @@ QUANTITIES = (
     Quantity("moments.difference.m4_y", "m4,y", "mean square curvature along y", "m**-2", "mean square of second differences over the squared pixel, all valid triples", "McCool (1987)"),
     Quantity("moments.difference.alpha_x", "α_x", "Nayak parameter along x", "1", "m0 m4/m2² of the moments by differences", "Nayak (1971)"),
     Quantity("moments.difference.alpha_y", "α_y", "Nayak parameter along y", "1", "m0 m4/m2² of the moments by differences", "Nayak (1971)"),
-    Quantity("moments.difference.alpha", "α", "Nayak parameter", "1", "m0 m4/m2² of the means of both directions", "Nayak (1971)"),
+    Quantity("moments.difference.alpha", "α", "Nayak parameter of both directions", "1", "m0 m4/m2² of the means of both directions", "Nayak (1971)"),
     Quantity("moments.difference.rms_laplacian", "", "rms Laplacian", "m**-1", "sqrt(<(h_xx + h_yy)²>), twice the rms mean curvature; second differences", "Jacobs, Junge & Pastewka (2017)"),
     Quantity("moments.spectral.m0", "m0 (spectral)", "mean square height of the spectrum", "m**2", "(1/A) Σ C over the modes", "Jacobs, Junge & Pastewka (2017)"),
     Quantity("moments.spectral.m2", "m2 (spectral)", "mean square profile slope of the spectrum", "1", "(m20 + m02)/2, m_ab = (1/A) Σ q_x^a q_y^b C", "Nayak (1971)"),
