@@ -8,6 +8,7 @@ import peng_scaling
 import peng_table_3_1
 import pytest
 import rough_cylinder
+import rough_sphere
 from page import Claim, Page
 
 FOLDER = Path(peng_table_3_1.__file__).parent
@@ -15,6 +16,7 @@ RUNS = {
     "peng_table_3_1": lambda: peng_table_3_1.compare(20, peng_table_3_1.PUBLISHED[::5], variants=False),
     "peng_layer_effect": lambda: peng_layer_effect.compare(8, (0.001, 0.1, 2.0, 100.0)),
     "rough_cylinder": lambda: rough_cylinder.compare(count=2, points=8192),
+    "rough_sphere": lambda: rough_sphere.compare(count=1, points=192, roughness=(0.0, 8e-9, 32e-9)),
     "peng_scaling": lambda: peng_scaling.compare(count=8, stressed=2),
 }
 
