@@ -418,7 +418,9 @@ def test_single_precision_corrections_give_pressures_to_1e_5(n: int, load: float
 @pytest.mark.parametrize("n", [128, 256])
 def test_single_precision_alone_gives_pressures_to_1e_5_and_can_be_polished(n: int, load: float) -> None:
     """Gaps are known to some roundings of the height scale, 2^-24 each: tolerances of 1e-6 are within reach."""
-    qp = posed(self_affine(n) + 1e3, asp.Periodic(), load)  # heights far from zero: they are centred in double precision
+    qp = posed(
+        self_affine(n) + 1e3, asp.Periodic(), load
+    )  # heights far from zero: they are centred in double precision
     precise = run(ActiveSet(tolerance=1e-10, precision="double"), qp)
     found = run(ActiveSet(tolerance=2e-6, precision="single"), qp)
     assert found.status.converged, found.status.message

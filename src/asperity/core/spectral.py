@@ -169,9 +169,7 @@ class PaddedTransform:
         return out
 
 
-def wrapped(
-    coefficients: RealArray, padded: tuple[int, int], *, odd_x: bool = False, odd_y: bool = False
-) -> RealArray:
+def wrapped(coefficients: RealArray, padded: tuple[int, int], *, odd_x: bool = False, odd_y: bool = False) -> RealArray:
     """Kernel of a cyclic convolution on the grid ``padded`` from coefficients at offsets (0…nx-1, 0…ny-1).
 
     Those at negative offsets follow by symmetry; the kernel is zero at offsets that fields (nx, ny) never reach.
