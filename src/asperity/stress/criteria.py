@@ -31,6 +31,10 @@ class Criterion(Protocol):
     def name(self) -> str:
         """For tables."""
 
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers it rests on."""
+
     def equivalent(self, stress: StressTensor) -> RealArray:
         """Equivalent stress in Pa, an array of the shape of the components."""
 
@@ -59,7 +63,7 @@ class Tresca:
     """σ1 - σ3 against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
 
     name: ClassVar[str] = "Tresca"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Tabor1951")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Eberly2014", "Johnson1985", "Tabor1951")
 
     def equivalent(self, stress: StressTensor) -> RealArray:
         """σ1 - σ3 in Pa."""
@@ -82,7 +86,7 @@ class MaxPrincipal:
 
     strength: float
     name: ClassVar[str] = "maximum principal stress"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
+    citation_keys: ClassVar[tuple[str, ...]] = ("Eberly2014", "Johnson1985")
 
     def __post_init__(self) -> None:
         require.positive(self.strength, "tensile strength (Pa)")

@@ -75,6 +75,11 @@ class YieldReport:
         return math.nan if self.first is None else self.first.load_factor
 
     @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers the criterion rests on."""
+        return self.criterion.citation_keys
+
+    @property
     def yields(self) -> bool:
         """Whether some point is at its strength or beyond."""
         return self.load_factor <= 1.0

@@ -35,6 +35,7 @@ def test_onset_under_a_sphere(row, criterion):
     assert report.first.peak.depth / A == pytest.approx(row["z_over_a"], abs=0.005)
     assert report.first.place == "inside substrate"
     assert not report.yields
+    assert "Tabor" in asp.cite(report)
 
 
 def test_friction_brings_yield_to_the_surface():
