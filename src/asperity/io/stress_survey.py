@@ -16,7 +16,7 @@ from ..core.progress import NoProgress, Progress
 from ..core.tensor import StressTensor
 from ..stress.compute import stress_planes
 from ..stress.field import Peak, StressField
-from ..stress.regions import regions
+from ..stress.regions import planes, regions
 from ..stress.sampling import depths_through
 from ..stress.where import DepthProfile, Position, Section, Selection, Where, selection
 from ..stress.yielding import YieldReport, first_yield
@@ -24,7 +24,7 @@ from .stress_maxima import InterfaceMaxima, Maxima, RegionMaxima
 from .stress_request import Place, StressRequest, WantedSection
 
 RATIO = 1.25
-"""Depths below a contact grow by this factor: the largest √J2 under a sphere, found on such planes, is at most 0.6 % low."""
+"""Depths below a contact grow by this factor: the largest √J2 under a sphere is at most 0.7 % low on them."""
 
 SHALLOWEST, DEEPEST = 0.1, 3.0
 """First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is largest at 0.48."""
@@ -102,7 +102,8 @@ def survey(
     """
     depths = survey_depths(request, result)
     maxima = Maxima()
-    tracked = _Tracked(progress, len(depths) * (2 if lines and _wants_lines(request) else 1))
+    count = len(planes(getattr(result.problem, request.of), depths))
+    tracked = _Tracked(progress, count * (2 if lines and _wants_lines(request) else 1))
     found = tracked.planes(_planes(request, result, depths, threads))
     report = first_yield(maxima.watching(found), request.criterion)
     wanted = _resolved(request, result, maxima.drawn) if lines else {}

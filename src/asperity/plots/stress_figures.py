@@ -73,7 +73,7 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
         said += "tension." if kind.tension else "magnitude."
         if kind.signed:
             said += " Red is tension, blue compression." if kind.tension else " Red and blue are the two directions."
-        near = _close_up(field, quantity)
+        near = close_up(field, quantity)
         log = near is not None and not kind.signed
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
@@ -83,7 +83,7 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
             yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {said}", png(draw, SECTION_SIZE))
 
 
-def _close_up(field: StressField, quantity: str) -> StressField | None:
+def close_up(field: StressField, quantity: str) -> StressField | None:
     """The part of a long section about its maximum; None where the section is short."""
     axis, values = field.dims[1], getattr(field, quantity)
     line, length = getattr(field, axis), CLOSE_UP * float(field.depth[-1])

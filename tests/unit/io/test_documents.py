@@ -229,6 +229,29 @@ SOLVERS = st.fixed_dictionaries(
         "threads": COUNTS,
     },
 )
+PLACES = LENGTHS | st.sampled_from(["max", "pressure", "0 nm"])
+SECTIONS = st.one_of(
+    st.fixed_dictionaries({"y": PLACES}), st.fixed_dictionaries({"x": PLACES}), st.sampled_from(["y=max", "x = 3 nm"])
+)
+PROFILES = st.fixed_dictionaries({}, optional={"x": PLACES, "y": PLACES}) | st.just("x=max, y=pressure")
+STRESSES = st.fixed_dictionaries(
+    {},
+    optional={
+        "friction": st.floats(0.0, 2.0),
+        "direction": quantities("deg", "rad"),
+        "coupled": st.booleans(),
+        "inside": st.sampled_from(["body", "counter_body"]),
+        "depths": st.lists(LENGTHS | st.just("0 nm"), max_size=3),
+        "sections": st.lists(SECTIONS, max_size=3) | SECTIONS,
+        "profiles": st.lists(PROFILES, max_size=3) | PROFILES,
+        "deepest": LENGTHS,
+        "criterion": st.sampled_from(["von_mises", "tresca"]),
+        "tensile_strength": PRESSURES,
+        "interface_shear_strength": PRESSURES,
+        "interface_peel_strength": PRESSURES,
+        "precision": st.sampled_from(["double", "single"]),
+    },
+)
 DOCUMENTS = st.fixed_dictionaries(
     {"version": st.just(1), "surface": SURFACES, "body": BODIES, "control": CONTROLS},
     optional={
@@ -238,6 +261,7 @@ DOCUMENTS = st.fixed_dictionaries(
         "boundary": st.sampled_from([{"kind": "periodic"}, {"kind": "free"}])
         | st.fixed_dictionaries({"kind": st.just("line")}, optional={"datum": LENGTHS}),
         "law": LAWS,
+        "stress": STRESSES,
         "solver": SOLVERS,
     },
 )
@@ -249,6 +273,13 @@ def test_round_trip_is_exact(table: dict[str, Any]) -> None:
     document = checked(table)
     assert loads(dumps(document)) == document
     assert loads(dumps(document, form="json"), form="json") == document
+
+
+def test_one_section_or_profile_stands_for_a_list_of_one() -> None:
+    one = checked(with_(stress={"sections": "y=max", "profiles": {"x": "3 nm"}}))
+    assert one == checked(with_(stress={"sections": [{"y": "max"}], "profiles": [{"x": "3 nm"}]}))
+    assert checked(with_(stress={})).stress is not None
+    assert checked(with_()).stress is None
 
 
 def test_written_document_states_its_kind_first_and_nothing_empty() -> None:
@@ -341,6 +372,24 @@ def test_documents_do_not_change() -> None:
         ({"body": "DLC:5/steel"}, "body.layers[1].thickness must have a unit, such as \"5 nm\", but is '5'"),
         ({"body": "DLC/steel"}, "body must give the thickness of every layer, such as DLC:5nm, but layer 1 is 'DLC';"),
         ({"body": 5}, "body must be a table, but is 5."),
+        ({"stress": {"friktion": 0.3}}, "stress.friktion is not a known key; did you mean friction?"),
+        (
+            {"stress": {"friction": -0.3}},
+            "stress.friction must be at least zero, but is -0.3. Turn the direction by 180 deg",
+        ),
+        ({"stress": {"friction": "0.3"}}, "stress.friction must be a number, but is '0.3'."),
+        ({"stress": {"direction": "90"}}, "stress.direction must have a unit, such as \"10 deg\", but is '90'"),
+        ({"stress": {"depths": ["1 nm", "5"]}}, "stress.depths[2] must have a unit"),
+        ({"stress": {"depths": ["-1 nm"]}}, "stress.depths[1] must be zero or greater, but is '-1 nm'."),
+        ({"stress": {"depths": "1 nm"}}, "stress.depths must be a list, but is '1 nm'."),
+        ({"stress": {"sections": [{}]}}, "stress.sections[1] must give exactly one of x and y"),
+        ({"stress": {"sections": ["y=max", "x=1nm,y=max"]}}, "stress.sections[2] must give exactly one of x and y"),
+        ({"stress": {"sections": ["z=max"]}}, 'stress.sections[1] must be a position such as "y=max"'),
+        ({"stress": {"sections": [{"y": "top"}]}}, "stress.sections[1].y must be a number with a unit"),
+        ({"stress": {"sections": 5}}, "stress.sections must be a list, but is 5."),
+        ({"stress": {"profiles": [{"x": "-1 nm"}]}}, "stress.profiles[1].x must be zero or greater"),
+        ({"stress": {"criterion": "hope"}}, "stress.criterion must be 'von_mises' or 'tresca', but is 'hope'."),
+        ({"stress": {"inside": "middle"}}, "stress.inside must be 'body' or 'counter_body', but is 'middle'."),
         ({"body": {"layers": [COATING]}}, "body.base must be given together with layers"),
         ({"body": {"layers": [], "base": "steel"}}, "body.layers must hold at least one layer, but is empty"),
         (

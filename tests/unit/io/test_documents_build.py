@@ -32,6 +32,7 @@ from asperity import (
     RigidBase,
     Strength,
     Surface,
+    Tresca,
     graded,
     material,
 )
@@ -42,6 +43,7 @@ from asperity.io.build_generated import FUNCTIONS, build_spectrum
 from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
 from asperity.io.schemas.surfaces import RandomSurface, Shape
+from asperity.io.stress_request import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}
@@ -370,6 +372,47 @@ def test_line_contact() -> None:
     assert far.boundary == FreeLine(units.parse("1 mm", "length", ""))
     with pytest.raises(InputError, match="grid of a line contact must have one point along y"):
         build(checked(table(boundary={"kind": "line"})))
+
+
+def test_stresses() -> None:
+    """Every key of [stress] in SI; an empty table asks for the section through the maximum."""
+    assert build(checked(table())).stress is None
+    assert build(checked(table(stress={}))).stress == StressRequest()
+    wanted = {
+        "friction": 0.3,
+        "direction": "90 deg",
+        "coupled": True,
+        "inside": "counter_body",
+        "depths": ["5 nm", "0 nm"],
+        "sections": ["y=max", {"x": "2 um"}, "y=pressure"],
+        "profiles": [{}, "x=1um"],
+        "deepest": "3 um",
+        "criterion": "tresca",
+        "tensile_strength": "2 GPa",
+        "interface_shear_strength": "300 MPa",
+        "interface_peel_strength": "100 MPa",
+        "precision": "single",
+    }
+    request = build(checked(table(stress=wanted, counter_body="steel"))).stress
+    assert request is not None
+    assert (request.friction, request.coupled, request.of, request.dtype) == (0.3, True, "counter_body", "float32")
+    assert request.direction == pytest.approx(np.pi / 2.0, rel=1e-14)
+    assert request.depths == pytest.approx((5e-9, 0.0), rel=1e-14)
+    assert request.sections == (WantedSection("y", "max"), WantedSection("x", 2e-6), WantedSection("y", "pressure"))
+    assert request.profiles == (WantedProfile("max", "max"), WantedProfile(pytest.approx(1e-6), "max"))
+    assert request.deepest == pytest.approx(3e-6)
+    assert request.criterion == Tresca()
+    assert vars(request.strengths) == pytest.approx({"tensile": 2e9, "interface_shear": 3e8, "interface_peel": 1e8})
+    planes = build(checked(table(stress={"depths": ["5 nm"]}))).stress
+    assert planes is not None
+    assert planes.sections == ()
+
+
+def test_stresses_that_cannot_be_had_are_refused_before_solving() -> None:
+    with pytest.raises(InputError, match="inside the counter body, which is rigid"):
+        build(checked(table(stress={"inside": "counter_body"})))
+    with pytest.raises(InputError, match="y of a stress section must be at most the length 6 µm"):
+        build(checked(table(stress={"sections": "y=7um"})))
 
 
 def test_unknown_material_is_refused() -> None:

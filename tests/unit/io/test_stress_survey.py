@@ -1,0 +1,296 @@
+"""The survey of the stresses of a contact: planes that show it, true maxima, sections through them, a stream of planes."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from contact_cases import TIGHT, elastic, rough, square_grid
+from reference_data import reference
+
+import asperity as asp
+from asperity.core.tensor import STRESSES
+from asperity.io.stress_request import Strengths, StressRequest, WantedProfile, WantedSection
+from asperity.io.stress_survey import RATIO, survey, survey_depths
+from asperity.io.stress_table import HEADINGS, export_stress_csv
+from asperity.stress.invariants import sqrt_J2
+
+FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
+SOFT = asp.Elastic(0.5, 0.4, name="soft")
+BASE = asp.Elastic(1.0, 0.3, asp.Strength(hardness=0.28), name="base")
+COATED = asp.Layered([asp.Layer(FILM, 1.5), asp.Layer(SOFT, 1.0)], BASE)
+
+
+def contact(
+    body: asp.Layered | asp.Elastic = COATED, boundary: object = asp.Periodic(), **keys: object
+) -> asp.ContactResult:
+    surface = rough((24, 18), 3, spacing=(1.0, 1.5), power=2.0)
+    problem = asp.ContactProblem(surface, body, boundary=boundary, **keys)  # type: ignore[arg-type]
+    return asp.solve(problem, asp.MeanPressure(0.02), solver=TIGHT)
+
+
+@pytest.fixture(scope="module")
+def coated() -> asp.ContactResult:
+    return contact()
+
+
+SLIDING = StressRequest(friction=0.3, direction=0.5)
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+def test_maxima_are_those_of_the_whole_field(boundary: object, dtype: str) -> None:
+    """Against all principal stresses of all points on the same planes; the pruned search must not miss one."""
+    result = contact(boundary=boundary)
+    found = survey(replace(SLIDING, dtype=dtype), result)
+    field = asp.stress(result, found.depths, friction=0.3, direction=0.5, dtype=dtype)
+    assert [part.region.name for part in found.maxima] == ["film", "soft", "base"]
+    for part in found.maxima:
+        within = field.within(part.region.index)
+        for peak, values in (
+            (part.von_mises, within.von_mises),
+            (part.tension, within.max_principal),
+            (part.shear, within.max_shear),
+        ):
+            expected = within.peak(values)
+            rounding = 64.0 * float(np.finfo(dtype).eps) * float(within.von_mises.max())
+            assert peak.value == pytest.approx(expected.value, abs=rounding)
+            at = within.planes.index(next(p for p in within.planes if (p.depth, p.side) == (peak.depth, peak.side)))
+            point = round(peak.x / field.spacing[0]), round(peak.y / field.spacing[1])
+            assert values[at][point] == pytest.approx(expected.value, abs=rounding)
+    assert [(item.above, item.below) for item in found.interfaces] == [("film", "soft"), ("soft", "base")]
+    for item, expected in zip(found.interfaces, field.interfaces, strict=True):
+        assert item.shear.value == pytest.approx(expected.shear.max(), rel=1e-6)
+        assert item.peel.value == pytest.approx(expected.peel.max(), rel=1e-6)
+        assert item.shear.depth == expected.depth
+    again = asp.first_yield(field)
+    assert [part.load_factor for part in found.yielding.regions] == pytest.approx(
+        [part.load_factor for part in again.regions], nan_ok=True
+    )
+    assert found.yielding.first is not None
+    assert found.yielding.first.region.name in ("film", "base"), "the strength of the soft layer is not known"
+
+
+def test_a_sphere_yields_where_hertz_says() -> None:
+    """τ_max of the table; 0.7 % of planes, and 2 % of pixels of a/16 (found: 0.5 % in all)."""
+    row = next(r for r in reference("hertz_yield_onset") if r["nu"] == 0.33)
+    grid, radius, modulus = square_grid(64, 4.0), 100.0, 1.0
+    x, y = grid.centred_coordinates()
+    surface = asp.Surface(-(x**2 + y**2) / (2.0 * radius), *grid.spacing)
+    body = asp.Elastic(modulus * (1.0 - 0.33**2), 0.33, asp.Strength(yield_stress=1.0))
+    force = 4.0 * modulus / (3.0 * radius)  # contact radius 1
+    result = asp.solve(asp.ContactProblem(surface, body, boundary=asp.Free()), asp.Force(force), solver=TIGHT)
+    p0 = 2.0 * modulus / (math.pi * radius)
+    found = survey(StressRequest(), result)
+    (part,) = found.maxima
+    assert part.von_mises.value / p0 == pytest.approx(1.0 / float(row["p0_over_Y"]), rel=0.027)
+    assert part.shear.value / p0 == pytest.approx(float(row["tau_max_over_p0"]), rel=0.027)
+    assert part.von_mises.depth == pytest.approx(float(row["z_over_a"]), rel=RATIO - 1.0)
+    assert found.depths[-1] == pytest.approx(3.0, rel=0.1)
+
+
+def test_depths_show_contact_and_layers(coated: asp.ContactResult) -> None:
+    request = StressRequest(depths=(0.7, 1.5 * (1.0 + 1e-12)))
+    depths = survey_depths(request, coated)
+    assert depths[0] == 0.0
+    assert np.all(np.diff(depths) > 1e-6)
+    for needed in (0.7, 1.5, 2.5):
+        assert np.abs(depths - needed).min() < 1e-9
+    inside = [np.count_nonzero((depths > low) & (depths < high)) for low, high in ((0.0, 1.5), (1.5, 2.5))]
+    assert min(inside) >= 3
+    resolved = depths[depths >= 0.75]  # half a pixel
+    assert (resolved[1:] / resolved[:-1]).max() <= RATIO * 1.12
+    assert survey_depths(replace(request, deepest=1.0), coated)[-1] == pytest.approx(1.5), (
+        "what is asked for is computed"
+    )
+    assert survey_depths(StressRequest(deepest=1.0), coated)[-1] == 1.0
+
+
+def test_planes_alone_need_no_others(coated: asp.ContactResult) -> None:
+    request = StressRequest(depths=(0.7, 0.0, 0.7), sections=())
+    assert survey_depths(request, coated).tolist() == [0.0, 0.7]
+    found = survey(request, coated)
+    assert (found.sections, found.profiles) == ((), ())
+    assert [part.region.name for part in found.maxima] == ["film"]
+
+
+def test_graded_coating_does_not_multiply_the_planes() -> None:
+    body = asp.Layered(asp.graded(FILM, BASE, 2.0, sublayers=40), BASE)
+    found = survey(StressRequest(), contact(body))
+    assert len(found.depths) < 90
+    assert len(found.maxima) == 41
+
+
+def test_sections_through_the_maximum_of_each_stress(coated: asp.ContactResult) -> None:
+    """Each stress is shown on the plane through its own maximum (Peng 2001, figs. 3.15 - 3.22)."""
+    found = survey(SLIDING, coated)
+    shown = {quantity: section.field for section in found.sections for quantity in section.quantities}
+    assert set(shown) == {"von_mises", "principal_tensile", "shear_xz"}
+    field = asp.stress(coated, found.depths, friction=0.3, direction=0.5)
+    for quantity, section in shown.items():
+        values, cut = getattr(field, quantity), getattr(section, quantity)
+        assert section.dims == ("plane", "x")
+        if quantity == "shear_xz":
+            values, cut = np.abs(values), np.abs(cut)
+        assert cut.max() == pytest.approx(values.max(), rel=1e-12)
+        row = int(np.unravel_index(values.argmax(), values.shape)[2])
+        np.testing.assert_allclose(cut, values[:, :, row], rtol=1e-12, atol=1e-14)
+    along_y = survey(replace(SLIDING, sections=(WantedSection("x", "max"),)), coated)
+    assert {q for s in along_y.sections for q in s.quantities} == {"von_mises", "principal_tensile", "shear_yz"}
+    assert all(section.field.dims == ("plane", "y") for section in along_y.sections)
+
+
+def test_sections_at_a_position_and_at_the_highest_pressure(coated: asp.ContactResult) -> None:
+    """A position is that of figures: 4.0 lies in the pixel from 3.0 to 4.5, whose node is at 3.0."""
+    sections = (WantedSection("y", 4.0), WantedSection("y", "pressure"))
+    at, under = survey(replace(SLIDING, sections=sections), coated).sections
+    assert float(at.field.y) == 3.0
+    assert at.quantities == ("von_mises", "principal_tensile", "shear_xz")
+    direct = asp.stress(
+        coated,
+        at.field.depth[np.diff(at.field.depth, prepend=-1.0) > 0.0],
+        on=asp.Section(y=3.0),
+        friction=0.3,
+        direction=0.5,
+    )
+    for name in STRESSES:
+        np.testing.assert_allclose(getattr(at.field.tensor, name), getattr(direct.tensor, name), atol=1e-12)
+    row = int(np.unravel_index(coated.pressure.argmax(), coated.pressure.shape)[1])
+    assert float(under.field.y) == pytest.approx(row * 1.5)
+    ends = survey(replace(SLIDING, sections=(WantedSection("y", 0.0), WantedSection("y", 27.0))), coated).sections
+    assert [float(section.field.y) for section in ends] == [0.0, 25.5]
+
+
+def test_profiles(coated: asp.ContactResult) -> None:
+    profiles = (WantedProfile("max", "max"), WantedProfile("pressure", "pressure"), WantedProfile(2.2, "max"))
+    found = survey(replace(SLIDING, sections=(), profiles=profiles), coated)
+    deepest, under, at = found.profiles
+    assert all(field.dims == ("plane",) for field in found.profiles)
+    assert deepest.von_mises.max() == pytest.approx(max(part.von_mises.value for part in found.maxima))
+    i, j = np.unravel_index(coated.pressure.argmax(), coated.pressure.shape)
+    assert (float(under.x), float(under.y)) == (pytest.approx(i), pytest.approx(1.5 * j))
+    assert under.normal_zz[0] == pytest.approx(-coated.pressure.max(), rel=1e-9)
+    assert float(at.x) == 2.0
+    assert float(at.y) == float(deepest.y)
+
+
+def test_maxima_alone(coated: asp.ContactResult) -> None:
+    whole, alone = survey(SLIDING, coated), survey(SLIDING, coated, lines=False)
+    assert alone.sections == ()
+    np.testing.assert_array_equal(alone.depths, whole.depths)
+    assert [p.von_mises for p in alone.maxima] == [p.von_mises for p in whole.maxima]
+
+
+def test_planes_are_computed_anew(coated: asp.ContactResult) -> None:
+    found = survey(SLIDING, coated)
+    planes = list(found.planes([0.0, 1.5]))
+    assert [plane.planes[0].side for plane in planes] == ["surface", "above", "below"]
+    assert max(float(sqrt_J2(plane.tensor).max()) for plane in planes) <= max(
+        part.von_mises.value for part in found.maxima
+    ) / math.sqrt(3.0) * (1.0 + 1e-12)
+
+
+def test_counter_body_carries_the_opposite_shear() -> None:
+    """Of a body against itself both sides carry the same stresses but for the sign of the shear."""
+    result = contact(BASE, counter_body=BASE)
+    one, other = (survey(replace(SLIDING, of=of), result) for of in ("body", "counter_body"))  # type: ignore[arg-type]
+    assert other.maxima[0].von_mises.value == pytest.approx(one.maxima[0].von_mises.value, rel=0.5)
+    mirrored = survey(replace(SLIDING, direction=0.5 + math.pi), result)
+    assert other.maxima[0].von_mises.value == pytest.approx(mirrored.maxima[0].von_mises.value, rel=1e-12)
+
+
+def test_no_contact_has_no_stress(coated: asp.ContactResult) -> None:
+    bare = replace(coated, pressure=np.zeros_like(coated.pressure), spot_areas=np.zeros(0), n_spots=0)
+    found = survey(SLIDING, bare)
+    assert all(part.von_mises.value == 0.0 for part in found.maxima)
+    assert found.yielding.load_factor == math.inf
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.FreeLine()], ids=lambda b: b.name)
+def test_line_contacts(boundary: object) -> None:
+    """Rigid cylinder of plane strain (Johnson 1985, sect. 4.2c): τ_max 0.30 p0 at 0.78 of the half-width, on these planes."""
+    x = (np.arange(256) - 127.5) / 32.0
+    surface = asp.Surface(-(x[:, None] ** 2) / 200.0, 1.0 / 32.0, 1.0)
+    body = elastic(1.0)
+    problem = asp.ContactProblem(surface, body, boundary=boundary)  # type: ignore[arg-type]
+    result = asp.solve(problem, asp.Force(math.pi / 400.0), solver=TIGHT)  # half-width 1: P = π E* a²/(4R)
+    found = survey(StressRequest(profiles=(WantedProfile("max", "max"),)), result)
+    (part,) = found.maxima
+    p0 = 1.0 / 200.0
+    if isinstance(boundary, asp.FreeLine):
+        assert part.shear.value / p0 == pytest.approx(0.30, rel=0.02)
+        assert part.shear.depth == pytest.approx(0.78, rel=RATIO - 1.0)
+    assert all(section.field.dims == ("plane", "x") for section in found.sections)
+    assert found.depths[-1] == pytest.approx(3.0, rel=0.1)
+
+
+def test_progress_counts_down(coated: asp.ContactResult) -> None:
+    heard: list[tuple[int, float]] = []
+
+    class Heard:
+        def update(self, iteration: int, error: float, tolerance: float) -> None:
+            heard.append((iteration, error))
+
+    survey(SLIDING, coated, progress=Heard())
+    assert [number for number, _ in heard] == list(range(1, len(heard) + 1))
+    assert heard[-1][1] == 0.0
+    assert np.all(np.diff([left for _, left in heard]) < 0.0)
+
+
+@pytest.mark.parametrize(
+    ("request_", "body", "expected"),
+    [
+        (StressRequest(of="counter_body"), COATED, "inside the counter body, which is rigid"),
+        (StressRequest(depths=(9.0,)), asp.Layered([asp.Layer(FILM, 2.0)], asp.RigidBase()), "rigid base is at 2"),
+        (
+            StressRequest(friction=0.1),
+            asp.Layered([asp.Layer(FILM, 2.0, asp.Frictionless())], BASE),
+            "shear traction must be zero on a body with a Frictionless",
+        ),
+        (
+            StressRequest(sections=(WantedSection("x", 25.0),)),
+            COATED,
+            "x of a stress section must be at most the length 24 m",
+        ),
+        (
+            StressRequest(profiles=(WantedProfile("max", 28.0),)),
+            COATED,
+            "y of a stress profile must be at most the length",
+        ),
+    ],
+)
+def test_what_there_is_no_stress_of_is_refused(request_: StressRequest, body: object, expected: str) -> None:
+    problem = asp.ContactProblem(rough((24, 18), spacing=(1.0, 1.5)), body)  # type: ignore[arg-type]
+    with pytest.raises(asp.InputError, match=expected):
+        request_.check(problem)
+    StressRequest(sections=(WantedSection("x", 24.0),)).check(problem)
+
+
+def test_section_of_one_point_is_refused() -> None:
+    problem = asp.ContactProblem(rough((24, 1)), BASE)
+    with pytest.raises(asp.InputError, match="stress section must hold more than one point"):
+        StressRequest(sections=(WantedSection("x", "max"),)).check(problem)
+    StressRequest().check(problem)
+
+
+def test_table_of_maxima(coated: asp.ContactResult, tmp_path: Path) -> None:
+    found = survey(replace(SLIDING, strengths=Strengths(tensile=1.0)), coated)
+    export_stress_csv(found, tmp_path / "s.csv")
+    with (tmp_path / "s.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert tuple(rows[0]) == HEADINGS
+    values = {(row["name"], row["quantity"]): row for row in rows}
+    for part in found.maxima:
+        assert float(values[part.region.name, "max_von_mises"]["value"]) == part.von_mises.value
+        assert float(values[part.region.name, "max_sqrt_J2"]["value"]) == pytest.approx(part.von_mises.value / 3.0**0.5)
+        assert float(values[part.region.name, "max_principal"]["depth"]) == part.tension.depth
+    assert float(values["film/soft", "max_shear"]["value"]) == found.interfaces[0].shear.value
+    assert values["base", "max_shear"]["bottom"] == "inf"
+    assert values["soft", "load_factor_to_yield"]["value"] == "nan"
+    assert values["film", "yielded_volume"]["unit"] == "m**3"
+    with pytest.raises(asp.OutputError):
+        export_stress_csv(found, tmp_path / "s.csv")

@@ -1,0 +1,78 @@
+"""The figures of the stresses that were asked for: which there are, what they show, close-ups of long sections."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from contact_cases import rough
+
+import asperity as asp
+from asperity.io.stress_request import StressRequest, WantedProfile, WantedSection
+from asperity.io.stress_survey import StressSurvey, survey
+from asperity.plots.stress_figures import CLOSE_UP, close_up, line_figures, map_figure
+
+BODY = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.25, name="film"), 1e-6)], asp.Elastic(1e9, 0.3, name="base"))
+
+
+def surveyed(size: int) -> StressSurvey:
+    surface = rough((size, 12), 3, spacing=(1e-6, 1e-6), power=2.0)
+    surface = asp.Surface(surface.heights * 1e-7, 1e-6, periodic=True)
+    result = asp.solve(asp.ContactProblem(surface, BODY), asp.MeanPressure(2e6))
+    sections, profiles = (WantedSection("y", "pressure"), WantedSection("x", 3e-6)), (WantedProfile("max", "max"),)
+    return survey(StressRequest(0.3, sections=sections, profiles=profiles, depths=(0.0, 1e-6), deepest=4e-6), result)
+
+
+@pytest.fixture(scope="module")
+def long() -> StressSurvey:
+    return surveyed(96)
+
+
+def test_every_section_and_profile_has_its_figures(long: StressSurvey) -> None:
+    figures = list(line_figures(long))
+    names = [figure.name for figure in figures]
+    assert len(set(names)) == len(names)
+    section = [name for name in names if name.startswith("stress_section_1")]
+    assert section == [
+        f"stress_section_1_{quantity}{part}"
+        for quantity in ("von_mises", "principal_tensile", "shear_xz")
+        for part in ("", "_near")
+    ]
+    assert "stress_section_2_shear_yz" in names
+    assert names[-1] == "stress_profile_1"
+    assert all(figure.picture.startswith(b"\x89PNG") for figure in figures)
+    titles = {figure.name: figure.title for figure in figures}
+    row = int(np.unravel_index(long.result.pressure.argmax(), long.result.pressure.shape)[1])
+    assert titles["stress_section_1_von_mises"] == f"Von Mises stress at y = {row + 0.5:.4g} µm"
+    assert titles["stress_section_1_shear_xz"].startswith("σxz at y")
+    captions = {figure.name: figure.caption for figure in figures}
+    assert captions["stress_section_1_von_mises"].endswith("Steps are equal factors.")
+    assert "Red is tension" in captions["stress_section_1_principal_tensile"]
+
+
+def test_close_ups_hold_the_maximum_and_short_sections_have_none(long: StressSurvey) -> None:
+    for section in long.sections[:1]:
+        for quantity in section.quantities:
+            near = close_up(section.field, quantity)
+            assert near is not None
+            values, part = getattr(section.field, quantity), getattr(near, quantity)
+            assert part.shape == (len(section.field.planes), near.x.size)
+            assert part.max() == values.max() or np.abs(part).max() == np.abs(values).max()
+            assert near.x[-1] - near.x[0] <= CLOSE_UP * section.field.depth[-1] * (1.0 + 1e-9)
+            first = int(np.flatnonzero(section.field.x == near.x[0])[0])
+            np.testing.assert_array_equal(part, values[:, first : first + near.x.size])
+    short = surveyed(16)
+    assert close_up(short.sections[1].field, "von_mises") is None
+    names = [figure.name for figure in line_figures(short)]
+    assert not any(name.startswith("stress_section_2") and name.endswith("near") for name in names)
+
+
+def test_maps_of_planes(long: StressSurvey) -> None:
+    figures = [map_figure(plane, number) for number, plane in enumerate(long.planes(long.request.depths), start=1)]
+    assert [figure.name for figure in figures] == ["stress_plane_1", "stress_plane_2", "stress_plane_3"]
+    assert [figure.title for figure in figures] == [
+        "Von Mises stress at the surface",
+        "Von Mises stress at a depth of 1 µm, just above the interface",
+        "Von Mises stress at a depth of 1 µm, just below the interface",
+    ]
+    assert figures[2].caption.endswith("in base.")
+    assert all(figure.picture.startswith(b"\x89PNG") for figure in figures)
