@@ -20,7 +20,7 @@ from .kernel import FilterKernel, cumulant_factors, filter_kernel, zero_phase_we
 from .noise import BLOCK, block_noise
 
 _KEYS = ("HuTonder1992", "Salmon2011")
-_NON_GAUSSIAN_KEYS = ("Chilamakuri1998", "Johnson1949")
+_NON_GAUSSIAN_KEYS = ("Chilamakuri1998", "Johnson1949", "Tuenter2001")
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,7 +35,7 @@ class Johnson:
     delta: float
     xi: float
     scale: float
-    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1949",)
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1949", "Tuenter2001")
 
     def of_normal(self, normal: RealArray) -> RealArray:
         """z(G): the number of this distribution for each standard normal number; increasing."""
