@@ -7,6 +7,7 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
+from asperity.core.units import show
 from asperity.io.stress_request import StressRequest, WantedProfile, WantedSection
 from asperity.io.stress_survey import StressSurvey, survey
 from asperity.plots.stress_figures import CLOSE_UP, close_up, line_figures, map_figure
@@ -42,7 +43,7 @@ def test_every_section_and_profile_has_its_figures(long: StressSurvey) -> None:
     assert all(figure.picture.startswith(b"\x89PNG") for figure in figures)
     titles = {figure.name: figure.title for figure in figures}
     row = int(np.unravel_index(long.result.pressure.argmax(), long.result.pressure.shape)[1])
-    assert titles["stress_section_1_von_mises"] == f"Von Mises stress at y = {row + 0.5:.4g} µm"
+    assert titles["stress_section_1_von_mises"] == f"Von Mises stress at y = {show((row + 0.5) * 1e-6, 'm')}"
     assert titles["stress_section_1_shear_xz"].startswith("σxz at y")
     captions = {figure.name: figure.caption for figure in figures}
     assert captions["stress_section_1_von_mises"].endswith("Steps are equal factors.")

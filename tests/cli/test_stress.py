@@ -1,0 +1,199 @@
+"""Stresses inside the body from the command ``contact``: what is printed, drawn and written, and what is refused."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import LOAD, SCALE, Runner
+
+import asperity as asp
+from asperity.io.documents import load_document
+from asperity.io.results import load, open_dataset
+
+COATED = ("--body", "E=200GPa,nu=0.25,H=20GPa,name=film:100nm/E=100GPa,nu=0.3,Y=1GPa,name=base")
+
+
+def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    wanted = ("--friction", 0.3, "--direction", "90deg", "--depths", "0nm, 100nm", "--section", "y=max")
+    more = ("--section", "x=2um", "--profile", "x=max", "--tensile-strength", "1GPa")
+    result = run("contact", matrix, *SCALE, *COATED, *LOAD, *wanted, *more, "--out", out)
+    assert result.exit_code == 0, result.stderr
+    for text in (
+        "Largest stresses inside",
+        "film, 0 to 100 nm",
+        "base, below 100 nm",
+        "shear (σ1 − σ3)/2",
+        "film / base, 100 nm",
+        "7.143 GPa (H/2.8)",
+        "Given strengths",
+        "wrote " + str(out / "stress.csv"),
+    ):
+        assert text in result.stdout, text
+    assert "yield" in result.stdout.split("Given strengths")[1]
+    names = {path.name for path in out.iterdir()}
+    assert names == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "stress", "stress.csv"}
+    fields = sorted(path.name for path in (out / "stress").iterdir())
+    assert fields[:2] == ["planes.nc", "profile_1.nc"]
+    assert all(name.startswith("section_") for name in fields[2:])
+    pictures = {path.stem for path in (out / "plots").iterdir()}
+    assert {"stress_plane_1", "stress_plane_2", "stress_plane_3", "stress_profile_1"} <= pictures
+    assert {"stress_section_1_von_mises"} <= pictures
+    assert any(name.endswith("shear_yz") for name in pictures)
+
+    solved = load(out / "result.nc")
+    field = asp.stress(solved, [0.0, 100e-9], friction=0.3, direction=np.pi / 2.0)
+    planes = open_dataset(out / "stress" / "planes.nc")
+    np.testing.assert_allclose(planes["xx"], field.normal_xx, rtol=1e-12)
+    with (out / "stress.csv").open(encoding="utf-8") as file:
+        rows = {(row["name"], row["quantity"]): float(row["value"]) for row in csv.DictReader(file)}
+    assert rows["film", "max_von_mises"] >= field.within("film").von_mises.max() * (1.0 - 1e-12)
+    html = (out / "report.html").read_text(encoding="utf-8")
+    assert "Stresses inside the body" in html
+    assert "90° from x towards y" in html
+    assert "does not change the pressure" in html
+    assert "[Burmister1945]" in html
+
+    again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
+    assert again.exit_code == 0, again.stderr
+    with (tmp_path / "again" / "stress.csv").open(encoding="utf-8") as file:
+        assert file.read() == (out / "stress.csv").read_text(encoding="utf-8")
+
+
+def test_stresses_are_computed_only_where_asked_for(
+    run: Runner, matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    computed: list[int] = []
+    from asperity.stress import compute
+
+    whole = compute.StressPlanes.each
+
+    def counted(self, **keys):  # type: ignore[no-untyped-def]
+        for field in whole(self, **keys):
+            computed.append(1)
+            yield field
+
+    monkeypatch.setattr(compute.StressPlanes, "each", counted)
+    out = tmp_path / "run"
+    result = run("contact", matrix, *SCALE, *COATED, *LOAD, "--out", out)
+    assert result.exit_code == 0
+    assert computed == []
+    assert "Largest stresses" not in result.stdout
+    assert not (out / "stress.csv").exists()
+    assert load_document(out / "problem.toml").stress is None
+    assert "Stresses inside" not in (out / "report.html").read_text(encoding="utf-8")
+    run("contact", matrix, *SCALE, *COATED, *LOAD, "--depths", "10nm,20nm")
+    assert len(computed) == 2
+
+
+def test_friction_alone_shows_the_section_through_the_maximum(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    result = run("contact", matrix, *SCALE, *COATED, *LOAD, "--friction", 0.3, "--out", tmp_path / "run")
+    assert result.exit_code == 0, result.stderr
+    pictures = {path.stem for path in (tmp_path / "run" / "plots").glob("stress*")}
+    shown = {name.split("_", 3)[3].removesuffix("_near") for name in pictures}
+    assert shown == {"von_mises", "principal_tensile", "shear_xz"}
+
+
+def test_volume_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    files = ("--stress-vtk", tmp_path / "v.vtr", "--stress-nc", tmp_path / "v.nc")
+    command = ("contact", matrix, *SCALE, *COATED, *LOAD, *files, "--stress-precision", "single", "--deepest", "300nm")
+    result = run(*command)
+    assert result.exit_code == 0, result.stderr
+    assert f"wrote {tmp_path / 'v.vtr'}" in result.stdout
+    assert "Largest stresses inside" in result.stdout
+    volume = open_dataset(tmp_path / "v.nc")
+    assert volume["zz"].dims == ("plane", "x", "y")
+    assert volume["zz"].dtype == np.float32
+    assert float(volume["depth"].max()) == pytest.approx(300e-9)
+    header = (tmp_path / "v.vtr").read_bytes()[:3000].decode("ascii", errors="replace")
+    assert 'type="RectilinearGrid"' in header
+    assert f'WholeExtent="0 31 0 23 0 {volume.sizes["plane"] - 1}"' in header
+    refused = run(*command)
+    assert refused.exit_code == 2
+    assert "must not exist yet" in refused.stderr
+
+
+def test_coupling_changes_the_pressure(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    soft = ("--body", "E=100GPa,nu=0.1", "--friction", 0.8)
+    for name, extra in (("plain", ()), ("coupled", ("--coupled",))):
+        result = run("contact", matrix, *SCALE, *soft, *LOAD, *extra, "--out", tmp_path / name)
+        assert result.exit_code == 0, result.stderr
+    plain, coupled = (load(tmp_path / name / "result.nc") for name in ("plain", "coupled"))
+    assert coupled.mean_pressure == pytest.approx(plain.mean_pressure)
+    assert not np.allclose(coupled.pressure, plain.pressure, rtol=1e-3, atol=1e-3 * plain.max_pressure)
+    direct = asp.solve_sliding(plain.problem, plain.control, 0.8)
+    np.testing.assert_allclose(coupled.pressure, direct.pressure, rtol=1e-9, atol=1e-9 * plain.max_pressure)
+    html = (tmp_path / "coupled" / "report.html").read_text(encoding="utf-8")
+    assert "changes the pressure (coupled)" in html
+    assert "[Dundurs1969]" in html
+
+
+def test_options_over_a_document(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    document, changed = tmp_path / "p.toml", tmp_path / "q.toml"
+    first = run(
+        "contact", matrix, *SCALE, *COATED, *LOAD, "--friction", 0.3, "--depths", "5nm", "--save-document", document
+    )
+    assert first.exit_code == 0, first.stderr
+    second = run("contact", "--from", document, "--friction", 0.1, "--stress-in", "body", "--save-document", changed)
+    assert second.exit_code == 0, second.stderr
+    stress = load_document(changed).stress
+    assert stress is not None
+    assert (stress.friction, stress.depths) == (0.1, ("5nm",))
+
+
+def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
+    bodies = ("--body", "rigid", "--counter", "E=1GPa,nu=0.3,name=seal")
+    result = run("contact", matrix, *SCALE, *bodies, *LOAD, "--stress-in", "counter")
+    assert result.exit_code == 0, result.stderr
+    assert "seal" in result.stdout
+    assert "No strength of any part of the body is known" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (("--friction", "-0.1"), "--friction must be at least zero, but is -0.1"),
+        (("--direction", "90"), "--direction must have a unit"),
+        (("--depths", "1nm,5"), "part 2 of --depths must have a unit"),
+        (("--depths", "1nm,"), "part 2 of --depths must be a number with a unit"),
+        (("--section", "middle"), '--section must be a position such as "y=max"'),
+        (("--section", "x=max,y=max"), "--section must give exactly one of x and y"),
+        (("--section", "y=5"), "y of --section must have a unit"),
+        (("--section", "y=99um"), "y of a stress section must be at most the length 6 µm"),
+        (("--profile", "x=1kg"), "x of --profile must be a length"),
+        (("--deepest", "0nm"), "--deepest must be greater than zero"),
+        (("--criterion", "hope"), "--criterion must be 'von_mises' or 'tresca'"),
+        (("--tensile-strength", "1"), "--tensile-strength must have a unit"),
+        (("--stress-in", "counter"), "inside the counter body, which is rigid"),
+        (("--stress-in", "air"), "--stress-in must be one of body, counter"),
+        (("--stress-precision", "half"), "--stress-precision must be 'double' or 'single'"),
+        (("--friction", "0.1", "--body", "DLC:5nm~/steel"), "shear traction must be zero"),
+        (("--depths", "1um", "--body", "DLC:5nm/rigid"), "rigid base is at"),
+    ],
+)
+def test_refusals(run: Runner, matrix: Path, tmp_path: Path, options: tuple[str, ...], expected: str) -> None:
+    body = () if "--body" in options else COATED
+    result = run("contact", matrix, *SCALE, *body, *LOAD, *options, "--out", tmp_path / "run")
+    assert result.exit_code == 2, result.output
+    assert result.stderr.startswith("asperity: ")
+    assert len(result.stderr.splitlines()) == 1
+    assert expected in result.stderr
+    assert not (tmp_path / "run").exists()
+
+
+def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> None:
+    """An AFM map of a granular film, coated, sliding: stresses at the surface follow the tractions."""
+    source = shared_data / "afm_granular_film_10um_512.di"
+    wanted = ("--friction", 0.3, "--depths", "0nm,100nm,20nm", "--section", "y=max")
+    body = ("--body", "DLC:100nm/Cr:20nm/steel", "--hardness", "body", "--pressure", "50MPa")
+    result = run("contact", source, *body, "--resample", 128, "--periodise", *wanted, "--out", tmp_path / "run")
+    assert result.exit_code == 0, result.output
+    solved = load(tmp_path / "run" / "result.nc")
+    planes = open_dataset(tmp_path / "run" / "stress" / "planes.nc")
+    scale = solved.max_pressure
+    np.testing.assert_allclose(planes["zz"][0], -solved.pressure, atol=1e-9 * scale)
+    np.testing.assert_allclose(planes["xz"][0], -0.3 * solved.pressure, atol=1e-9 * scale)
+    assert "The body yields" in result.stdout
