@@ -5,6 +5,7 @@ from pathlib import Path
 
 import peng_layer_effect
 import peng_scaling
+import peng_stress
 import peng_table_3_1
 import pytest
 import rough_cylinder
@@ -17,6 +18,7 @@ RUNS = {
     "peng_layer_effect": lambda: peng_layer_effect.compare(8, (0.001, 0.1, 2.0, 100.0)),
     "rough_cylinder": lambda: rough_cylinder.compare(count=2, points=8192),
     "rough_sphere": lambda: rough_sphere.compare(count=1, points=192, roughness=(0.0, 8e-9, 32e-9)),
+    "peng_stress": lambda: peng_stress.compare(count=2),
     "peng_scaling": lambda: peng_scaling.compare(count=8, stressed=2),
 }
 
