@@ -101,6 +101,8 @@ def test_kernel_refuses_what_does_not_die_out():
         filter_kernel(spectrum, (1.0, 1.0))
     with pytest.raises(InputError, match="reach of a digital filter"):
         filter_kernel(ExponentialAutocorrelation(1.0, 4.0), (1.0, 1.0), reach=0.0)
+    with pytest.raises(InputError, match="pixel of a digital filter"):
+        filter_kernel(ExponentialAutocorrelation(1.0, 1e5), (1.0, 1.0))
 
 
 # non-Gaussian heights

@@ -125,6 +125,23 @@ def test_direct_sum_with_missing_points():
         assert low[i, j] == pytest.approx(np.nansum(s * heights) / s.sum(), abs=1e-12)
 
 
+def test_profile_is_filtered_whatever_its_width():
+    """One point along y, whose pixel is wider than the cut-off."""
+    x = np.arange(200)
+    profile = np.sin(2 * np.pi * x / 40)[:, None] + np.sin(2 * np.pi * x / 5)[:, None]
+    low = filtered(Surface(profile, 1e-8, 1e-5, periodic=True), short=10e-8).heights
+    expected = 2.0 ** -((10 / 40) ** 2) * np.sin(2 * np.pi * x / 40) + 2.0 ** -((10 / 5) ** 2) * np.sin(
+        2 * np.pi * x / 5
+    )
+    np.testing.assert_allclose(low[:, 0], expected, atol=1e-5)
+
+
+def test_single_precision_maps_are_filtered_in_double():
+    heights = np.random.default_rng(1).standard_normal((40, 30))
+    single = filtered(Surface(heights.astype(np.float32), 1.0), short=8.0).heights
+    np.testing.assert_allclose(single, filtered(Surface(heights, 1.0), short=8.0).heights, atol=1e-7)
+
+
 def spiky(seed=1):
     base = gaussian(Grid((96, 96), (1.0, 1.0)), ExponentialAutocorrelation(1.0, 12.0), seed=seed)
     heights = base.heights.copy()

@@ -19,6 +19,7 @@ from .amplitude import RmsHeight
 from .embedding import Spectrum, lattice_eigenvalues
 from .modes import mode_sum
 
+_LARGEST_DOMAIN = 2**29  # points on which a kernel is computed: 4 GB
 _ERROR_LIMIT = 1e-2  # largest error of the autocorrelation that cutting the kernel may make
 
 
@@ -106,6 +107,11 @@ def _domain(spectrum: Spectrum, spacing: tuple[float, float], reach: float) -> G
     """Periodic grid on which neither kernel nor autocovariance meets itself."""
     sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
     nx, ny = (fast_length(int(np.ceil(max(4.0 * reach, side) / d)) + 5) for side, d in zip(sides, spacing, strict=True))
+    if nx * ny > _LARGEST_DOMAIN:
+        raise InputError(
+            f"pixel of a digital filter must not be much smaller than its reach of {reach:.3g} m, but {spacing[0]:.3g} x "
+            f"{spacing[1]:.3g} m take {nx} x {ny} points. Enlarge the pixel or shorten the reach."
+        )
     return Grid((nx, ny), spacing)
 
 

@@ -99,8 +99,8 @@ def _cutoffs(
         pair = given if isinstance(given, tuple) else (given, given)
         along = require.two(pair, f"{name} cut-off of a filter (m)", "Write one wavelength or (along x, along y).")
         lengths = [require.positive(c, f"{name} cut-off of a filter (m)") for c in along]
-        for axis, length, d in zip("xy", lengths, surface.grid.spacing, strict=True):
-            if length < finest * d * (1.0 - _ROUNDING):
+        for axis, n, length, d in zip("xy", surface.shape, lengths, surface.grid.spacing, strict=True):
+            if n > 1 and length < finest * d * (1.0 - _ROUNDING):  # across a profile there is nothing to resolve
                 raise InputError(
                     f"{name} cut-off of a filter must be at least {finest:g} pixels ({finest * d:g} m along {axis}), "
                     f"but is {length:g} m."
