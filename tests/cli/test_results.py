@@ -71,11 +71,20 @@ def test_demo(run: Runner, tmp_path: Path) -> None:
     out = tmp_path / "demo"
     result = run("demo", "--out", out)
     assert result.exit_code == 0, result.stderr
-    for text in ("256 × 256 points, 20 µm × 20 µm", "mean pressure 400 kPa", "hardness 5 GPa", "Converged:"):
+    for text in (
+        "256 × 256 points, 10 µm × 10 µm",
+        "mean pressure 4 MPa",
+        "hardness 10 GPa (of coating",
+        "Converged:",
+    ):
         assert text in result.stdout
-    assert "<html" in (out / "report.html").read_text(encoding="utf-8").lower()
+    for text in ("coating, 0 to 200 nm", "coating / disk, 200 nm", "Onset of yield"):
+        assert text in result.stdout
+    html = (out / "report.html").read_text(encoding="utf-8")
+    assert "<html" in html.lower()
+    assert "Stresses inside the body" in html
     solved = load(out / "result.nc")
-    assert solved.mean_pressure == pytest.approx(4e-6 * 100e9, rel=1e-9)
+    assert solved.mean_pressure == pytest.approx(4e-5 * 100e9, rel=1e-9)
     again = run("contact", "--from", out / "problem.toml")
     assert again.exit_code == 0
     assert f"{solved.area_fraction:.4g}" in again.stdout

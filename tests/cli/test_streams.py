@@ -51,4 +51,4 @@ def test_other_operating_system_errors_stay_unforeseen() -> None:
 def test_output_in_ascii_shows_codes_of_letters() -> None:
     done = shell(f"{PROGRAM} demo", PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "20 \\xb5m" in done.stdout
+    assert "10 \\xb5m" in done.stdout

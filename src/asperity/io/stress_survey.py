@@ -54,7 +54,8 @@ class SurveyedSection:
 class StressSurvey:
     """What was asked for, and found.
 
-    ``depths`` are those of all planes, on which the maxima and the onset of yield rest.
+    ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections and profiles end where
+    the contact is no longer felt, or as asked; the interfaces below that are planes, too.
     """
 
     request: StressRequest
@@ -102,18 +103,20 @@ def survey(
     """
     depths = survey_depths(request, result)
     maxima = Maxima()
-    count = len(planes(getattr(result.problem, request.of), depths))
-    tracked = _Tracked(progress, count * (2 if lines and _wants_lines(request) else 1))
+    shown = line_depths(request, result) if lines and _wants_lines(request) else np.zeros(0)
+    tracked = _Tracked(
+        progress, sum(len(planes(getattr(result.problem, request.of), d)) for d in (depths, shown) if d.size)
+    )
     found = tracked.planes(_planes(request, result, depths, threads))
     report = first_yield(maxima.watching(found), request.criterion)
-    wanted = _resolved(request, result, maxima.drawn) if lines else {}
-    again = tracked.planes(_planes(request, result, depths, threads)) if wanted else iter(())
+    wanted = _resolved(request, result, maxima.drawn) if shown.size else {}
+    again = tracked.planes(_planes(request, result, shown, threads)) if wanted else iter(())
     named = list(zip(wanted.values(), _cut(again, list(wanted), result), strict=True))
     return StressSurvey(
         request,
         result,
         depths,
-        tuple(SurveyedSection(field, shown) for shown, field in named if len(field.dims) == 2),
+        tuple(SurveyedSection(field, quantities) for quantities, field in named if len(field.dims) == 2),
         tuple(field for _, field in named if len(field.dims) == 1),
         maxima.regions(),
         maxima.interfaces(),
@@ -125,16 +128,24 @@ def survey(
 def survey_depths(request: StressRequest, result: ContactResult) -> RealArray:
     """Increasing depths (m) of all planes: those asked for, and for sections and profiles those that show the contact.
 
-    The latter are dense against the contact spots and reach both faces of each layer (see the constants above).
+    To the latter belong all interfaces, however deep.
     """
-    asked = _distinct(np.array(request.depths), SAME)
     if not _wants_lines(request):
-        return asked
+        return _distinct(np.array(request.depths), SAME)
+    interfaces = [
+        region.bottom for region in regions(getattr(result.problem, request.of)) if math.isfinite(region.bottom)
+    ]
+    return _distinct(np.array([*line_depths(request, result), *interfaces, *request.depths]), SAME)
+
+
+def line_depths(request: StressRequest, result: ContactResult) -> RealArray:
+    """Increasing depths (m) of sections and profiles: dense against the contact spots, and both faces of each layer."""
     body = getattr(result.problem, request.of)
     small, large = _spot_radii(result)
     bottom = request.deepest or _deepest(body, large)
     layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
-    needed = _distinct(np.concatenate([layered, asked]), SAME)
+    asked = [depth for depth in request.depths if depth <= layered[-1]]
+    needed = _distinct(np.array([*layered, *asked]), SAME)
     shallow = max(SHALLOWEST * small, PIXELS * max(_pixels(result)))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
@@ -235,6 +246,11 @@ def _cut(planes: Iterator[StressField], lines: list[Where], result: ContactResul
     for field in planes:
         for place, cut in zip(places, cuts, strict=True):
             cut.append(_at(field, place))
+    for cut in cuts:
+        if (
+            cut[-1].planes[0].side == "below"
+        ):  # the last depth is an interface: the region that begins there is not shown
+            cut.pop()
     return [_joined(cut) for cut in cuts]
 
 

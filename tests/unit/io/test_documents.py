@@ -302,7 +302,7 @@ def test_file_round_trip(tmp_path: Path, name: str) -> None:
 
 def test_demo_document_is_valid() -> None:
     text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
-    assert loads(text).control.mean_pressure == "400 kPa"
+    assert loads(text).control.mean_pressure == "4 MPa"
 
 
 def test_documents_do_not_change() -> None:

@@ -15,7 +15,7 @@ from reference_data import reference
 import asperity as asp
 from asperity.core.tensor import STRESSES
 from asperity.io.stress_request import Strengths, StressRequest, WantedProfile, WantedSection
-from asperity.io.stress_survey import RATIO, survey, survey_depths
+from asperity.io.stress_survey import RATIO, line_depths, survey, survey_depths
 from asperity.io.stress_table import HEADINGS, export_stress_csv
 from asperity.stress.invariants import sqrt_J2
 
@@ -104,10 +104,28 @@ def test_depths_show_contact_and_layers(coated: asp.ContactResult) -> None:
     assert min(inside) >= 3
     resolved = depths[depths >= 0.75]  # half a pixel
     assert (resolved[1:] / resolved[:-1]).max() <= RATIO * 1.12
-    assert survey_depths(replace(request, deepest=1.0), coated)[-1] == pytest.approx(1.5), (
-        "what is asked for is computed"
-    )
-    assert survey_depths(StressRequest(deepest=1.0), coated)[-1] == 1.0
+    below = survey_depths(replace(request, deepest=1.0), coated)
+    assert below[below > 1.0] == pytest.approx([1.5, 2.5]), "interfaces, and what is asked for"
+    assert line_depths(replace(request, deepest=1.0), coated)[-1] == 1.0
+
+
+def test_interfaces_far_below_the_contact_count_but_are_not_drawn() -> None:
+    """A thick coating: its interface carries little, but its maxima and those of the base are known."""
+    body = asp.Layered([asp.Layer(FILM, 300.0)], BASE)
+    found = survey(SLIDING, contact(body))
+    assert found.depths[-1] == 300.0
+    assert [part.region.name for part in found.maxima] == ["film", "base"]
+    assert found.maxima[1].von_mises.depth == 300.0
+    assert len(found.interfaces) == 1
+    assert all(section.field.depth[-1] < 100.0 for section in found.sections)
+    assert {plane.region.name for plane in found.sections[0].field.planes} == {"film"}
+
+
+def test_sections_that_end_at_an_interface_stay_above_it(coated: asp.ContactResult) -> None:
+    found = survey(replace(SLIDING, deepest=1.5), coated)
+    last = found.sections[0].field.planes[-1]
+    assert (last.depth, last.side) == (1.5, "above")
+    assert survey(replace(SLIDING, deepest=1.6), coated).sections[0].field.planes[-1].region.name == "soft"
 
 
 def test_planes_alone_need_no_others(coated: asp.ContactResult) -> None:
