@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import asperity as asp
-from asperity.io.documents import loads
+from asperity.cli.main import app
+from asperity.io.build_stress import build_stress
+from asperity.io.documents import load_document, loads
 
 ROOT = Path(__file__).parents[2]
 GUIDES = sorted((ROOT / "docs").rglob("*.md"))
@@ -100,6 +104,51 @@ def test_the_examples_of_preparation(scan, capsys):
     table = 'version = 1\n[surface]\nkind = "file"\npath = "a.di"\n' + text
     rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
     assert len(loads(table + rest).surface.prepare) == 6
+
+
+def commands(path: Path) -> list[str]:
+    """Commands `asperity contact` on a scan, without their comments."""
+    lines = [line.strip() for block in blocks(path, "console") for line in block.splitlines()]
+    found = [line.removeprefix("$ ").split("  #")[0] for line in lines if line.startswith("$ asperity contact")]
+    return [line for line in found if "scan.di" in line]
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/how-to/measured-scan.md", "docs/how-to/coated-contact.md"])
+def test_the_commands_on_a_scan(scan, tmp_path, monkeypatch, page):
+    monkeypatch.chdir(tmp_path)
+    asp.save_surface(scan, "scan.nc")
+    found = commands(ROOT / page)
+    assert found
+    for line in found:
+        result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
+        assert result.exit_code == 0, result.output
+        assert ("Largest stresses inside" in result.stdout) == ("--friction" in line)
+
+
+def test_the_document_of_the_coated_contact(tmp_path):
+    (text,) = blocks(ROOT / "docs/how-to/coated-contact.md", "toml")
+    (tmp_path / "p.toml").write_text(text, encoding="utf-8")
+    result = CliRunner().invoke(app, ["contact", "--from", str(tmp_path / "p.toml")])
+    assert result.exit_code == 0, result.output
+    assert "DLC 50 nm / graded titanium nitride - steel 1 µm in 8 layers /" in result.stdout
+    assert "graded titanium nitride - steel / steel, 1.05 µm" in result.stdout
+
+
+def test_the_options_of_stresses_and_their_keys_mean_the_same(scan, tmp_path, monkeypatch):
+    """Every row of the table in the guide, as option and as key."""
+    monkeypatch.chdir(tmp_path)
+    asp.save_surface(scan, "scan.nc")
+    page = (ROOT / "docs/how-to/coated-contact.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(--[a-z-]+[^`]*)` \| `([^`]+)` \|", page, re.MULTILINE)
+    assert len(rows) > 8
+    head = 'version = 1\nbody = "DLC:1um/steel"\ncounter_body = "steel"\n'
+    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol = { force = "1 mN" }\n[stress]\n'
+    for option, key in rows:
+        (tmp_path / "p.toml").write_text(head, encoding="utf-8")
+        words = ["contact", "--from", "p.toml", *option.split(maxsplit=1), "--save-document", "q.toml", "--force"]
+        assert CliRunner().invoke(app, words).exit_code == 0, option
+        found, wanted = load_document(tmp_path / "q.toml").stress, loads(head + key).stress
+        assert build_stress(found) == build_stress(wanted), option
 
 
 def test_the_problem_document_of_the_guide_is_valid():

@@ -29,6 +29,9 @@ DECADES = 2.0
 SIGNED_MAP, UNSIGNED_MAP = "RdBu_r", "viridis"
 """Colour maps of stresses of either sign (white at zero, red in tension) and of magnitudes."""
 
+LABEL_ROOM = 0.09
+"""Least distance of the names of regions over the height of the axes."""
+
 COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 """Colours of the curves of a depth profile, in order."""
 
@@ -216,23 +219,39 @@ def _contours(
 
 
 def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> None:
-    """Lines at the interfaces, and the names of the regions beside them."""
-    for part in _parts(field):
-        region = field.planes[part[0]].region
-        if region.top > 0.0:
-            ax.axhline(float(depth_unit(region.top)), color=BLACK, linewidth=1.0)
-        if len(_parts(field)) > 1:
-            bottom = min(region.bottom, field.depth[-1])
-            middle = float(depth_unit(0.5 * (region.top + bottom)))
-            ax.annotate(
-                region.name,
-                (0.985, middle),
-                xycoords=ax.get_yaxis_transform(),
-                ha="right",
-                va="center",
-                fontsize=7.5,
-                bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
-            )
+    """Lines at the interfaces, and the names of the regions beside them; neighbours of one name are one region.
+
+    Names of thin regions are moved apart, still in order, so that they can be read.
+    """
+    parts = list(dict.fromkeys(plane.region for plane in field.planes))
+    runs = [list(run) for _, run in groupby(parts, key=lambda region: region.name)]
+    for run in runs[1:]:
+        ax.axhline(float(depth_unit(run[0].top)), color=BLACK, linewidth=1.0)
+    if len(runs) < 2:
+        return
+    last = field.depth[-1]
+    middles = [0.5 * (run[0].top + min(run[-1].bottom, last)) / last for run in runs]
+    for run, middle in zip(runs, _apart(middles), strict=True):
+        ax.annotate(
+            run[0].name,
+            (0.985, 1.0 - middle),
+            xycoords="axes fraction",
+            ha="right",
+            va="center",
+            fontsize=7.5,
+            bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
+        )
+
+
+def _apart(places: list[float]) -> list[float]:
+    """Increasing ``places`` between 0 and 1, moved as far as needed to be ``LABEL_ROOM`` apart and from the ends."""
+    room = min(LABEL_ROOM, 1.0 / len(places))
+    moved: list[float] = []
+    for place in places:
+        moved.append(max(place, moved[-1] + room if moved else 0.5 * room))
+    for number in reversed(range(len(moved))):
+        moved[number] = min(moved[number], 1.0 - room * (len(moved) - number - 0.5))
+    return moved
 
 
 def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str, Any, Any]) -> None:

@@ -88,8 +88,8 @@ def yield_table(survey: StressSurvey) -> Table:
     """Strength and load factor to first yield of each region."""
     cells = []
     for regions, parts in _together(survey.yielding.regions):
-        worst = min(parts, key=lambda part: (math.isnan(part.load_factor), part.load_factor))
-        known = not math.isnan(worst.load_factor)
+        known = [part for part in parts if not math.isnan(part.load_factor)]
+        worst = min(known, key=lambda part: part.load_factor) if known else max(parts, key=lambda part: part.peak.value)
         strength = show(worst.limit.value, "Pa") + (f" (H/{TABOR:g})" if worst.limit.inferred else "")
         cells.append(
             (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from catalogue import oblong
@@ -136,6 +138,23 @@ def test_maps_of_planes(contact, ax, plane, words):
     np.testing.assert_allclose(drawn / np.abs(drawn).max(), field.shear_xz[plane] / np.abs(field.shear_xz[plane]).max())
     label = ax.child_axes[0].get_ylabel() or ax.child_axes[0].get_xlabel()
     assert label.startswith(f"σxz, {words}")
+
+
+def test_layers_of_one_name_are_one_and_names_of_thin_layers_stay_apart(ax):
+    film, base = asp.Elastic(280e9, 0.25, name="film"), asp.Elastic(70e9, 0.33, name="base")
+    thin = [asp.Layer(asp.Elastic(300e9, 0.2, name=name), 1e-9) for name in ("a", "b", "c")]
+    body = asp.Layered([*thin, *asp.graded(film, base, 40e-9, sublayers=6)], base)
+    result = asp.solve(asp.ContactProblem(oblong(), body), asp.MeanPressure(2e8))
+    field = asp.stress(result, asp.depths_through(body, 100e-9, per_region=1), on=asp.Section(y="max"))
+    plots.plot_stress_section(field, ax, "von_mises")
+    ax.figure.canvas.draw()
+    assert [text.get_text() for text in ax.texts] == ["a", "b", "c", "graded film - base", "base"]
+    lines = [line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "-" and len(line.get_ydata()) == 2]
+    assert lines == pytest.approx([1.0, 2.0, 3.0, 43.0])
+    boxes = [text.get_window_extent() for text in ax.texts]
+    assert all(upper.y0 > lower.y0 + 0.8 * lower.height for upper, lower in pairwise(boxes))
+    outside = ax.get_window_extent()
+    assert all(outside.y0 <= box.y0 and box.y1 <= outside.y1 for box in boxes)
 
 
 def test_refusals(contact, ax):

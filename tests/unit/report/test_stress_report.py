@@ -109,6 +109,7 @@ def test_layers_of_a_graded_coating_are_one() -> None:
     table = maxima_table(found)
     assert {cells[0] for cells in table.cells} == {"graded film - base (5 layers), 0 to 1 µm", "base, below 1 µm"}
     largest = max(part.von_mises.value for part in found.maxima[:5])
+    assert yield_table(found).cells[0][1] == show(largest, "Pa"), "its strength is not known"
     assert table.cells[0][2] == show(largest, "Pa")
     assert len(interface_table(found).cells) == 2, "only the one below the coating"
     assert region_text([found.maxima[-1].region]) == "base, below 1 µm"
