@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import io
 import math
 import signal
@@ -54,3 +55,14 @@ def test_a_swallowed_interrupt_comes_back_at_the_next_iteration():
         with pytest.raises(KeyboardInterrupt):
             progress.update(2, 0.5, 1e-6)
     assert signal.getsignal(signal.SIGINT) is handler
+
+
+def test_an_interrupt_inside_the_compiler_waits_for_the_next_iteration():
+    lock = importlib.import_module("numba.core.compiler_lock").global_compiler_lock
+    with interruptible(NoProgress()) as progress:
+        with lock:
+            signal.raise_signal(signal.SIGINT)  # raises nothing
+        with pytest.raises(KeyboardInterrupt):
+            progress.update(1, 1.0, 1e-6)
+    with interruptible(NoProgress()), pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)

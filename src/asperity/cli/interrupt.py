@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ..core.progress import Progress
+from ..core.system import compiling
 
 
 @contextmanager
@@ -17,7 +18,7 @@ def interruptible(progress: Progress) -> Iterator[Progress]:
     """``progress`` that raises KeyboardInterrupt if Ctrl-C came since the start.
 
     An exception raised by a signal inside a compiler's or the interpreter's own callback is printed and dropped by
-    Python; the first solve of a new installation compiles for seconds, and would go on for good.
+    Python, or crashes the compiler; the first solve of a new installation compiles for seconds, and would go on for good.
     """
     if threading.current_thread() is not threading.main_thread():
         yield progress
@@ -38,9 +39,10 @@ class _Guarded:
         self._wanted = False
 
     def interrupt(self, number: int, frame: Any) -> None:
-        """Handle the signal: remember it, and raise as Python does."""
+        """Handle the signal: remember it, and raise as Python does, unless inside the compiler."""
         self._wanted = True
-        raise KeyboardInterrupt
+        if not compiling():
+            raise KeyboardInterrupt
 
     def update(self, iteration: int, error: float, tolerance: float) -> None:
         """Stop if asked to, else report."""
