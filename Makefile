@@ -5,6 +5,7 @@
 #   make test-all   all of the test suite
 #   make lint       style and types
 #   make bench      speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
+#   make validate   every page of validation/ anew, one process at a time, and pictures in PICTURES=validation-pictures
 #   make clean      remove the environment and everything that was built
 #
 # PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes.
@@ -24,7 +25,7 @@ PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS)
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all lint bench clean
+.PHONY: help demo test test-all lint bench validate clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -46,8 +47,16 @@ lint: $(DEV_OK)
 bench: $(DEV_OK)
 	$(BIN)/python benchmarks/run.py $(BENCH)
 
+# Scripts with a page; stops at the end, with an error, if one of them disagrees with what was published.
+PAGES    := $(filter-out validation/README.md,$(sort $(wildcard validation/*.md)))
+PICTURES ?= validation-pictures
+
+validate: $(DEV_OK)
+	@status=0; for page in $(PAGES:.md=.py); do $(ONE_THREAD) $(BIN)/python $$page || status=1; done; \
+	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
+
 clean:
-	rm -rf $(VENV) build dist demo-run .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks .coverage
+	rm -rf $(VENV) build dist demo-run validation-pictures .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks .coverage
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The first interpreter that runs, is new enough and can make environments; names on the PATH may be dead shims.

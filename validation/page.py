@@ -83,7 +83,9 @@ class Page:
 
 
 def write_page(page: Page, script: str) -> None:
-    """Write the page beside its ``script``."""
+    """Write the page beside its ``script``; exit status 1 if it disagrees."""
     path = Path(script).with_suffix(".md")
     path.write_text(page.markdown(), encoding="utf-8")
     print(f"{path.name}: {'agrees' if page.agrees else 'DISAGREES'}")
+    if not page.agrees:
+        raise SystemExit(1)

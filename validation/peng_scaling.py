@@ -95,8 +95,8 @@ class Curve:
 def compare(count: int = 30, stressed: int = 6, pixels: int = PIXELS) -> Page:
     """Exact laws on a surface of ``pixels`` a side; fitted ones on ``count`` surfaces, stresses on the first ``stressed``."""
     exact, exact_claims = _exact(pixels)
-    curves = [_ours(ratio, count, stressed) for ratio in RATIOS]
-    theirs = [_theirs(ratio) for ratio in RATIOS]
+    curves = [curve(ratio, count, stressed) for ratio in RATIOS]
+    theirs = [published(ratio) for ratio in RATIOS]
     parts = (exact, _fitted(curves), _exponents(curves, theirs), _words(curves, theirs, count, stressed))
     return Page("Scaling laws of coated rough surfaces", ABOUT, parts, (*exact_claims, *_claims(curves, theirs)))
 
@@ -142,17 +142,18 @@ def _scaled(factors: Factors, pixels: int) -> tuple[asp.ContactResult, asp.Stres
     return contact, asp.stress(contact, np.array(DEPTHS) * thickness, friction=FRICTION)
 
 
-def _ours(ratio: float, count: int, stressed: int) -> Curve:
+def curve(ratio: float, count: int, stressed: int, values: Sequence[float] = VALUES) -> Curve:
+    """Ours on ``count`` surfaces at the X of ``values``, stresses on the first ``stressed``."""
     shapes = surfaces(count, grid())
     unit = BASE.youngs_modulus * RMS / CORRELATION_LENGTH
     area, peak, root = [], [], []
-    for x in VALUES:
+    for x in values:
         case = Case(ratio, x * RMS / CORRELATION_LENGTH, RMS)
         found = list(contacts(case, shapes, capped=False))
         area.append([one.area_fraction for one in found])
         peak.append([one.max_pressure / unit for one in found])
         root.append([_largest_root(one) / unit for one in found[:stressed]])
-    return Curve(ratio, np.array(VALUES), np.array(area).T, np.array(peak).T, np.array(root).T)
+    return Curve(ratio, np.array(values), np.array(area).T, np.array(peak).T, np.array(root).T)
 
 
 def _largest_root(result: asp.ContactResult) -> float:
@@ -161,12 +162,12 @@ def _largest_root(result: asp.ContactResult) -> float:
     return max(float(field.sqrt_J2.max()) for field in asp.stress_planes(result, depths))
 
 
-def _theirs(ratio: float) -> Curve:
-    """The rows of table 3.1 below the hardness and with enough pixels; no √J2."""
+def published(ratio: float, fewest: int = FEWEST) -> Curve:
+    """The rows of table 3.1 below the hardness with ``fewest`` pixels or more; no √J2."""
     rows = [
         (load * CORRELATION_LENGTH / (rms * 1e-9), area / 100.0, peak * CORRELATION_LENGTH / (rms * 1e-9))
         for found, load, rms, area, peak in PUBLISHED
-        if found == ratio and peak < 0.05 * ratio - ROUNDING and round(area / 100.0 * PIXELS**2) >= FEWEST
+        if found == ratio and peak < 0.05 * ratio - ROUNDING and round(area / 100.0 * PIXELS**2) >= fewest
     ]
     x, area, peak = np.array(sorted(rows)).T
     return Curve(ratio, x, area[None], peak[None], np.full((1, x.size), np.nan))

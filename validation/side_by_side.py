@@ -57,7 +57,9 @@ class Comparison:
 
 
 def write(comparison: Comparison, script: str) -> None:
-    """Write the page beside its ``script``."""
+    """Write the page beside its ``script``; exit status 1 if it disagrees."""
     path = Path(script).with_suffix(".md")
     path.write_text(comparison.markdown(), encoding="utf-8")
     print(f"{path.name}: {'agrees' if comparison.agrees else 'DISAGREES'}")
+    if not comparison.agrees:
+        raise SystemExit(1)
