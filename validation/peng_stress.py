@@ -136,7 +136,7 @@ LEAD = "Stresses over E₂σ/β*, each with its mean depth in nm:"
 TRENDS = """* μ raises the largest √J2, σt and σxz, and lifts the first and the last from 0.3 pixels and more below the surface onto it.
 * The stiff layer has the higher stresses throughout, the compliant one the lower ones.
 * A thin layer (50 nm, less than a pixel) carries a high shear stress at its interface.
-* He says that the largest σt and σxz always are on the surface. For σxz that cannot be so without friction, where it vanishes there (it is 0.3
+* He says that the largest σt and σxz always are on the surface. For σxz that cannot be so without friction, where it vanishes there (it is 0.4
   to 0.7 pixels below). For σt it is so but for the thin stiff layer at μ = 0, which bends under the contacts: its largest tension
   is at its lower side.
 * Pressures do not depend on friction unless the displacement that the shear traction causes is included. Even then, with a rigid counter body
