@@ -135,7 +135,7 @@ def plot_stress_profile(
         ylabel=f"depth ({depth_unit.symbol})",
         ylim=(float(depth_unit(field.depth[-1])) or 1.0, 0.0),
     )
-    ax.legend(loc="best")
+    ax.legend(loc="best", frameon=True, framealpha=0.85, edgecolor="none")  # interfaces run across it
     return ax
 
 
@@ -226,7 +226,7 @@ def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> None:
     parts = list(dict.fromkeys(plane.region for plane in field.planes))
     runs = [list(run) for _, run in groupby(parts, key=lambda region: region.name)]
     for run in runs[1:]:
-        ax.axhline(float(depth_unit(run[0].top)), color=BLACK, linewidth=1.0)
+        ax.axhline(float(depth_unit(run[0].top)), color=BLACK, linewidth=0.8)
     if len(runs) < 2:
         return
     last = field.depth[-1]
