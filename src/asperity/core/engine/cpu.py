@@ -71,15 +71,15 @@ class CpuEngine:
         """Survey of an iterate."""
         flat = p.ravel(), u.ravel(), _read_only(h)
         if cap is None:
-            s = self.blocks.sums(self.blocks.kernels.survey, p.size, 4, *flat)
-            pressure, work, height = (float(v) for v in s[:, :3].sum(axis=0))
-            lowest = float(s[:, 3].min())
-            totals = Totals(pressure, work, height, pressure, work, lowest, -np.inf, lowest)
+            s = self.blocks.sums(self.blocks.kernels.survey, p.size, 3, *flat)
+            pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
+            lowest = float(s[:, 2].min())
+            totals = Totals(pressure, work, pressure, work, lowest, -np.inf, lowest)
         else:
-            s = self.blocks.sums(self.blocks.kernels.survey_capped, p.size, 8, *flat, bound(cap))
-            pressure, work, height, weight, weighted = (float(v) for v in s[:, :5].sum(axis=0))
-            bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
-            totals = Totals(pressure, work, height, weight, weighted, *bounds)
+            s = self.blocks.sums(self.blocks.kernels.survey_capped, p.size, 7, *flat, bound(cap))
+            pressure, work, weight, weighted = (float(v) for v in s[:, :4].sum(axis=0))
+            bounds = float(s[:, 4].min()), float(s[:, 5].max()), float(s[:, 6].min())
+            totals = Totals(pressure, work, weight, weighted, *bounds)
         return CpuSurvey(totals, self.blocks, (p.shape[0], p.shape[1]), *flat, cap)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:

@@ -126,10 +126,10 @@ class ArraySurvey:
 def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
     xp, select, numbers = library.xp, library.select, library.numbers
     r = u - h
-    sums = [xp.sum(p), xp.sum(p * r), xp.sum(p * h), xp.min(r)]
+    sums = [xp.sum(p), xp.sum(p * r), xp.min(r)]
     if cap is None:
-        pressure, work, height, lowest = numbers(sums)
-        return Totals(pressure, work, height, pressure, work, lowest, -math.inf, lowest)
+        pressure, work, lowest = numbers(sums)
+        return Totals(pressure, work, pressure, work, lowest, -math.inf, lowest)
     loaded = p > 0.0
     capped = loaded & (p >= bound(library, cap, p))
     inner = select(~capped, p)
@@ -139,8 +139,8 @@ def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
         xp.sum(inner * r),
         xp.max(select(capped, r, -math.inf)),
     ]
-    pressure, work, height, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
-    return Totals(pressure, work, height, weight, weighted, lowest, highest_capped, lowest_open)
+    pressure, work, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
+    return Totals(pressure, work, weight, weighted, lowest, highest_capped, lowest_open)
 
 
 class _Convolution:

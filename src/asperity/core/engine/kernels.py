@@ -32,34 +32,29 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 @compiled
 def survey(span, p, u, h, sums):  # type: ignore[no-untyped-def]
-    """Without a cap, per block: sum p, sum p·r, sum p·h, min r. No branches: it vectorises."""
+    """Without a cap, per block: sum p, sum p·r, min r. No branches: it vectorises."""
     for b in range(span[0], span[1]):
         total = 0.0
         pr = 0.0
-        ph = 0.0
         lowest = np.inf
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             pi = np.float64(p[i])
-            hi = np.float64(h[i])
-            ri = u[i] - hi
+            ri = u[i] - np.float64(h[i])
             lowest = min(lowest, ri)
             total += pi
             pr += pi * ri
-            ph += pi * hi
         sums[b, 0] = total
         sums[b, 1] = pr
-        sums[b, 2] = ph
-        sums[b, 3] = lowest
+        sums[b, 2] = lowest
 
 
 @compiled
 def survey_capped(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
-    """Per block: sum p, sum p·r, sum p·h, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level."""
+    """Per block: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level."""
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
     for b in range(span[0], span[1]):
         total = 0.0
         pr = 0.0
-        ph = 0.0
         weight = 0.0
         weighted = 0.0
         lowest = np.inf
@@ -72,7 +67,6 @@ def survey_capped(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
             if pi > 0.0:
                 total += pi
                 pr += pi * ri
-                ph += pi * h[i]
                 if pi >= cap[i * each]:
                     highest_capped = max(highest_capped, ri)
                 else:
@@ -82,12 +76,11 @@ def survey_capped(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
                 lowest_open = min(lowest_open, ri)
         sums[b, 0] = total
         sums[b, 1] = pr
-        sums[b, 2] = ph
-        sums[b, 3] = weight
-        sums[b, 4] = weighted
-        sums[b, 5] = lowest
-        sums[b, 6] = highest_capped
-        sums[b, 7] = lowest_open
+        sums[b, 2] = weight
+        sums[b, 3] = weighted
+        sums[b, 4] = lowest
+        sums[b, 5] = highest_capped
+        sums[b, 6] = lowest_open
 
 
 @compiled

@@ -16,7 +16,7 @@ NEAR_CAP = 1.0 - 1e-14
 
 @dataclass(frozen=True)
 class Totals:
-    """Sums over one iterate, with r = u - h: p; p·r; p·h; p and p·r strictly between the bounds; and bounds of the level.
+    """Sums over one iterate, with r = u - h: p; p·r; p and p·r strictly between the bounds; and bounds of the level.
 
     ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf);
     without a cap, where it matters only if nothing is loaded, min r.
@@ -24,7 +24,6 @@ class Totals:
 
     pressure: float
     work: float
-    height: float
     weight: float
     weighted: float
     lowest: float
