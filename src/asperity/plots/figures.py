@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from ..contact.result import ContactResult
-from ..core.errors import OutputError
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .histogram import plot_gap_histogram, plot_pressure_histogram
 from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
-from .picture import CURVE_SIZE, map_size, png
+from .picture import CURVE_SIZE, map_size, png, save_pictures
 from .section import plot_section
 
 if TYPE_CHECKING:
@@ -90,16 +89,7 @@ def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = F
     OutputError
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    place = Path(folder)
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"folder of the plots {place} cannot be made: {error.strerror}; choose another.") from error
-    paths = tuple(place / f"{plot.name}.png" for plot in PLOTS)
-    for plot, path in zip(PLOTS, paths, strict=True):
-        with atomic_file(path, overwrite=overwrite) as file:
-            file.write_bytes(render(plot, result))
-    return paths
+    return save_pictures({plot.name: partial(render, plot, result) for plot in PLOTS}, folder, overwrite=overwrite)
 
 
 def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..core.errors import OutputError
 from ..core.grid import Grid
+from ..io.atomic import atomic_file
 from .maps import SLENDER
 from .style import DPI, style
 
@@ -45,3 +48,25 @@ def map_size(grid: Grid) -> tuple[float, float]:
         return CURVE_SIZE
     longer = MAP_SIZE * (1.5 if ratio > 2.0 else 1.0) / 0.775  # 0.775 is the share of the figure that the axes take
     return (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)
+
+
+def save_pictures(
+    pictures: Mapping[str, Callable[[], bytes]], folder: str | Path, *, overwrite: bool = False
+) -> tuple[Path, ...]:
+    """Write ``pictures``, made one after the other, under their names as PNG into ``folder`` (made if missing).
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    place = Path(folder)
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"folder of the plots {place} cannot be made: {error.strerror}; choose another.") from error
+    paths = tuple(place / f"{name}.png" for name in pictures)
+    for make, path in zip(pictures.values(), paths, strict=True):
+        with atomic_file(path, overwrite=overwrite) as file:
+            file.write_bytes(make())
+    return paths

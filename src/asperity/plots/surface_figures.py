@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from ..core.errors import OutputError
 from ..core.grid import Grid
-from ..io.atomic import atomic_file
 from ..surfaces.characterise.summary import Characterisation
 from .maps import plot_heights
-from .picture import CURVE_SIZE, map_size, png
+from .picture import CURVE_SIZE, map_size, png, save_pictures
 from .spectrum import plot_scale_dependence, plot_spectrum
 from .surface_curves import plot_autocorrelation, plot_height_distribution, plot_material_ratio
 from .surface_view import plot_summits, plot_surface_view
@@ -104,16 +103,9 @@ def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwri
     OutputError
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    place = Path(folder)
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"folder of the plots {place} cannot be made: {error.strerror}; choose another.") from error
-    paths = tuple(place / f"{plot.name}.png" for plot in SURFACE_PLOTS)
-    for plot, path in zip(SURFACE_PLOTS, paths, strict=True):
-        with atomic_file(path, overwrite=overwrite) as file:
-            file.write_bytes(render_surface_plot(plot, found))
-    return paths
+    return save_pictures(
+        {plot.name: partial(render_surface_plot, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite
+    )
 
 
 def _size(kind: str, grid: Grid) -> tuple[float, float]:
