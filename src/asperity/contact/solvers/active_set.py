@@ -114,7 +114,7 @@ class ActiveSet:
         face = memory.survey.face(level, qp.height_scale, tools.dtype)
         r, last = face.residual(centred=centred), _carried(memory, face)
         effort = self._effort(memory, face, state.error)
-        d, pairs, last, _ = correction(tools, face, face.residual(centred=centred), last, effort, centred=centred)
+        d, pairs, last, _ = correction(tools, face, face.copied(r), last, effort, centred=centred)
         spent = replace(state, iterations=state.iterations + 1, extra_pairs=state.extra_pairs + pairs)
         if d is None:
             work.engine.release(face, tools.field)

@@ -50,7 +50,11 @@ class CpuFace:
         """Residual vector."""
         if centred and self.size:
             self.start[...] -= self.start.mean(dtype=np.float64)
-        return self.start.copy()
+        return self.start
+
+    def copied(self, vector: RealArray) -> RealArray:
+        """Copy of ``vector``."""
+        return vector.copy()
 
     def zeros(self) -> RealArray:
         """Vector of zeros."""

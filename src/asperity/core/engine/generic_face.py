@@ -26,6 +26,10 @@ class ArrayFace:
         mean = self.library.numbers([self._sum(self.start)])[0] / self.size
         return self.library.select(self.inside, self.start - mean)
 
+    def copied(self, vector: Any) -> Any:
+        """``vector``, which nothing changes in place."""
+        return vector
+
     def zeros(self) -> Any:
         """Vector of zeros."""
         return self.library.xp.zeros_like(self.start)

@@ -99,7 +99,10 @@ class Face(Protocol):
         """Number of points that enter from a bound."""
 
     def residual(self, *, centred: bool) -> Any:
-        """New vector (level - r) / scale, freed of its mean if ``centred``."""
+        """Vector (level - r) / scale, freed of its mean if ``centred``."""
+
+    def copied(self, vector: Any) -> Any:
+        """Copy of ``vector`` that may be overwritten."""
 
     def zeros(self) -> Any:
         """Vector of zeros."""
