@@ -10,6 +10,7 @@ REFERENCES = {
     "Ausloos1985": "Ausloos, M., Berman, D. H. (1985). A multivariate Weierstrass-Mandelbrot function. Proceedings of the Royal Society A 400, 331-350.",
     "Bemporad2015": "Bemporad, A., Paggi, M. (2015). Optimization algorithms for the solution of the frictionless normal contact between rough surfaces. International Journal of Solids and Structures 69-70, 94-105.",
     "Bertsekas1976": "Bertsekas, D. P. (1976). On the Goldstein-Levitin-Polyak gradient projection method. IEEE Transactions on Automatic Control 21, 174-184.",
+    "Bhattacharya1988": "Bhattacharya, A. K., Nix, W. D. (1988). Analysis of elastic and plastic deformation associated with indentation testing of thin films on substrates. International Journal of Solids and Structures 24, 1287-1298.",
     "Bhushan1998": "Bhushan, B. (1998). Contact mechanics of rough surfaces in tribology: multiple asperity contact. Tribology Letters 4, 1-35.",
     "Boussinesq1885": "Boussinesq, J. (1885). Application des potentiels a l'etude de l'equilibre et du mouvement des solides elastiques. Gauthier-Villars, Paris.",
     "Burmister1945": "Burmister, D. M. (1945). The general theory of stresses and displacements in layered systems. I. Journal of Applied Physics 16, 89-94.",
