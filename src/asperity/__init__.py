@@ -10,6 +10,7 @@ from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
+from .contact.roughness import roughness_of
 from .contact.sliding import SlidingResult, solve_sliding
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
@@ -66,6 +67,7 @@ from .surfaces.prepare.tip import reliability_cutoff, tip_limited
 from .surfaces.prepare.window import periodised, tapered
 from .surfaces.read import channels, read
 from .surfaces.surface import Surface
+from .theories.roughness import Roughness
 
 __version__ = "0.1.0"
 
@@ -110,6 +112,7 @@ __all__ = [
     "PowerGrading",
     "Rigid",
     "RigidBase",
+    "Roughness",
     "Section",
     "ShearTraction",
     "Sliding",
@@ -160,6 +163,7 @@ __all__ = [
     "rms_height",
     "rms_slope",
     "roughness",
+    "roughness_of",
     "save",
     "save_endless",
     "save_plots",

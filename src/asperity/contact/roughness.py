@@ -1,0 +1,84 @@
+"""The numbers of a surface that theories of rough contact are built from, measured on a map."""
+
+from __future__ import annotations
+
+import math
+
+from ..core import require
+from ..surfaces.characterise.heights import deviations, height_parameters
+from ..surfaces.characterise.moments import difference_moments, spectral_moments
+from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, radial_spectrum
+from ..surfaces.characterise.summits import summits
+from ..surfaces.prepare.fill import filled
+from ..surfaces.surface import Surface
+from ..theories.roughness import MomentTensor, Roughness, Spectrum, SummitList
+
+MOMENTS = ("auto", "spectrum", "differences")
+"""Where the moments can come from."""
+
+
+def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8) -> Roughness:
+    """Measure on ``surface`` what theories of rough contact need: moments, spectrum, summits, heights.
+
+    Nothing is levelled or filtered: prepare the surface first. Missing points are filled for the spectrum.
+
+    Parameters
+    ----------
+    surface
+        Heights positive out of the solid, facing the counter body. For two rough bodies give their ``composite``.
+    moments
+        ``"spectrum"``: sums over the modes, those of the trigonometric interpolation of a periodic map;
+        ``"differences"``: finite differences, which see the map as its pixels do; ``"auto"``: the first for a periodic
+        map, the second for a measured one, whose spectrum bears the traces of its window.
+    neighbours
+        4 or 8, how many neighbours a summit exceeds.
+
+    Raises
+    ------
+    InputError
+        If a choice is unknown, or the surface is flat or too small for second differences.
+    """
+    require.one_of(moments, MOMENTS, "source of the moments")
+    spectrum = power_spectrum(filled(surface) if surface.n_missing else surface)
+    from_spectrum = moments == "spectrum" or (moments == "auto" and surface.periodic)
+    m0, m2, m4, tensor = _from_spectrum(spectrum) if from_spectrum else _from_differences(surface)
+    radial = radial_spectrum(spectrum)
+    shape = height_parameters(surface)
+    return Roughness(
+        m0,
+        m2,
+        m4,
+        area=math.prod(surface.size),
+        moments=tensor,
+        spectrum=Spectrum(radial.q, radial.psd),
+        summits=_summit_list(surface, neighbours),
+        heights=deviations(surface),
+        skewness=shape.Ssk,
+        kurtosis=shape.Sku,
+    )
+
+
+def _from_spectrum(spectrum: PowerSpectrum) -> tuple[float, float, float, MomentTensor]:
+    found = spectral_moments(spectrum)
+    tensor = MomentTensor(found.m20, found.m11, found.m02, found.m40, found.m31, found.m22, found.m13, found.m04)
+    return found.m0, found.m2, found.m4, tensor
+
+
+def _from_differences(surface: Surface) -> tuple[float, float, float, MomentTensor]:
+    found = difference_moments(surface)
+    slopes = found.slope_tensor
+    return found.m0, found.m2, found.m4, MomentTensor(slopes.xx, slopes.xy, slopes.yy, m40=found.m4_x, m04=found.m4_y)
+
+
+def _summit_list(surface: Surface, neighbours: int) -> SummitList | None:
+    found = summits(surface, neighbours)
+    if found.count == 0:
+        return None
+    return SummitList(
+        x=found.i * surface.dx,
+        y=found.j * surface.dy,
+        height=found.height,
+        curvature=found.curvature,
+        area=found.candidate_area,
+        period=surface.size if surface.periodic else None,
+    )

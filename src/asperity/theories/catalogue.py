@@ -1,0 +1,22 @@
+"""All theories by name. A new theory is one more line."""
+
+from __future__ import annotations
+
+from ..core import require
+from .protocol import Described
+
+_CLASSES: tuple[type[Described], ...] = ()
+
+THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}
+"""Class of each theory by its name."""
+
+
+def theory(name: str) -> type[Described]:
+    """Class of the theory called ``name``.
+
+    Raises
+    ------
+    InputError
+        If there is no such theory.
+    """
+    return THEORIES[require.one_of(name, THEORIES, "name of a theory")]
