@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from ..contact.solvers.protocol import Solver
     from ..io.build import Case
     from ..io.documents import ProblemDocument
-    from ..io.stress_request import StressRequest
-    from ..io.stress_survey import StressSurvey
+    from ..stress.request import StressRequest
+    from ..stress.survey import StressSurvey
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 """What a run leaves in its folder."""

@@ -11,10 +11,10 @@ from .options import OutputOptions
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..io.build import Case
-    from ..io.stress_survey import StressSurvey
     from ..plots.stress_figures import Figure
     from ..report.stress import StressPart
     from ..stress.field import StressField
+    from ..stress.survey import StressSurvey
 
 FOLDER, TABLE = "stress", "stress.csv"
 """Names in the folder of a run: the fields, and the table of the largest stresses."""
@@ -22,7 +22,7 @@ FOLDER, TABLE = "stress", "stress.csv"
 
 def surveyed(case: Case, result: ContactResult, *, lines: bool) -> StressSurvey | None:
     """Stresses that ``case`` asks for, without sections and profiles unless these ``lines`` are wanted."""
-    from ..io.stress_survey import survey
+    from ..stress.survey import survey
     from .interrupt import interruptible
     from .progress import shown_planes
 

@@ -17,12 +17,12 @@ from ..core import units
 from ..core.errors import InputError
 from ..solids.body import Body, surface_material
 from ..solids.layers import Layered
+from ..stress.request import StressRequest
 from .build_body import build_body
-from .build_stress import build_stress
+from .build_stress import build_stress, check_stress
 from .build_surface import build_surfaces
 from .schemas.problem import BoundaryTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
 from .schemas.values import FROM_BODY
-from .stress_request import StressRequest
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     solver = build_solver(document.solver, problem)
     stress = None if document.stress is None else build_stress(document.stress)
     if stress is not None:
-        stress.check(problem)
+        check_stress(stress, problem)
     return Case(problem, build_control(document.control), solver, document.solver.threads, stress)
 
 

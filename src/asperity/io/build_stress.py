@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from ..contact.problem import ContactProblem
 from ..core import units
+from ..core.errors import InputError
+from ..solids.elastic import Rigid
 from ..stress.criteria import Tresca, VonMises
+from ..stress.request import Place, Strengths, StressRequest, WantedProfile, WantedSection
 from .quantities import si_values
 from .schemas.stress import StressTable
 from .schemas.values import PLACES
-from .stress_request import Place, Strengths, StressRequest, WantedProfile, WantedSection
 
 
 def build_stress(table: StressTable) -> StressRequest:
@@ -33,6 +36,23 @@ def build_stress(table: StressTable) -> StressRequest:
         strengths=Strengths(**strengths),
         dtype="float32" if table.precision == "single" else "float64",
     )
+
+
+def check_stress(request: StressRequest, problem: ContactProblem) -> None:
+    """Refuse what ``problem`` has no stress for, before it is solved, in the words of documents and options.
+
+    Raises
+    ------
+    InputError
+        As of ``StressRequest.check``.
+    """
+    if isinstance(getattr(problem, request.of), Rigid):
+        asked, other = ("counter body", "body") if request.of == "counter_body" else ("body", "counter_body")
+        raise InputError(
+            f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body "
+            f'(inside = "{other}" in a document, or --stress-in {other.removesuffix("_body")}).'
+        )
+    request.check(problem)
 
 
 def _place(text: str | None) -> Place:

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..stress.field import Peak
+from ..stress.survey import StressSurvey
 from .atomic import atomic_file
-from .stress_survey import StressSurvey
 
 HEADINGS = ("part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side")
 """Columns; lengths in m, stresses in Pa, x and y those of nodes."""

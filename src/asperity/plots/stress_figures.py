@@ -10,8 +10,8 @@ import numpy as np
 
 from ..core.grid import Grid
 from ..core.units import show
-from ..io.stress_survey import StressSurvey, SurveyedSection
 from ..stress.field import StressField
+from ..stress.survey import StressSurvey, SurveyedSection
 from .picture import CURVE_SIZE, map_size, png
 from .stress import QUANTITIES, plot_stress_map, plot_stress_profile, plot_stress_section
 

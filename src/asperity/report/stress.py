@@ -9,12 +9,12 @@ from itertools import groupby
 from typing import Any, TypeVar
 
 from ..core.units import show
-from ..io.stress_maxima import RegionMaxima
-from ..io.stress_survey import StressSurvey
 from ..plots.stress_figures import Figure
 from ..stress.criteria import TABOR
 from ..stress.field import Peak
+from ..stress.maxima import RegionMaxima
 from ..stress.regions import Region
+from ..stress.survey import StressSurvey
 from ..stress.yielding import RegionYield
 from .inputs import Rows
 

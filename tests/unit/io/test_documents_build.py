@@ -43,7 +43,7 @@ from asperity.io.build_generated import FUNCTIONS, build_spectrum
 from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
 from asperity.io.schemas.surfaces import RandomSurface, Shape
-from asperity.io.stress_request import StressRequest, WantedProfile, WantedSection
+from asperity.stress.request import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}

@@ -11,8 +11,6 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.io.stress_request import Strengths, StressRequest
-from asperity.io.stress_survey import StressSurvey, survey
 from asperity.plots.stress_figures import line_figures
 from asperity.report import write_report
 from asperity.report.stress import (
@@ -26,6 +24,8 @@ from asperity.report.stress import (
     yield_sentence,
     yield_table,
 )
+from asperity.stress.request import Strengths, StressRequest
+from asperity.stress.survey import StressSurvey, survey
 
 FILM = asp.Elastic(200e9, 0.25, asp.Strength(hardness=14e9), name="film")
 BASE = asp.Elastic(100e9, 0.3, name="base")

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +12,10 @@ from reference_data import reference
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
-from asperity.io.stress_request import Strengths, StressRequest, WantedProfile, WantedSection
-from asperity.io.stress_survey import RATIO, line_depths, survey, survey_depths
-from asperity.io.stress_table import HEADINGS, export_stress_csv
 from asperity.stress.invariants import sqrt_J2
+from asperity.stress.request import StressRequest, WantedProfile, WantedSection
+from asperity.stress.survey import survey
+from asperity.stress.survey_depths import RATIO, line_depths, survey_depths
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
 SOFT = asp.Elastic(0.5, 0.4, name="soft")
@@ -293,22 +291,3 @@ def test_section_of_one_point_is_refused() -> None:
     with pytest.raises(asp.InputError, match="stress section must hold more than one point"):
         StressRequest(sections=(WantedSection("x", "max"),)).check(problem)
     StressRequest().check(problem)
-
-
-def test_table_of_maxima(coated: asp.ContactResult, tmp_path: Path) -> None:
-    found = survey(replace(SLIDING, strengths=Strengths(tensile=1.0)), coated)
-    export_stress_csv(found, tmp_path / "s.csv")
-    with (tmp_path / "s.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    assert tuple(rows[0]) == HEADINGS
-    values = {(row["name"], row["quantity"]): row for row in rows}
-    for part in found.maxima:
-        assert float(values[part.region.name, "max_von_mises"]["value"]) == part.von_mises.value
-        assert float(values[part.region.name, "max_sqrt_J2"]["value"]) == pytest.approx(part.von_mises.value / 3.0**0.5)
-        assert float(values[part.region.name, "max_principal"]["depth"]) == part.tension.depth
-    assert float(values["film/soft", "max_shear"]["value"]) == found.interfaces[0].shear.value
-    assert values["base", "max_shear"]["bottom"] == "inf"
-    assert values["soft", "load_factor_to_yield"]["value"] == "nan"
-    assert values["film", "yielded_volume"]["unit"] == "m**3"
-    with pytest.raises(asp.OutputError):
-        export_stress_csv(found, tmp_path / "s.csv")

@@ -4,22 +4,35 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
-from ..contact.problem import ContactProblem
 from ..core import units
+from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..solids.elastic import Rigid
-from ..stress.criteria import Criterion, VonMises
-from ..stress.mean_mode import require_held
-from ..stress.regions import planes
-from ..stress.tractions import Sliding, Tractions
+from .compute import Loaded
+from .criteria import Criterion, VonMises
+from .mean_mode import require_held
+from .regions import planes
+from .tractions import Sliding, Tractions
 
 Place: TypeAlias = float | Literal["max", "pressure"]
 """Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
+
+
+class Contact(Loaded, Protocol):
+    """What a survey needs of a contact result beside its pressure and problem."""
+
+    @property
+    def spot_areas(self) -> RealArray:
+        """Areas of the contact spots in m², in any order."""
+
+    @property
+    def plastic(self) -> BoolArray:
+        """(nx, ny), True where the pressure is at its limit."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +62,7 @@ class Strengths:
 
 @dataclass(frozen=True)
 class StressRequest:
-    """Stresses that a document asks for, all values SI.
+    """Stresses that are asked for, all values SI.
 
     Attributes
     ----------
@@ -86,7 +99,7 @@ class StressRequest:
         """Keys of the papers on the coupling of shear and pressure, where that is asked for."""
         return ("Dundurs1969",) if self.coupled else ()
 
-    def check(self, problem: ContactProblem) -> None:
+    def check(self, problem: Any) -> None:
         """Refuse what ``problem`` has no stress for, before it is solved.
 
         Raises
@@ -97,10 +110,9 @@ class StressRequest:
         """
         body, grid = getattr(problem, self.of), problem.grid
         if isinstance(body, Rigid):
-            asked, option = ("counter body", "body") if self.of == "counter_body" else ("body", "counter")
+            asked = self.of.replace("_", " ")
             raise InputError(
-                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body "
-                f'(inside = "{option.replace("counter", "counter_body")}" in a document, or --stress-in {option}).'
+                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body."
             )
         planes(body, self.depths or (0.0,))
         boundary: Any = problem.boundary.name
