@@ -47,6 +47,22 @@ def _deviator(part, used, J2, mean, r):  # type: ignore[no-untyped-def]
 
 
 @_compiled
+def _tractions(part, used, work, out):  # type: ignore[no-untyped-def]
+    """Largest |σxz|, |σyz|, magnitude of both, and σzz."""
+    zz, xz, yz = part
+    for k in range(used):
+        work[k] = abs(xz[k])
+    out[0] = _largest(work, used)
+    for k in range(used):
+        work[k] = abs(yz[k])
+    out[1] = _largest(work, used)
+    for k in range(used):
+        work[k] = xz[k] * xz[k] + yz[k] * yz[k]
+    out[2] = np.sqrt(_largest(work, used))
+    out[3] = _largest(zz, used)
+
+
+@_compiled
 def block_bounds(span, components, out):  # type: ignore[no-untyped-def]
     """Largest of each of ``BOUNDS`` in every block of the flat ``components`` xx, yy, zz, xy, xz, yz; ``out`` (blocks, 8)."""
     copied, J2, mean, r, work = np.empty((6, BLOCK)), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
@@ -70,13 +86,4 @@ def block_bounds(span, components, out):  # type: ignore[no-untyped-def]
             half = 0.5 * (xx[k] - yy[k])
             work[k] = 0.5 * (xx[k] + yy[k]) + np.sqrt(half * half + xy[k] * xy[k])
         out[block, 3] = _largest(work, used)
-        for k in range(used):
-            work[k] = xz[k] * xz[k] + yz[k] * yz[k]
-        out[block, 6] = np.sqrt(_largest(work, used))
-        for k in range(used):
-            work[k] = abs(xz[k])
-        out[block, 4] = _largest(work, used)
-        for k in range(used):
-            work[k] = abs(yz[k])
-        out[block, 5] = _largest(work, used)
-        out[block, 7] = _largest(zz, used)
+        _tractions((zz, xz, yz), used, work, out[block, 4:])

@@ -83,9 +83,8 @@ def survey(
     depths = survey_depths(request, result)
     maxima = Maxima(threads)
     shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
-    tracked = _Tracked(
-        progress, sum(len(planes(getattr(result.problem, request.of), d)) for d in (depths, shown) if d.size)
-    )
+    body = getattr(result.problem, request.of)
+    tracked = _Tracked(progress, sum(len(planes(body, d)) for d in (depths, shown) if d.size))
     found = tracked.planes(_planes(request, result, depths, threads))
     report = first_yield(maxima.watching(found), request.criterion)
     wanted = wanted_lines(request, result, maxima.drawn) if shown.size else {}
