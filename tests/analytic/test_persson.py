@@ -1,0 +1,180 @@
+"""Persson's theory against high-precision quadrature, its limits, and its diffusion equation solved numerically."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from reference_data import reference
+from scipy.integrate import quad
+
+from asperity.core.errors import InputError, NoSolutionError
+from asperity.theories.isotropic_spectrum import IsotropicSpectrum
+from asperity.theories.persson import LOW_LOAD_SLOPE, Persson
+from asperity.theories.persson_diffusion import diffused_pressure
+from asperity.theories.persson_gap import PerssonGap
+
+MODULUS = 2.0
+NORMALISED = Persson(MODULUS, 0.5)  # E* h' = 1: pressures are in units of it
+SETS = {row["set"]: row for row in reference("persson_psd_sets")}
+
+
+def spectrum(name: str) -> IsotropicSpectrum:
+    row = SETS[name]
+    bends = [row["qL_per_m"], row["q0_per_m"], row["q1_per_m"]]
+    levels = [1.0, 1.0, (row["q1_per_m"] / row["q0_per_m"]) ** (-2.0 - 2.0 * row["H"])]
+    if bends[0] == bends[1]:
+        bends, levels = bends[1:], levels[1:]
+    # the reference has <h²> = 2π ∫ q C dq
+    return IsotropicSpectrum(bends, (2.0 * math.pi) ** 2 * row["C0_m4"] * np.array(levels))
+
+
+@pytest.mark.parametrize("row", reference("persson_area"), ids=lambda row: f"{row['p_over_Estar_hrms']:g}")
+def test_area(row):
+    p = row["p_over_Estar_hrms"]
+    assert float(NORMALISED.area_fraction(p)) == pytest.approx(row["area_fraction"], rel=1e-13)
+    assert float(NORMALISED.area_fraction(p)) / p == pytest.approx(row["kappa"], rel=1e-13)
+    assert float(NORMALISED.mean_real_pressure(p)) == pytest.approx(p / row["area_fraction"], rel=1e-13)
+    if row["area_fraction"] < 0.999:  # the inverse of erf loses what 1 - A has lost
+        assert NORMALISED.pressure_at(row["area_fraction"]) == pytest.approx(p, rel=1e-10)
+
+
+@pytest.mark.parametrize("row", reference("persson_pressure_pdf"))
+def test_distribution_of_pressure(row):
+    nominal, local = row["p0_over_Estar_hrms"], row["p_over_Estar_hrms"]
+    density = float(NORMALISED.pressure_density(local, nominal))
+    assert density == pytest.approx(row["pdf_times_Estar_hrms"], rel=1e-12)
+    above = float(NORMALISED.area_fraction_above(local, nominal))
+    # a difference of two numbers below one
+    assert above == pytest.approx(row["area_fraction_above"], rel=1e-12, abs=1e-15)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_moments_of_a_tabulated_spectrum(name):
+    row, found = SETS[name], spectrum(name)
+    for value, column in zip(found.profile_moments, ("m0_m2", "m2", "m4_per_m2"), strict=True):
+        assert value == pytest.approx(row[column], rel=1e-12)
+    assert found.rms_height == pytest.approx(row["h_rms_m"], rel=1e-12)
+    assert found.rms_slope == pytest.approx(row["h_rms_slope"], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_low_load_law_of_the_gap(name):
+    row, found = SETS[name], spectrum(name)
+    original = PerssonGap(MODULUS, found, gamma=1.0)
+    assert original.decay_length == pytest.approx(row["u0_gamma1_m"], rel=1e-9)
+    assert PerssonGap(MODULUS, found).decay_length == pytest.approx(row["u0_gamma045_m"], rel=1e-9)
+    assert original.prefactor == pytest.approx(row["beta_gamma1"], rel=1e-9)
+
+
+@pytest.mark.parametrize("row", reference("persson_area_gap"), ids=lambda row: f"{row['set']}-{row['p_over_Estar']:g}")
+def test_gap_and_stiffness(row):
+    """The reference states 2e-8 for the gap and 1e-9 for the rest; gaps near full contact vanish, hence absolute too."""
+    found, p = spectrum(row["set"]), MODULUS * row["p_over_Estar"]
+    area = float(Persson(MODULUS, found.rms_slope).area_fraction(p))
+    assert area == pytest.approx(row["area_fraction"], rel=1e-9)
+    for gamma, name in ((1.0, "gamma1"), (0.45, "gamma045")):
+        theory = PerssonGap(MODULUS, found, gamma=gamma)
+        assert float(theory.mean_gap(p)) == pytest.approx(row[f"mean_gap_{name}_m"], rel=3e-8)
+        assert float(theory.stiffness(p)) / MODULUS == pytest.approx(
+            row[f"stiffness_over_Estar_{name}_per_m"], rel=2e-9
+        )
+
+
+def test_slope_of_the_area_at_vanishing_load():
+    p = 1e-9
+    assert float(NORMALISED.area_fraction(p)) / p == pytest.approx(LOW_LOAD_SLOPE, rel=1e-15)
+    assert pytest.approx(1.5957691216, rel=1e-10) == LOW_LOAD_SLOPE
+
+
+@given(nominal=st.floats(1e-4, 3.0))
+def test_the_density_gives_area_and_load(nominal):
+    edges = [nominal, 0.5]
+    area = quad(lambda p: float(NORMALISED.pressure_density(p, nominal)), 0.0, nominal + 5.0, points=edges)[0]
+    load = quad(lambda p: p * float(NORMALISED.pressure_density(p, nominal)), 0.0, nominal + 5.0, points=edges)[0]
+    assert area == pytest.approx(float(NORMALISED.area_fraction(nominal)), rel=1e-7)
+    assert load == pytest.approx(nominal, rel=1e-7)
+
+
+@given(log_p=st.floats(-8.0, 0.0), gamma=st.sampled_from([0.45, 1.0]))
+def test_stiffness_is_the_slope_of_the_gap(log_p, gamma):
+    theory = PerssonGap(1.0, spectrum("B"), gamma=gamma)
+    p = 10.0**log_p * theory.spectrum.rms_slope
+    step = 1e-3
+    rise = theory.mean_gap(np.array([p * (1.0 - step), p * (1.0 + step)]))
+    # central difference: relative error step² f'''/6f'
+    assert 2.0 * step * p / (rise[0] - rise[1]) == pytest.approx(float(theory.stiffness(p)), rel=1e-4)
+
+
+@pytest.mark.parametrize("gamma", [0.45, 1.0])
+def test_the_gap_falls_exponentially_at_low_load(gamma):
+    theory = PerssonGap(MODULUS, spectrum("A"), gamma=gamma)
+    p = 1e-6 * MODULUS * theory.spectrum.rms_slope
+    expected = -theory.decay_length * math.log(p / (theory.prefactor * MODULUS))
+    # w has a square-root pole at q_L: waves with w p/E* > 1 hold a share p/E* (C q_L⁴/4π)^(-1/2) of the integral
+    waves = theory.spectrum
+    left_out = p / MODULUS / math.sqrt(waves.psd[0] * waves.wavenumber[0] ** 4 / (4.0 * math.pi))
+    assert left_out < 2e-4
+    assert float(theory.mean_gap(p)) == pytest.approx(expected, rel=left_out)
+    assert float(theory.stiffness(p)) == pytest.approx(p / theory.decay_length, rel=left_out)
+    assert theory.pressure_at(float(theory.mean_gap(p))) == pytest.approx(p, rel=1e-9)
+
+
+def test_the_table_may_be_as_fine_as_one_likes():
+    coarse = spectrum("A")
+    spans = np.unique(np.concatenate([np.linspace(0.0, coarse.span[-1], 80), coarse.span]))
+    fine = IsotropicSpectrum(coarse.wavenumber[0] * np.exp(spans), coarse.at(spans))
+    p = 0.01 * fine.rms_slope
+    assert float(PerssonGap(1.0, fine).mean_gap(p)) == pytest.approx(
+        float(PerssonGap(1.0, coarse).mean_gap(p)), rel=1e-9
+    )
+
+
+def test_diffusion_solved_numerically_agrees_with_the_closed_form():
+    """Second order in both steps: halving them divides the error of the density by four, and it is small."""
+    waves = spectrum("A")
+    nominal = 0.1 * MODULUS * waves.rms_slope
+    errors = []
+    for points, steps in ((400, 50), (800, 100)):
+        history = diffused_pressure(waves, MODULUS, nominal, points=points, steps=steps)
+        closed = Persson(MODULUS, waves.rms_slope)
+        exact = closed.pressure_density(history.pressure, nominal)
+        errors.append(np.abs(history.density[-1] - exact).max() / exact.max())
+        assert history.area_fraction[-1] == pytest.approx(float(closed.area_fraction(nominal)), rel=2.0 * errors[-1])
+        # the load is conserved but for what is lost at the far end, exp(-32)
+        np.testing.assert_allclose(history.mean_pressure, nominal, rtol=1e-10)
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15)
+
+
+def test_diffusion_follows_the_magnification():
+    """At every wavenumber on the way the area is that of the spectrum cut there."""
+    waves = spectrum("F")
+    nominal = 0.2 * MODULUS * waves.rms_slope
+    history = diffused_pressure(waves, MODULUS, nominal)
+    assert history.area_fraction[0] == pytest.approx(1.0, rel=1e-12)
+    for number in (50, 100, 150):
+        span = np.log(history.wavenumber[number] / waves.wavenumber[0])
+        slope = math.sqrt(float(waves.partial_moment(3, np.array([span]))[0]) / (2.0 * math.pi))
+        cut = float(Persson(MODULUS, slope).area_fraction(nominal))
+        assert history.area_fraction[number] == pytest.approx(cut, rel=1e-4)
+
+
+def test_inputs_out_of_range_are_refused():
+    with pytest.raises(InputError, match="rms slope must be greater than zero"):
+        Persson(1e9, 0.0)
+    with pytest.raises(InputError, match="ascend"):
+        IsotropicSpectrum([2.0, 1.0], [1.0, 1.0])
+    with pytest.raises(InputError, match="leave out empty bands"):
+        IsotropicSpectrum([1.0, 2.0], [1.0, 0.0])
+    with pytest.raises(InputError, match="two wavenumbers or more"):
+        IsotropicSpectrum([1.0], [1.0])
+    with pytest.raises(InputError, match="without load the gap has no bound"):
+        PerssonGap(1e9, spectrum("A")).mean_gap(0.0)
+    with pytest.raises(NoSolutionError, match="mean real pressure"):
+        NORMALISED.mean_real_pressure(0.0)
+    with pytest.raises(NoSolutionError, match="decay lengths"):
+        PerssonGap(1e9, spectrum("A")).pressure_at(1.0)
