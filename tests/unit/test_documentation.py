@@ -106,6 +106,14 @@ def test_the_examples_of_preparation(scan, capsys):
     assert len(loads(table + rest).surface.prepare) == 6
 
 
+def test_the_examples_of_scaling_theories(capsys):
+    names = {}
+    for number, code in enumerate(blocks(ROOT / "docs/theory/scaling-theories.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert 0.0 < names["curve"].area_fraction[0] < names["curve"].area_fraction[1] < 1.0
+    assert len(capsys.readouterr().out.splitlines()) == 2
+
+
 def commands(path: Path) -> list[str]:
     """Commands `asperity contact` on a scan, without their comments."""
     lines = [line.strip() for block in blocks(path, "console") for line in block.splitlines()]

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 
 from ..core import require
+from ..core.errors import InputError
+from ..surfaces.characterise.fractal import fractal_parameters
 from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import difference_moments, spectral_moments
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
 from ..surfaces.prepare.fill import filled
 from ..surfaces.surface import Surface
-from ..theories.roughness import MomentTensor, Roughness, Spectrum, SummitList
+from ..theories.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
 
 MOMENTS = ("auto", "spectrum", "differences")
 """Where the moments can come from."""
@@ -55,6 +57,7 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         heights=deviations(surface),
         skewness=shape.Ssk,
         kurtosis=shape.Sku,
+        fractal=_fractal(surface),
     )
 
 
@@ -82,3 +85,15 @@ def _summit_list(surface: Surface, neighbours: int) -> SummitList | None:
         area=found.candidate_area,
         period=surface.size if surface.periodic else None,
     )
+
+
+def _fractal(surface: Surface) -> Fractal | None:
+    """Mean dimension and geometric mean of the fractal roughness along x and y; None unless both are self-affine."""
+    try:
+        found = [fractal_parameters(surface, axis=axis) for axis in ("x", "y")]
+    except InputError:  # a line, or too few lags
+        return None
+    if not all(fit.self_affine and fit.roughness > 0.0 for fit in found):
+        return None
+    roughness = math.exp(0.5 * sum(math.log(fit.roughness) for fit in found))
+    return Fractal(0.5 * sum(fit.dimension for fit in found), roughness)

@@ -49,6 +49,7 @@ REFERENCES = {
     "Nayak1971": "Nayak, P. R. (1971). Random process model of rough surfaces. Journal of Lubrication Technology 93, 398-407.",
     "Nogi1997": "Nogi, T., Kato, T. (1997). Influence of a hard surface layer on the limit of elastic contact, part I. Journal of Tribology 119, 493-500.",
     "OSullivan1988": "O'Sullivan, T. C., King, R. B. (1988). Sliding contact stress field due to a spherical indenter on a layered elastic half-space. Journal of Tribology 110, 235-240.",
+    "Onions1973": "Onions, R. A., Archard, J. F. (1973). The contact of surfaces having a random structure. Journal of Physics D 6, 289-304.",
     "Peng2001": "Peng, W. (2001). Contact mechanics of multilayered rough surfaces in tribology. Dissertation, Ohio State University.",
     "PengBhushan2000": "Peng, W., Bhushan, B. (2000). Modelling of surfaces with a bimodal roughness distribution. Proceedings of the Institution of Mechanical Engineers J 214, 459-470.",
     "PengBhushan2001": "Peng, W., Bhushan, B. (2001). A numerical three-dimensional model for the contact of layered elastic/plastic solids with rough surfaces by a variational principle. Journal of Tribology 123, 330-342.",

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from ..core import require
+from .majumdar_bhushan import MajumdarBhushan
+from .persson import Persson
 from .protocol import Described
 
-_CLASSES: tuple[type[Described], ...] = ()
+_CLASSES: tuple[type[Described], ...] = (MajumdarBhushan, Persson)
 
 THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}
 """Class of each theory by its name."""

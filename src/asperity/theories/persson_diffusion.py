@@ -48,7 +48,7 @@ class PressureHistory:
 
 def diffused_pressure(
     spectrum: IsotropicSpectrum,
-    contact_modulus: float,
+    E_star: float,
     pressure: float,
     *,
     points: int = 1000,
@@ -64,8 +64,8 @@ def diffused_pressure(
     ----------
     spectrum
         Spectrum of the composite surface.
-    contact_modulus
-        E* in Pa, > 0.
+    E_star
+        Contact modulus E* in Pa, > 0.
     pressure
         Nominal pressure p_a in Pa, > 0.
     points
@@ -80,7 +80,7 @@ def diffused_pressure(
     """
     from scipy.linalg import solve_banded
 
-    modulus = require.positive(contact_modulus, "contact modulus E* (Pa)")
+    modulus = require.positive(E_star, "contact modulus E* (Pa)")
     nominal = require.positive(pressure, "nominal pressure (Pa)")
     count = require.integer(points, 20, "number of pressures")
     rounds = require.integer(steps, 4, "number of steps")

@@ -25,7 +25,7 @@ _FINEST = 40  # quarterings of the first panel: w has a square-root pole at q_L,
 _GONE = 6.0  # exp(-x²) beyond it is below the rounding of one
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PerssonGap:
     """Mean gap and stiffness of an elastic half-space on a randomly rough rigid surface.
 
@@ -35,8 +35,8 @@ class PerssonGap:
 
     Parameters
     ----------
-    contact_modulus
-        E* in Pa, > 0.
+    E_star
+        Contact modulus E* in Pa, > 0.
     spectrum
         Spectrum of the composite surface.
     gamma
@@ -48,13 +48,13 @@ class PerssonGap:
         If a number is out of its range.
     """
 
-    contact_modulus: float
+    E_star: float
     spectrum: IsotropicSpectrum
     gamma: float = CALIBRATED
     citation_keys: ClassVar[tuple[str, ...]] = ("Persson2007", "Yang2008")
 
     def __post_init__(self) -> None:
-        require.positive(self.contact_modulus, "contact modulus E* (Pa)")
+        require.positive(self.E_star, "contact modulus E* (Pa)")
         require.instance(self.spectrum, IsotropicSpectrum, "spectrum of a surface")
         require.within(self.gamma, 0.0, 1.0, "weight gamma of the elastic energy")
 
@@ -91,7 +91,7 @@ class PerssonGap:
         for number, load in enumerate(loads.ravel()):
             x = self._sharpness * load
             slope = self._weights @ ((self.gamma + 3.0 * (1.0 - self.gamma) * erf(x) ** 2) * np.exp(-(x**2)))
-            values[number] = self.contact_modulus * load / slope if slope > 0.0 else math.inf
+            values[number] = self.E_star * load / slope if slope > 0.0 else math.inf
         return values.reshape(loads.shape)
 
     def pressure_at(self, gap: float) -> float:
@@ -108,20 +108,20 @@ class PerssonGap:
         low, high = -300.0, math.log(20.0 * self.spectrum.rms_slope)
 
         def difference(log_pressure: float) -> float:
-            found = float(self.mean_gap(self.contact_modulus * math.exp(log_pressure)))
+            found = float(self.mean_gap(self.E_star * math.exp(log_pressure)))
             return (math.log(found) if found > 0.0 else -800.0) - wanted
 
         if not difference(low) > 0.0 > difference(high):
             raise NoSolutionError(
                 f"mean gap (m) must be between about zero and 300 decay lengths of {self.decay_length:.3g} m, but is {gap:g}."
             )
-        return self.contact_modulus * math.exp(brentq(difference, low, high, xtol=1e-12, rtol=1e-12))
+        return self.E_star * math.exp(brentq(difference, low, high, xtol=1e-12, rtol=1e-12))
 
     def _relative(self, pressure: ArrayLike) -> RealArray:
         values = np.asarray(pressure, dtype=float)
         if not (np.isfinite(values).all() and (values > 0.0).all()):
             raise InputError("mean pressure (Pa) must be greater than zero: without load the gap has no bound.")
-        return np.asarray(values / self.contact_modulus)
+        return np.asarray(values / self.E_star)
 
     @cached_property
     def _nodes(self) -> tuple[RealArray, RealArray]:

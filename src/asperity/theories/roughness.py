@@ -129,6 +129,14 @@ class SummitList:
         return _standardised_moment(self.height, 4)
 
 
+@dataclass(frozen=True)
+class Fractal:
+    """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G in m."""
+
+    dimension: float
+    roughness: float
+
+
 @dataclass(frozen=True, eq=False)
 class Roughness:
     """The numbers of a surface that theories of rough contact are built from. None stands for what is not known.
@@ -148,6 +156,8 @@ class Roughness:
         Summits of the map.
     heights
         Samples (n,) of the height above the mean plane in m.
+    fractal
+        Fractal dimension and roughness, where the profiles are self-affine.
     skewness, kurtosis
         Of the surface heights; 0 and 3 for a Gaussian surface.
 
@@ -167,6 +177,7 @@ class Roughness:
     heights: RealArray | None = field(default=None, repr=False)
     skewness: float = 0.0
     kurtosis: float = 3.0
+    fractal: Fractal | None = None
 
     def __post_init__(self) -> None:
         fix = "A flat surface has no roughness theory."
