@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from ..core import require
+from .greenwood_williamson import GreenwoodWilliamson
+from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .majumdar_bhushan import MajumdarBhushan
 from .persson import Persson
 from .protocol import Described
 
-_CLASSES: tuple[type[Described], ...] = (MajumdarBhushan, Persson)
+_CLASSES: tuple[type[Described], ...] = (
+    GreenwoodWilliamson,
+    FittedGreenwoodWilliamson,
+    MajumdarBhushan,
+    Persson,
+)
 
 THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}
 """Class of each theory by its name."""

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from asperity.core.errors import InputError
-from asperity.theories.catalogue import theory
 from asperity.theories.protocol import QUANTITIES, Limit, Prediction, curve, prediction
 
 
@@ -35,8 +34,3 @@ def test_unusable_curves_are_refused():
         curve([1.0, np.nan], "pressures (Pa)")
     with pytest.raises(InputError, match="greater than zero"):
         curve([1.0, 0.0], "pressures (Pa)", positive=True)
-
-
-def test_unknown_theories_are_refused():
-    with pytest.raises(InputError, match="name of a theory"):
-        theory("phlogiston")

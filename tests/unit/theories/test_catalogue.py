@@ -1,0 +1,74 @@
+"""What every theory in the catalogue says of itself and answers."""
+
+from __future__ import annotations
+
+import inspect
+
+import numpy as np
+import pytest
+
+import asperity as asp
+from asperity.core.citations import reference
+from asperity.theories.catalogue import THEORIES, theory
+
+SURFACE = [name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness")]
+E_STAR = 1e11
+BODIES = {"E_star": E_STAR, "hardness": 8e9}
+"""What theories may ask of the bodies; a new input of the bodies is one more entry."""
+
+
+@pytest.fixture(scope="module")
+def roughness() -> asp.Roughness:
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=5e-7, shortest_wavelength=1.2e-7
+    )
+    return asp.roughness_of(asp.generate.gaussian(asp.Grid((128, 128), (2e-8, 2e-8)), spectrum, seed=1))
+
+
+@pytest.mark.parametrize("name", THEORIES)
+def test_every_theory_is_described(name):
+    kind = theory(name)
+    assert kind.name == name == name.lower().replace(" ", "-")
+    assert kind.title
+    assert [reference(key) for key in kind.citation_keys]
+    parameters = list(inspect.signature(kind).parameters.values())
+    assert [item.name for item in kind.inputs] == [parameter.name for parameter in parameters]
+    for item, parameter in zip(kind.inputs, parameters, strict=True):
+        assert item.meaning
+        assert (item.default is None) == (parameter.default is inspect.Parameter.empty), item.name
+        if item.default is not None:
+            assert item.default == parameter.default
+
+
+@pytest.mark.parametrize("name", SURFACE)
+def test_every_theory_answers_about_the_same_surface(name, roughness):
+    kind = theory(name)
+    bodies = {item.name: BODIES[item.name] for item in kind.inputs if item.of == "bodies" and item.default is None}
+    made = kind.from_roughness(roughness, **bodies)
+    # a sixth of a per cent to six per cent of area: light loads at which all theories hold
+    pressures = 0.1 * E_STAR * np.geomspace(1e-3, 2e-2, 200)
+    found = made.at_pressure(pressures)
+    assert found.pressure == pytest.approx(pressures, rel=1e-8)
+    assert np.all(np.diff(found.area_fraction) > 0.0)
+    for limit in made.validity(found):
+        assert limit.value.shape == pressures.shape
+        assert limit.low < limit.high
+        assert reference(limit.citation)
+        assert limit.message.endswith(".")
+    if hasattr(made, "at_separation"):
+        again = made.at_separation(found.separation)
+        assert again.pressure == pytest.approx(pressures, rel=1e-8)
+        assert again.area_fraction == pytest.approx(found.area_fraction, rel=1e-8)
+        if not np.isnan(found.stiffness).any():
+            slope = -np.gradient(np.log(found.pressure), found.separation)[1:-1]
+            # second-order differences over a fiftieth in ln p
+            assert (found.stiffness / found.pressure)[1:-1] == pytest.approx(slope, rel=1e-2)
+    if set(bodies) == {"E_star"}:
+        # elasticity has a coefficient of about two; elastic theories stay within a factor of three of it
+        coefficient = found.area_fraction * E_STAR * roughness.rms_gradient / pressures
+        assert np.all((coefficient > 0.7) & (coefficient < 6.0))
+
+
+def test_unknown_theories_are_refused():
+    with pytest.raises(asp.InputError, match="name of a theory"):
+        theory("phlogiston")
