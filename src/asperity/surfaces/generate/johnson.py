@@ -12,9 +12,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.pearson import require_possible
 
 KINDS = ("normal", "lognormal", "unbounded", "bounded")
 """Families of the system."""
@@ -72,24 +72,6 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     if abs(kurtosis - line) <= _ON_LINE * line:
         return Johnson("normal", 0.0, 1.0, 0.0, 1.0) if skewness == 0.0 else _lognormal(w)
     return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
-
-
-def require_possible(skewness: float, kurtosis: float) -> None:
-    """Refuse a pair that no distribution has.
-
-    Raises
-    ------
-    InputError
-        If kurtosis < 1 + skewness².
-    """
-    require.finite(skewness, "skewness of the heights")
-    require.finite(kurtosis, "kurtosis of the heights")
-    least = 1.0 + skewness**2
-    if kurtosis < least:
-        raise InputError(
-            f"kurtosis of the heights must be at least 1 + skewness² = {least:.4g}, as that of every distribution, "
-            f"but is {kurtosis:.4g}. It is 3, not 0, for Gaussian heights."
-        )
 
 
 def _mirrored(other: Johnson) -> Johnson:

@@ -9,8 +9,9 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.pearson import require_possible
 from ..surface import Surface
-from .johnson import johnson, require_possible
+from .johnson import johnson
 
 
 class Marginal(Protocol):
