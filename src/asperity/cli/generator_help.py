@@ -37,6 +37,7 @@ HELP = MappingProxyType(
         "periodic": "Periodic surface, or a window of one.",
         "skewness": "Skewness of the heights; 0 for Gaussian ones.",
         "kurtosis": "Kurtosis of the heights; 3 for Gaussian ones.",
+        "system": "System of distributions of the heights; their tails differ.",
         "predistorted": "Whether the spectrum is that of the heights, or of the Gaussian field they are made of.",
         "last": "Whether heights or spectrum are exact in the end.",
         "max_iterations": "Iterations after which to stop.",

@@ -100,6 +100,11 @@ class Pearson:
         return "IV" if self.criterion < 1.0 else "VI"
 
     @property
+    def label(self) -> str:
+        """Name of the curve in words."""
+        return "normal" if self.type == "normal" else f"Pearson's type {self.type}"
+
+    @property
     def support(self) -> tuple[float, float]:
         """Bounds between which the density is positive, infinite where there is none."""
         return self._curve.low, self._curve.high

@@ -66,7 +66,7 @@ def build_spectrum(table: spectra.SpectrumTable, folder: Path, read: Reader) -> 
 def _part(table: Table, folder: Path, read: Reader) -> Any:
     """Spectrum or distribution of heights that ``table`` describes."""
     if isinstance(table, spectra.MomentsHeights):
-        return generate.HeightMoments(table.skewness, table.kurtosis)
+        return generate.HeightMoments(table.skewness, table.kurtosis, table.system)
     if isinstance(table, spectra.TwoLevelsHeights):
         return generate.TwoLevels(table.share, table.separation, table.upper_deviation)
     if isinstance(table, spectra.MeasuredHeights):

@@ -5,9 +5,11 @@ import pytest
 from ensemble import average, raw_statistics, require_accepted, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.special import ndtr
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.core.pearson import Pearson
 from asperity.surfaces.characterise.heights import height_parameters
 from asperity.surfaces.characterise.spectrum import power_spectrum
 from asperity.surfaces.generate import (
@@ -19,11 +21,13 @@ from asperity.surfaces.generate import (
     SelfAffine,
     TabulatedSpectrum,
     TwoLevels,
+    endless,
     gaussian,
     rank_ordered,
     spectrum_of,
     translated,
 )
+from asperity.surfaces.generate.kernel import cumulant_factors
 from asperity.surfaces.generate.modes import mode_sum
 from asperity.surfaces.surface import Surface
 
@@ -76,6 +80,48 @@ def test_translation_without_predistortion_is_off_by_what_theory_says():
     error = found.std(ddof=1) / np.sqrt(found.size)
     assert found.mean() == pytest.approx(0.484112207599, abs=4.5 * error)
     assert abs(found.mean() - 0.5) > 4.5 * error
+
+
+@pytest.mark.parametrize(("moments", "kind"), [((0.7, 5.0), "IV"), ((-0.8, 2.6), "I"), ((2.0, 9.0), "III")])
+def test_translation_to_a_curve_of_pearsons_system(moments, kind):
+    made = translated(
+        GRID, ROUGH, seed=3, skewness=moments[0], kurtosis=moments[1], system="pearson", predistorted=False
+    )
+    assert f"(Pearson's type {kind})" in made.origin.history[0]
+    assert {"Pearson1895", "Pearson1916"} <= set(made.citation_keys)
+    # heights of the same seed before the translation are normal numbers: equal ranks, and equal probabilities below
+    field = translated(GRID, ROUGH, seed=3, skewness=0.0, kurtosis=3.0, predistorted=False).heights
+    law = Pearson(*moments)
+    np.testing.assert_allclose(law.cdf(made.heights), ndtr(field), rtol=1e-5)  # spline 1e-8, times the density
+
+
+@pytest.mark.parametrize("moments", [(0.7, 5.0), (-0.8, 2.6), (0.0, 1.8)])
+def test_rank_ordered_heights_are_quantiles_of_pearsons_system(moments):
+    made = rank_ordered(GRID, ROUGH, HeightMoments(*moments, system="pearson"), seed=1, max_iterations=30)
+    wanted = Pearson(*moments).quantile((np.arange(GRID.n_points) + 0.5) / GRID.n_points)
+    wanted = (wanted - wanted.mean()) / wanted.std()
+    np.testing.assert_allclose(np.sort(made.heights.ravel()) / made.heights.std(), wanted, rtol=1e-6, atol=1e-7)
+
+
+def test_pearsons_digital_filter_has_noise_of_the_raised_moments():
+    made = endless(ROUGH, (1.0, 1.0), seed=1, skewness=0.1, kurtosis=3.2, system="pearson")
+    third, fourth = cumulant_factors(made.kernel.weights)
+    assert made.noise.skewness == pytest.approx(0.1 / third, rel=1e-12)
+    assert made.noise.kurtosis == pytest.approx(3.0 + 0.2 / fourth, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: HeightMoments(0.0, 0.5, system="pearson"),
+        lambda: HeightMoments(1.0, 2.0, system="pearson"),
+        lambda: HeightMoments(0.0, 3.0, system="burr"),
+        lambda: translated(GRID, ROUGH, seed=1, skewness=1.0, kurtosis=1.5, system="pearson"),
+    ],
+)
+def test_what_no_curve_of_the_system_has_is_refused(make):
+    with pytest.raises(InputError, match=r"1 \+ skewness² = \d|one of johnson, pearson"):
+        make()
 
 
 def test_translation_to_gaussian_heights_is_a_gaussian_surface():

@@ -28,6 +28,7 @@ class DigitalFilter(GeneratedSurface):
     spectrum: SpectrumTable
     skewness: AnyNumber = 0.0
     kurtosis: Number = 3.0
+    system: Literal["johnson", "pearson"] = "johnson"
     periodic: bool = False
 
 
@@ -39,6 +40,7 @@ class Translated(GeneratedSurface):
     spectrum: SpectrumTable
     skewness: AnyNumber
     kurtosis: Number
+    system: Literal["johnson", "pearson"] = "johnson"
     predistorted: bool = True
 
 

@@ -108,11 +108,12 @@ SpectrumTable: TypeAlias = Annotated[
 
 
 class MomentsHeights(Table):
-    """Heights of given skewness and kurtosis (3 for Gaussian heights)."""
+    """Heights of given skewness and kurtosis (3 for Gaussian heights), of Johnson's or Pearson's system."""
 
     kind: Literal["moments"]
     skewness: AnyNumber = 0.0
     kurtosis: Number = 3.0
+    system: Literal["johnson", "pearson"] = "johnson"
 
 
 class MeasuredHeights(Table):

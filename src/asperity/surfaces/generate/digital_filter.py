@@ -11,16 +11,17 @@ from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.pearson import require_possible
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
 from ..surface import Origin, Surface
 from .embedding import Spectrum, lattice_eigenvalues
-from .johnson import Johnson, johnson, require_possible
+from .height_law import HeightLaw, height_law
 from .kernel import FilterKernel, cumulant_factors, filter_kernel, zero_phase_weights
 from .noise import BLOCK, block_noise
 
 _KEYS = ("HuTonder1992", "Salmon2011")
-_NON_GAUSSIAN_KEYS = ("Chilamakuri1998", "Johnson1949", "Tuenter2001")
+_NON_GAUSSIAN_KEY = "Chilamakuri1998"
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +54,7 @@ class EndlessSurface:
     """
 
     kernel: FilterKernel
-    noise: Johnson
+    noise: HeightLaw
     seed: int
     origin: Origin
 
@@ -97,13 +98,14 @@ def endless(
     seed: int,
     skewness: float = 0.0,
     kurtosis: float = 3.0,
+    system: str = "johnson",
     reach: float | None = None,
 ) -> EndlessSurface:
     """Endless surface with the given spectrum, for windows of any size and place, and for maps larger than the memory.
 
     White noise is drawn in blocks of 64 x 64 nodes, each with its own stream of the counter-based generator Philox,
     and filtered by a kernel of finite reach. Heights of other skewness or kurtosis come from noise whose cumulants are
-    raised by what the filter takes away, of a distribution of Johnson's system (Chilamakuri & Bhushan 1998).
+    raised by what the filter takes away (Chilamakuri & Bhushan 1998).
 
     Parameters
     ----------
@@ -115,6 +117,8 @@ def endless(
         Whole number >= 0.
     skewness, kurtosis
         Of the heights of the infinite surface; 0 and 3 for Gaussian ones.
+    system
+        ``johnson`` or ``pearson``: of the distribution of the noise.
     reach
         Distance in m at which the kernel is cut; ``spectrum.correlation_range`` if omitted.
 
@@ -129,11 +133,12 @@ def endless(
     )
     seed = require.integer(seed, 0, "seed of a random surface")
     kernel = filter_kernel(spectrum, (dx, dy), reach=reach)
-    noise = input_noise(kernel.weights, skewness, kurtosis)
+    noise = input_noise(kernel.weights, skewness, kurtosis, system)
     grid = Grid((2 * kernel.reach[0] + 1, 2 * kernel.reach[1] + 1), (dx, dy))
     length = f"{show(kernel.reach[0] * dx, 'm')} x {show(kernel.reach[1] * dy, 'm')}"
     how = f"reach {length}, error of the autocorrelation {kernel.error:.1e}, Philox seed {seed}"
-    return EndlessSurface(kernel, noise, seed, _origin(spectrum, _embedded(spectrum, grid), (skewness, kurtosis), how))
+    origin = _origin(spectrum, _embedded(spectrum, grid), (skewness, kurtosis), noise, how)
+    return EndlessSurface(kernel, noise, seed, origin)
 
 
 def digital_filter(
@@ -143,6 +148,7 @@ def digital_filter(
     seed: int,
     skewness: float = 0.0,
     kurtosis: float = 3.0,
+    system: str = "johnson",
     periodic: bool = False,
 ) -> Surface:
     """Surface by the digital filter of Hu & Tønder (1992), with given skewness and kurtosis of the heights.
@@ -157,7 +163,7 @@ def digital_filter(
         Nodes of the surface.
     spectrum
         As for :func:`endless`; a periodic surface needs no ``correlation_range``.
-    seed, skewness, kurtosis
+    seed, skewness, kurtosis, system
         As for :func:`endless`.
     periodic
         Filter a periodic field of noise. Otherwise the surface is the window at node (0, 0) of the endless one.
@@ -168,20 +174,20 @@ def digital_filter(
         If no noise gives these heights through the filter, or the grid does not suit the spectrum.
     """
     if not periodic:
-        made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis)
+        made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis, system=system)
         return made.window(grid.shape)
     seed = require.integer(seed, 0, "seed of a random surface")
     eigenvalues = lattice_eigenvalues(spectrum, grid)
-    noise = input_noise(zero_phase_weights(eigenvalues, grid), skewness, kurtosis)
+    noise = input_noise(zero_phase_weights(eigenvalues, grid), skewness, kurtosis, system)
     transform = RealTransform(grid.shape, thread_count())
     modes = transform.forward(noise.of_normal(block_noise((0, 0), grid.shape, seed)))
     modes *= np.sqrt(eigenvalues)
     dx, dy = grid.spacing
-    origin = _origin(spectrum, grid, (skewness, kurtosis), f"periodic noise, Philox seed {seed}")
+    origin = _origin(spectrum, grid, (skewness, kurtosis), noise, f"periodic noise, Philox seed {seed}")
     return Surface(transform.backward(modes), dx, dy, periodic=True, origin=origin)
 
 
-def input_noise(weights: RealArray, skewness: float, kurtosis: float) -> Johnson:
+def input_noise(weights: RealArray, skewness: float, kurtosis: float, system: str = "johnson") -> HeightLaw:
     """Distribution of the noise from which the filter ``weights`` make heights of this skewness and kurtosis.
 
     Third and fourth cumulants are reduced by N3 and N4, so Ssk_η = Ssk/N3 and Sku_η = 3 + (Sku - 3)/N4.
@@ -201,7 +207,7 @@ def input_noise(weights: RealArray, skewness: float, kurtosis: float) -> Johnson
             f"averages over many nodes (N3 = {third:.3g}, N4 = {fourth:.3g}), but is {kurtosis:.4g}. "
             "Use rank_ordered() or translated(), or larger pixels."
         )
-    return johnson(skew, kurt)
+    return height_law(skew, kurt, system)
 
 
 def _embedded(spectrum: Spectrum, grid: Grid) -> Grid:
@@ -211,9 +217,9 @@ def _embedded(spectrum: Spectrum, grid: Grid) -> Grid:
     return Grid((nx, ny), grid.spacing)
 
 
-def _origin(spectrum: Spectrum, grid: Grid, moments: tuple[float, float], how: str) -> Origin:
+def _origin(spectrum: Spectrum, grid: Grid, moments: tuple[float, float], noise: HeightLaw, how: str) -> Origin:
     gaussian = moments == (0.0, 3.0)
-    heights = "" if gaussian else f", skewness {moments[0]:.4g}, kurtosis {moments[1]:.4g}"
+    heights = "" if gaussian else f", skewness {moments[0]:.4g}, kurtosis {moments[1]:.4g} ({noise.label} noise)"
     text = f"generated: digital filter in blocks of {BLOCK} nodes, {spectrum.describe(grid)}{heights}, {how}"
-    keys = (*citation_keys(spectrum), *_KEYS, *(() if gaussian else _NON_GAUSSIAN_KEYS))
+    keys = (*citation_keys(spectrum), *_KEYS, *(() if gaussian else (_NON_GAUSSIAN_KEY, *noise.citation_keys)))
     return Origin(source="digital filter", history=(text,), citation_keys=tuple(dict.fromkeys(keys)))

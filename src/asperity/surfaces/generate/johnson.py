@@ -37,6 +37,11 @@ class Johnson:
     scale: float
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1949", "Tuenter2001")
 
+    @property
+    def label(self) -> str:
+        """Name of the curve in words."""
+        return self.kind if self.kind in ("normal", "lognormal") else f"Johnson's {self.kind}"
+
     def of_normal(self, normal: RealArray) -> RealArray:
         """z(G): the number of this distribution for each standard normal number; increasing."""
         if self.kind == "normal":

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.pearson import require_possible
 from ..surface import Surface
-from .johnson import johnson
+from .height_law import height_law
 
 
 class Marginal(Protocol):
@@ -26,30 +25,37 @@ class Marginal(Protocol):
 
 @dataclass(frozen=True)
 class HeightMoments:
-    """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's system.
+    """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's or Pearson's system.
 
     Raises
     ------
     InputError
-        If kurtosis < 1 + skewness².
+        If kurtosis < 1 + skewness², or the system is unknown.
     """
 
     skewness: float = 0.0
     kurtosis: float = 3.0
-    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1949",)
+    system: str = "johnson"
 
     def __post_init__(self) -> None:
-        require_possible(self.skewness, self.kurtosis)
+        height_law(self.skewness, self.kurtosis, self.system)
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind the system."""
+        return height_law(self.skewness, self.kurtosis, self.system).citation_keys
 
     def sorted_heights(self, count: int) -> RealArray:
         """Quantiles at (k - 1/2)/count; their moments are those asked for up to the tails beyond the outermost."""
         from scipy.special import ndtri
 
-        return johnson(self.skewness, self.kurtosis).of_normal(ndtri((np.arange(count) + 0.5) / count))
+        law = height_law(self.skewness, self.kurtosis, self.system)
+        return law.of_normal(ndtri((np.arange(count) + 0.5) / count))
 
     def describe(self) -> str:
         """Words and numbers for the history of a surface."""
-        return f"skewness {self.skewness:.4g}, kurtosis {self.kurtosis:.4g}"
+        law = height_law(self.skewness, self.kurtosis, self.system)
+        return f"skewness {self.skewness:.4g}, kurtosis {self.kurtosis:.4g} ({law.label})"
 
 
 @dataclass(frozen=True, eq=False)

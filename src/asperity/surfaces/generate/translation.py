@@ -14,7 +14,7 @@ from ...core.grid import Grid
 from ...core.spectral import RealTransform, thread_count
 from ..surface import Origin, Surface
 from .embedding import CLIP_LIMIT, Spectrum, lattice_eigenvalues, negative_part
-from .johnson import Johnson, johnson
+from .height_law import HeightLaw, height_law
 from .modes import mode_sum
 from .noise import node_noise
 
@@ -24,9 +24,16 @@ _TABLE = 20001  # correlations between -1 and 1 at which the map is tabulated; l
 
 
 def translated(
-    grid: Grid, spectrum: Spectrum, *, seed: int, skewness: float, kurtosis: float, predistorted: bool = True
+    grid: Grid,
+    spectrum: Spectrum,
+    *,
+    seed: int,
+    skewness: float,
+    kurtosis: float,
+    system: str = "johnson",
+    predistorted: bool = True,
 ) -> Surface:
-    """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T a Johnson translation.
+    """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T of a system of distributions.
 
     Every height has the distribution of T exactly, at any resolution; the moments of a realisation scatter about it. T
     changes the correlation of two heights by a few per cent; ``predistorted`` gives G the autocovariance from which T
@@ -42,6 +49,8 @@ def translated(
         Whole number >= 0 (PCG64, in the order of the array).
     skewness, kurtosis
         Of the heights, kurtosis >= 1 + skewness².
+    system
+        ``johnson`` or ``pearson``: of the distribution of the heights.
     predistorted
         Whether ``spectrum`` is that of the heights; otherwise of G.
 
@@ -51,7 +60,7 @@ def translated(
         If no distribution has these moments, or no Gaussian field has the autocovariance that the translation would need.
     """
     seed = require.integer(seed, 0, "seed of a random surface")
-    law = johnson(skewness, kurtosis)
+    law = height_law(skewness, kurtosis, system)
     eigenvalues = lattice_eigenvalues(spectrum, grid)
     square = mode_sum(grid, eigenvalues) * grid.pixel_area
     if not square > 0.0:
@@ -64,7 +73,7 @@ def translated(
     modes = transform.forward(node_noise(grid.shape, seed))
     modes *= np.sqrt(eigenvalues)
     heights = math.sqrt(square) * law.of_normal(transform.backward(modes))
-    what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.kind})"
+    what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.label})"
     how = (
         f"autocorrelation predistorted, negative part {clipped:.1e} clipped"
         if predistorted
@@ -76,14 +85,14 @@ def translated(
     return Surface(heights, dx, dy, periodic=True, origin=Origin("translation", history=(text,), citation_keys=keys))
 
 
-def translated_correlation(law: Johnson, correlation: RealArray) -> RealArray:
+def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
     """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, Hermite coefficients c_k."""
     squares = _hermite_squares(law)
     values: RealArray = np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], squares]))
     return values
 
 
-def _predistorted(eigenvalues: RealArray, law: Johnson, grid: Grid) -> tuple[RealArray, float]:
+def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[RealArray, float]:
     """Eigenvalues of the Gaussian field, and the negative part of them that was clipped."""
     transform = RealTransform(grid.shape, thread_count())
     wanted = transform.backward(eigenvalues.astype(complex))
@@ -107,7 +116,7 @@ def _predistorted(eigenvalues: RealArray, law: Johnson, grid: Grid) -> tuple[Rea
     return np.maximum(values, 0.0), negative
 
 
-def _hermite_squares(law: Johnson) -> RealArray:
+def _hermite_squares(law: HeightLaw) -> RealArray:
     """c_k², k = 1, 2, …, of T = Σ c_k He_k/sqrt(k!), normalised to the sum 1 (the variance)."""
     normal = np.arange(-_REACH, _REACH + 0.5 * _STEP, _STEP)
     weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_STEP / math.sqrt(2.0 * math.pi))
