@@ -151,10 +151,7 @@ class Pearson:
             If m is not between -1 and 4; higher moments do not exist for all types.
         """
         require.between(order, -1.0, 4.0, "order of the moment of the excess")
-        levels = np.asarray(level, dtype=np.float64)
-        curve = self._curve
-        moments = [partial_moment(curve.log_density, self.support, order, float(one)) for one in levels.ravel()]
-        return np.array(moments).reshape(levels.shape)
+        return partial_moment(self._curve.log_density, self.support, order, np.asarray(level, dtype=np.float64))
 
     @property
     def _scaled(self) -> tuple[float, float, float, float]:

@@ -43,7 +43,7 @@ class GammaCurve:
 
     @cached_property
     def _log_norm(self) -> float:
-        return math.log(partial_moment(self.relative, (self.low, self.high), 0.0, self.low))
+        return math.log(float(partial_moment(self.relative, (self.low, self.high), 0.0, np.array(self.low))))
 
     def lower(self, x: RealArray) -> RealArray:
         """Probability below ``x``."""
@@ -104,7 +104,7 @@ class InverseGammaCurve:
 
     @cached_property
     def _log_norm(self) -> float:
-        return math.log(partial_moment(self.relative, (self.low, self.high), 0.0, self.low))
+        return math.log(float(partial_moment(self.relative, (self.low, self.high), 0.0, np.array(self.low))))
 
     def lower(self, x: RealArray) -> RealArray:
         """Probability below ``x``."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..core import require
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
+from .kotwal_bhushan import KotwalBhushan
 from .majumdar_bhushan import MajumdarBhushan
 from .persson import Persson
 from .protocol import Described
@@ -12,6 +13,7 @@ from .protocol import Described
 _CLASSES: tuple[type[Described], ...] = (
     GreenwoodWilliamson,
     FittedGreenwoodWilliamson,
+    KotwalBhushan,
     MajumdarBhushan,
     Persson,
 )

@@ -13,7 +13,7 @@ from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
 from ..surface import Origin, Surface
 from .embedding import Spectrum, lattice_eigenvalues
-from .modes import mode_sum
+from .modes import mean_square
 from .noise import node_noise, wave_noise
 
 VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", "nested": "nested waves of PCG64"}
@@ -67,9 +67,7 @@ def gaussian(
     require.one_of(variant, VARIANTS, "variant of a Gaussian surface")
     parent = grid if periodic else parent_grid(grid, spectrum)
     psd = spectrum.lattice_psd(parent)
-    target = np.sqrt(mode_sum(parent, psd))
-    if not target > 0.0:
-        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    target = np.sqrt(mean_square(parent, psd))
     heights = _synthesised(parent, psd, seed, variant)
     text = f"generated: Gaussian, {spectrum.describe(parent)}, {VARIANTS[variant]} seed {seed}"
     if not periodic:
@@ -109,9 +107,14 @@ def random_field(grid: Grid, spectrum: Spectrum, seed: int) -> RealArray:
     """Heights (nx, ny) in m of a periodic Gaussian field, a window of which an autocovariance describes: see
     ``lattice_eigenvalues`` for its mean.
     """
+    return filtered_noise(grid, lattice_eigenvalues(spectrum, grid), seed)
+
+
+def filtered_noise(grid: Grid, eigenvalues: RealArray, seed: int) -> RealArray:
+    """White noise (nx, ny) whose waves are given the mean square ``eigenvalues`` (nx, ny // 2 + 1)."""
     transform = RealTransform(grid.shape, thread_count())
     modes = transform.forward(node_noise(grid.shape, seed))
-    modes *= np.sqrt(lattice_eigenvalues(spectrum, grid))
+    modes *= np.sqrt(eigenvalues)
     return transform.backward(modes)
 
 

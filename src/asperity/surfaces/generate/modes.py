@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.grid import Grid
 
 
@@ -19,3 +20,17 @@ def mode_sum(grid: Grid, half: RealArray) -> float:
     if grid.shape[1] % 2 == 0:
         weights[-1] = 1.0
     return float(columns @ weights) / grid.area
+
+
+def mean_square(grid: Grid, psd: RealArray) -> float:
+    """Mean square height in m² of the spectrum C on the modes of ``grid`` in m⁴.
+
+    Raises
+    ------
+    InputError
+        If it is zero.
+    """
+    square = mode_sum(grid, psd)
+    if not square > 0.0:
+        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    return square

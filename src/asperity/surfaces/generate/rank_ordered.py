@@ -16,7 +16,7 @@ from ...core.spectral import RealTransform, thread_count
 from ..surface import Origin, Surface
 from .embedding import Spectrum
 from .marginal import Marginal
-from .modes import mode_sum
+from .modes import mean_square, mode_sum
 
 _KEYS = ("Schreiber1996", "PerezRafols2019")
 _ERROR_LIMIT = 0.05  # relative error of the amplitudes beyond which spectrum and heights do not go together
@@ -100,9 +100,7 @@ def _require_joined(values: RealArray, target: _Target, heights: Marginal, itera
 
 def _target(grid: Grid, spectrum: Spectrum, heights: Marginal) -> _Target:
     psd = spectrum.lattice_psd(grid)
-    square = mode_sum(grid, psd)
-    if not square > 0.0:
-        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    square = mean_square(grid, psd)
     wanted = heights.sorted_heights(grid.n_points)
     wanted = wanted - wanted.mean()
     wanted *= np.sqrt(square / np.mean(np.square(wanted)))

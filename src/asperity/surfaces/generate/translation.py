@@ -14,9 +14,9 @@ from ...core.grid import Grid
 from ...core.spectral import RealTransform, thread_count
 from ..surface import Origin, Surface
 from .embedding import CLIP_LIMIT, Spectrum, lattice_eigenvalues, negative_part
+from .gaussian import filtered_noise
 from .height_law import HeightLaw, height_law
-from .modes import mode_sum
-from .noise import node_noise
+from .modes import mean_square
 
 _TERMS, _REST = 400, 1e-13  # most Hermite coefficients of a translation, and the variance they may miss
 _STEP, _REACH = 0.005, 12.0  # trapezoidal rule for them
@@ -62,27 +62,22 @@ def translated(
     seed = require.integer(seed, 0, "seed of a random surface")
     law = height_law(skewness, kurtosis, system)
     eigenvalues = lattice_eigenvalues(spectrum, grid)
-    square = mode_sum(grid, eigenvalues) * grid.pixel_area
-    if not square > 0.0:
-        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    square = mean_square(grid, eigenvalues * grid.pixel_area)
     eigenvalues = eigenvalues / square
     clipped = 0.0
     if predistorted:
         eigenvalues, clipped = _predistorted(eigenvalues, law, grid)
-    transform = RealTransform(grid.shape, thread_count())
-    modes = transform.forward(node_noise(grid.shape, seed))
-    modes *= np.sqrt(eigenvalues)
-    heights = math.sqrt(square) * law.of_normal(transform.backward(modes))
-    what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.label})"
+    heights = math.sqrt(square) * law.of_normal(filtered_noise(grid, eigenvalues, seed))
     how = (
         f"autocorrelation predistorted, negative part {clipped:.1e} clipped"
         if predistorted
         else "of the Gaussian field"
     )
-    text = f"generated: translation, {spectrum.describe(grid)}, {what}, {how}, PCG64 seed {seed}"
+    what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.label}), {how}"
+    text = f"generated: translation, {spectrum.describe(grid)}, {what}, PCG64 seed {seed}"
     keys = tuple(dict.fromkeys((*citation_keys(spectrum), *law.citation_keys)))
-    dx, dy = grid.spacing
-    return Surface(heights, dx, dy, periodic=True, origin=Origin("translation", history=(text,), citation_keys=keys))
+    origin = Origin("translation", history=(text,), citation_keys=keys)
+    return Surface(heights, *grid.spacing, periodic=True, origin=origin)
 
 
 def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
