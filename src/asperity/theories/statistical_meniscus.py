@@ -1,0 +1,157 @@
+"""Menisci of Greenwood-Williamson summits in a liquid film (Gao, Tian & Bhushan 1995; Bhushan 1998, eq. 56-58)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import NoSolutionError
+from .greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
+from .meniscus import film_force
+from .protocol import Prediction, curve
+
+Pull: TypeAlias = Callable[[RealArray], RealArray]
+"""Meniscus force per nominal area in Pa at separations (n,) in m."""
+
+_STEP = 0.1  # of the search for the first balance, in standard deviations; all curves change over about one
+
+
+@dataclass(frozen=True, eq=False)
+class WetPrediction:
+    """Balance of load, menisci and summits along a curve; arrays (n,).
+
+    ``pressure`` external load per nominal area in Pa, ``meniscus_pressure`` meniscus force per nominal area in Pa,
+    ``contact`` what the summits do under the sum of both.
+    """
+
+    pressure: RealArray
+    meniscus_pressure: RealArray
+    contact: Prediction
+
+    def static_friction(self, coefficient: float) -> RealArray:
+        """μ_s = μ_r (1 + F_m/W) for the dry ``coefficient`` μ_r, without viscous part (Bhushan 1998, eq. 59)."""
+        mu = require.not_negative(coefficient, "friction coefficient")
+        return np.asarray(mu * (1.0 + self.meniscus_pressure / self.pressure))
+
+
+@dataclass(frozen=True)
+class StatisticalMeniscus:
+    """A smooth surface with a film of liquid against rough summits of ``contact``.
+
+    Every summit that reaches the film, touching the solid or not, is pulled by the full force of a sphere that touches
+    it, 2πRγ(1 + cos θ): true for menisci much higher than the film. Below about one molecular layer there is none.
+
+    Parameters
+    ----------
+    contact
+        Summits and contact modulus; any distribution of heights.
+    surface_tension
+        γ of the liquid in N/m, > 0.
+    film_thickness
+        h in m, > 0.
+    contact_angle
+        θ in rad on the summits.
+    molecular_layer
+        Thickness in m below which a film is no liquid.
+
+    Raises
+    ------
+    InputError
+        If a number is out of its range, or the liquid does not wet.
+    """
+
+    contact: GreenwoodWilliamson
+    surface_tension: float
+    film_thickness: float
+    contact_angle: float = 0.0
+    molecular_layer: float = 0.0
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Gao1995", "Greenwood1966")
+
+    def __post_init__(self) -> None:
+        require.positive(self.film_thickness, "film thickness (m)")
+        require.not_negative(self.molecular_layer, "molecular layer (m)")
+        film_force(self.contact.radius, self.surface_tension, self.contact_angle)
+
+    @property
+    def largest(self) -> float:
+        """Meniscus force per nominal area in Pa when every summit reaches the film; zero for less than a layer."""
+        if self.film_thickness < self.molecular_layer:
+            return 0.0
+        return self.contact.density * film_force(self.contact.radius, self.surface_tension, self.contact_angle)
+
+    def meniscus_pressure(self, separation: ArrayLike) -> RealArray:
+        """Meniscus force per nominal area in Pa at separations (n,) in m from the mean plane of the surface."""
+        reached = self.contact.standardised(curve(separation, "separations (m)") - self.film_thickness)
+        return np.asarray(self.largest * self.contact.heights.tail_moment(reached, 0.0))
+
+    def at_pressure(self, pressure: ArrayLike) -> WetPrediction:
+        """Balance under external pressures (n,) in Pa, > 0."""
+        return balance(self.contact, self.meniscus_pressure, curve(pressure, "pressures (Pa)", positive=True))
+
+    def feedback(self, separation: ArrayLike) -> RealArray:
+        """dF_m/dL at separations (n,) in m: the load settles by repeated solution only where this is below one."""
+        h = curve(separation, "separations (m)")
+        reached = self.contact.standardised(h - self.film_thickness)
+        slope = self.largest * self.contact.heights.density(reached) / self.contact.height_deviation
+        return np.asarray(slope / self.contact.at_separation(h).stiffness)
+
+    @property
+    def pull_off(self) -> float:
+        """Largest tension per nominal area in Pa that the menisci hold against the summits, >= 0."""
+        h = _separations(self.contact)
+        rest = self.contact.at_separation(h).pressure - self.meniscus_pressure(h)
+        lowest = int(np.argmin(rest))
+        if lowest in (0, h.size - 1):
+            return 0.0
+        from scipy.optimize import minimize_scalar
+
+        def net(separation: float) -> float:
+            at = np.array([separation])
+            return float((self.contact.at_separation(at).pressure - self.meniscus_pressure(at))[0])
+
+        found = minimize_scalar(net, bounds=(h[lowest - 1], h[lowest + 1]), method="bounded", options={"xatol": 0.0})
+        return max(0.0, -float(found.fun))
+
+
+def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> WetPrediction:
+    """State in which the summits carry ``pressure`` (n,) in Pa and the ``pull`` of the menisci, the densest of several.
+
+    Raises
+    ------
+    NoSolutionError
+        If the summits do not carry load and menisci at any separation.
+    """
+    from scipy.optimize import brentq
+
+    h = _separations(contact)
+    table = contact.at_separation(h).pressure - pull(h)
+
+    def rest(separation: float, load: float) -> float:
+        at = np.array([separation])
+        return float((contact.at_separation(at).pressure - pull(at))[0]) - load
+
+    separations = np.empty_like(pressure)
+    for number, load in enumerate(pressure):
+        short = np.flatnonzero(table < load)
+        if short.size == 0 or short[0] == 0:
+            raise NoSolutionError(
+                f"load (Pa) with its menisci must be within what the summits carry, at most {table[0]:.4g} Pa at "
+                f"{-LOWEST:g} standard deviations below their mean, but is {load:g}."
+            )
+        ends = h[short[0] - 1], h[short[0]]
+        separations[number] = brentq(rest, *ends, args=(load,), xtol=1e-15 * contact.height_deviation, rtol=1e-15)
+    return WetPrediction(pressure, pull(separations), contact.at_separation(separations))
+
+
+def _separations(contact: GreenwoodWilliamson) -> RealArray:
+    """Separations in m from the densest on, between which no balance is overlooked."""
+    end = min(HIGHEST, contact.heights.support[1])
+    D = np.arange(LOWEST, end + _STEP, _STEP) - contact.heights.mean
+    heights: RealArray = contact.mean_height + contact.height_deviation * D
+    return heights

@@ -1,0 +1,213 @@
+"""Single, statistical and growing menisci against their reference rows, limits and trends."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reference_data import reference
+from scipy.integrate import quad
+
+from asperity.core.errors import InputError, NoSolutionError
+from asperity.theories import meniscus
+from asperity.theories.greenwood_williamson import GreenwoodWilliamson
+from asperity.theories.kinetic_meniscus import KineticMeniscus, caught
+from asperity.theories.meniscus_growth import MeniscusGrowth, grown
+from asperity.theories.statistical_meniscus import StatisticalMeniscus
+from asperity.theories.summit_heights import ExponentialHeights, GaussianHeights
+
+
+@pytest.mark.parametrize("row", reference("kelvin_film"), ids=lambda row: f"{row['T_K']:g}-{row['RH']:g}")
+def test_kelvin_radius_and_film(row):
+    gamma, volume, temperature = row["gamma_N_per_m"], row["V_m3_per_mol"], row["T_K"]
+    radius = meniscus.kelvin_radius(row["RH"], gamma, volume, temperature)
+    assert radius == pytest.approx(row["r_K_nm"] * 1e-9, rel=1e-12)
+    assert meniscus.adsorbed_water_film(row["RH"]) == pytest.approx(row["h_adsorbed_nm"] * 1e-9, rel=1e-12)
+    angle = math.radians(60.0)
+    both, film = meniscus.wetting_factor(angle, angle), meniscus.wetting_factor(angle)
+    assert radius * both == pytest.approx(row["s_two_solid_theta60_nm"] * 1e-9, rel=1e-12)
+    assert radius * film == pytest.approx(row["s_film_theta60_nm"] * 1e-9, rel=1e-12)
+    # the pressure does not depend on the height at which it is taken
+    for factor in (both, film):
+        pressure = meniscus.laplace_pressure(gamma, radius * factor, factor)
+        assert pressure == pytest.approx(row["laplace_pressure_MPa"] * 1e6, rel=1e-12)
+
+
+@pytest.mark.parametrize("row", reference("single_meniscus"))
+def test_forces_of_one_sphere(row):
+    sphere = row["R_m"], row["gamma_N_per_m"]
+    first, second = math.radians(row["theta_deg"]), math.radians(row["theta2_deg"])
+    same, mixed = meniscus.wetting_factor(first, first), meniscus.wetting_factor(first, second)
+    apart = {"gap": row["gap_D_m"], "immersion": row["immersion_d_m"]}
+    assert meniscus.droplet_force(*sphere, same) == pytest.approx(row["F_caseA_N"], rel=1e-13)
+    assert meniscus.droplet_force(*sphere, same, **apart) == pytest.approx(row["F_caseB_N"], rel=1e-13)
+    assert meniscus.film_force(*sphere, first) == pytest.approx(row["F_caseC_N"], rel=1e-13)
+    assert meniscus.droplet_force(*sphere, mixed) == pytest.approx(row["F_caseA_two_angles_N"], rel=1e-13)
+    assert meniscus.droplet_force(*sphere, mixed, **apart) == pytest.approx(row["F_caseB_two_angles_N"], rel=1e-13)
+
+
+def test_a_sphere_leaves_the_film_at_the_height_of_its_meniscus():
+    force = [meniscus.film_force(1e-6, 0.07, 0.3, gap=gap, height=1e-9) for gap in (0.0, 0.5e-9, 1e-9, 2e-9)]
+    assert force[1] == pytest.approx(0.5 * force[0], rel=1e-12)
+    assert force[2:] == [0.0, 0.0]
+
+
+def wet(row, heights=GaussianHeights()) -> StatisticalMeniscus:
+    """Summits and film of a normalised row: σ_s = R = 1, so that 4/3 E* η = k, and F_max = m k."""
+    density, tension = 2.0, 0.1
+    largest = density * meniscus.film_force(1.0, tension, 0.0)
+    modulus = 0.75 * largest / (row["m"] * density)
+    return StatisticalMeniscus(GreenwoodWilliamson(modulus, density, 1.0, 1.0, heights=heights), tension, row["H"])
+
+
+@pytest.mark.parametrize("row", reference("statistical_wet_normalised"))
+def test_statistical_menisci(row):
+    theory = wet(row)
+    unit = 4.0 / 3.0 * theory.contact.E_star * theory.contact.density
+    found = theory.at_pressure(row["w"] * unit)
+    assert found.contact.separation[0] == pytest.approx(row["D"], rel=1e-11, abs=1e-12)
+    # D carries 1e-12 and the tail changes by exp(D dD)
+    assert found.meniscus_pressure[0] / unit == pytest.approx(row["fm"], rel=2e-11)
+    assert found.meniscus_pressure[0] / found.pressure[0] == pytest.approx(row["Fm_over_W"], rel=2e-11)
+    assert found.contact.area_fraction[0] / theory.contact.density == pytest.approx(row["area_norm"], rel=2e-11)
+    assert theory.feedback(found.contact.separation)[0] == pytest.approx(row["picard_slope"], rel=2e-11)
+    # what the summits carry is the load and the menisci
+    assert found.contact.pressure[0] == pytest.approx(found.pressure[0] + found.meniscus_pressure[0], rel=1e-11)
+
+
+@pytest.mark.parametrize("row", reference("statistical_wet_contact"))
+def test_statistical_menisci_with_units(row):
+    # a nominal area of one: densities are numbers, pressures are forces
+    contact = GreenwoodWilliamson(row["Estar_Pa"], row["N0"], row["R_m"], row["sigma_p_m"])
+    theory = StatisticalMeniscus(
+        contact, row["gamma_N_per_m"], row["h_film_m"], contact_angle=math.radians(row["theta_deg"])
+    )
+    found = theory.at_pressure(row["W_N"])
+    assert theory.largest == pytest.approx(row["Fm_max_N"], rel=1e-13)
+    assert found.contact.separation[0] == pytest.approx(row["d_m"], rel=1e-10)
+    assert found.meniscus_pressure[0] == pytest.approx(row["Fm_N"], rel=1e-10)
+    assert found.contact.area_fraction[0] == pytest.approx(row["Ar_m2"], rel=1e-10)
+    assert found.static_friction(row["mu_r"])[0] == pytest.approx(row["mu_s"], rel=1e-10)
+
+
+@settings(max_examples=25)
+@given(thin=st.floats(0.01, 1.0), thicker=st.floats(1.01, 3.0), load=st.floats(1e-4, 0.1))
+def test_a_thicker_film_pulls_harder(thin, thicker, load):
+    row = {"m": 0.05, "H": thin}
+    less, more = (wet({**row, "H": H}).at_pressure(load).meniscus_pressure[0] for H in (thin, thicker * thin))
+    assert more > less
+
+
+def test_without_film_the_contact_is_dry():
+    row = {"m": 0.05, "H": 1.0}
+    theory = wet(row)
+    layer = StatisticalMeniscus(theory.contact, theory.surface_tension, 0.1, molecular_layer=0.2)
+    found = layer.at_pressure(0.01)
+    dry = theory.contact.at_pressure(0.01)
+    assert found.meniscus_pressure[0] == 0.0
+    assert found.contact.separation[0] == pytest.approx(dry.separation[0], rel=1e-12)
+
+
+def test_menisci_of_exponential_summits_are_proportional_to_the_load():
+    """F_m = F_max exp(H - D) and L = k Γ(5/2) exp(-D): a constant ratio of meniscus force and load."""
+    row = {"m": 0.1, "H": 0.5}
+    theory = wet(row, ExponentialHeights())
+    ratio = row["m"] * math.exp(row["H"]) / math.gamma(2.5)
+    found = theory.at_pressure([1e-4, 1e-3, 1e-2])
+    np.testing.assert_allclose(found.meniscus_pressure / found.contact.pressure, ratio, rtol=1e-10)
+
+
+def test_pull_off():
+    """At the pull-off load the balance has a double root: less tension is held, more is not."""
+    theory = wet({"m": 0.5, "H": 1.0})
+    separations = np.linspace(-6.0, 6.0, 20_001)
+    net = theory.contact.at_separation(separations).pressure - theory.meniscus_pressure(separations)
+    # the grid misses the minimum by at most half a step, its value by the square
+    assert theory.pull_off == pytest.approx(-net.min(), rel=1e-6)
+    assert wet({"m": 1e-6, "H": 0.01}).pull_off >= 0.0
+
+
+@pytest.mark.parametrize("row", reference("kinetic_meniscus_height"))
+def test_height_of_a_growing_meniscus(row):
+    assert float(grown(row["tau"], row["y0"])) == pytest.approx(row["y"], rel=1e-11)
+
+
+@pytest.mark.parametrize("row", reference("kinetic_meniscus_times"))
+def test_times_of_growth(row):
+    growth = MeniscusGrowth(
+        row["R_m"],
+        row["gamma_N_per_m"],
+        row["h_m"],
+        row["viscosity_Pa_s"],
+        row["hamaker_J"],
+        contact_angle=math.radians(row["theta_deg"]),
+        radius_ratio=row["radius_ratio"],
+    )
+    assert growth.disjoining_pressure == pytest.approx(row["disjoining_Pa"], rel=1e-12)
+    assert growth.equilibrium_height == pytest.approx(row["s_eq_m"], rel=1e-12)
+    assert growth.start == pytest.approx(row["y0"], rel=1e-12)
+    assert growth.time_scale == pytest.approx(row["t0_s"], rel=1e-12)
+    assert growth.time_to(0.99) == pytest.approx(row["t99_s"], rel=1e-12)
+    assert float(growth.height(growth.time_to(0.99))) == pytest.approx(0.99 * growth.equilibrium_height, rel=1e-10)
+    assert float(growth.height(0.0)) == pytest.approx(row["h_m"], rel=1e-12)
+
+
+@pytest.mark.parametrize("row", reference("kinetic_meniscus_force"))
+def test_force_of_growing_menisci(row):
+    found = float(caught(GaussianHeights(), np.array(row["D"]), row["H"], row["S"]))
+    assert found == pytest.approx(row["fm_over_N0_max"], rel=1e-11)
+    whole = float(caught(GaussianHeights(), np.array(row["D"]), row["H"], math.inf))
+    assert found / whole == pytest.approx(row["relative_to_equilibrium"], rel=1e-11)
+
+
+@settings(max_examples=40)
+@given(D=st.floats(-1.0, 3.0), film=st.floats(0.05, 2.0), more=st.floats(1.0, 5.0))
+def test_the_force_of_growing_menisci_is_its_integral(D, film, more):
+    height = film * more
+    density = lambda s: float(GaussianHeights().density(np.array(s)))  # noqa: E731 - a name for the integrand
+    touching = quad(density, D, 12.0, epsabs=1e-13)[0]
+    near = quad(lambda s: (1.0 - (D - s) / height) * density(s), D - film, D, epsabs=1e-13)[0]
+    assert float(caught(GaussianHeights(), np.array(D), film, height)) == pytest.approx(touching + near, rel=1e-8)
+
+
+def test_stiction_grows_with_time_towards_the_statistical_value():
+    contact = GreenwoodWilliamson(50e9, 2e12, 1e-6, 2e-9)
+    statistical = StatisticalMeniscus(contact, 0.025, 1.5e-9, contact_angle=math.radians(10.0))
+    growth = MeniscusGrowth(1e-6, 0.025, 1.5e-9, 0.2, 5e-20, contact_angle=math.radians(10.0))
+    model = KineticMeniscus(statistical, growth)
+    load = np.array([1e5])
+    forces = [model.at(t * growth.time_scale, load).meniscus_pressure[0] for t in (0.0, 0.01, 0.1, 1.0, 10.0)]
+    assert (np.diff(forces) > 0.0).all()
+    final = statistical.at_pressure(load).meniscus_pressure[0]
+    # at the end s = s_eq, and gaps of the film's order are left out of the statistical value
+    assert forces[-1] < final
+    assert forces[-1] == pytest.approx(final, rel=2.0 * statistical.film_thickness / growth.equilibrium_height)
+
+
+def test_times_grow_with_thickness_viscosity_and_radius():
+    base = {
+        "radius": 1e-6,
+        "surface_tension": 0.025,
+        "film_thickness": 1e-9,
+        "viscosity": 0.1,
+        "hamaker_constant": 5e-20,
+    }
+    scale = MeniscusGrowth(**base).time_scale
+    for name, power in (("radius", 1), ("viscosity", 1), ("film_thickness", 6)):
+        assert MeniscusGrowth(**{**base, name: 2.0 * base[name]}).time_scale == pytest.approx(2.0**power * scale)
+
+
+def test_inputs_out_of_range_are_refused():
+    with pytest.raises(InputError, match="no meniscus forms"):
+        meniscus.wetting_factor(math.radians(120.0), math.radians(80.0))
+    with pytest.raises(InputError, match="between 0 and π"):
+        meniscus.wetting_factor(4.0)
+    with pytest.raises(InputError, match="give the film instead"):
+        meniscus.kelvin_radius(1.0, 0.07, 1.8e-5)
+    with pytest.raises(InputError, match="holds its liquid back"):
+        MeniscusGrowth(1e-6, 0.025, 1e-10, 0.1, 1e-19)
+    with pytest.raises(NoSolutionError, match="standard deviations below"):
+        wet({"m": 0.1, "H": 1.0}).at_pressure(1e9)
