@@ -9,8 +9,9 @@ from solid_cases import elastic, layered, on_half_space
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace
 from asperity.solids.compliance.hybrid import interface_compliances
-from asperity.solids.compliance.influence_tensor import influence_tensor
+from asperity.solids.compliance.influence_tensor import coupling_influence, influence_tensor
 from asperity.solids.compliance.layered import LayerStack
+from asperity.solids.compliance.line_coupling import coupling_strips
 from asperity.solids.compliance.patch_average import ISOTROPIC, patch_coefficients
 from asperity.solids.compliance.samples import samples
 from asperity.solids.compliance.two_bodies import contact_compliance
@@ -154,3 +155,37 @@ def test_slipping_layers_have_no_tangential_coefficients():
     with pytest.raises(asp.InputError, match="must be bonded on the free boundary"):
         influence_tensor(asp.Grid((4, 4), (1.0, 1.0)), body)
     assert LayerStack(body).influence(asp.Grid((4, 4), (1.0, 1.0))).min() > 0.0
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
+def test_strips_under_shear_step_from_the_top_layer_to_what_holds_it(nu):
+    """u_z of a line force Q is ±(1-2ν)Q/4G near it and with the base's constants far away; the contraction ν/2G of a sheet
+    gives ∓νQ/4G over an interface that slips. The approach to the limits is like h/x and x/h."""
+    film, base, dx = elastic(2.0, nu), elastic(1.0, 0.1), 1e-4
+    bonded = asp.Layered([asp.Layer(film, 1.0)], base)
+    slipping = asp.Layered([asp.Layer(film, 1.0, asp.Frictionless())], base)
+    near = 0.25 * (1.0 - 2.0 * nu) / film.shear_modulus
+    for body, far in (
+        (bonded, 0.25 * 0.8 / base.shear_modulus),
+        (slipping, -0.25 * nu / film.shear_modulus),
+        (film, near),
+    ):
+        close = coupling_strips(asp.Grid((6, 1), (dx, 1.0)), body)[:, 0]
+        assert close[0] == 0.0
+        np.testing.assert_allclose(close[1:] / dx, near, atol=1e-3)
+        distant = coupling_strips(asp.Grid((6, 1), (1e4, 1.0)), body)[:, 0]
+        np.testing.assert_allclose(distant[1:] / 1e4, far, atol=1e-3)
+    pair = coupling_strips(asp.Grid((6, 1), (0.3, 1.0)), bonded, film)
+    alone = [coupling_strips(asp.Grid((6, 1), (0.3, 1.0)), body) for body in (bonded, film)]
+    np.testing.assert_allclose(pair, alone[0] - alone[1], atol=1e-15)
+
+
+def test_coupling_of_a_slipping_layer_tends_to_that_of_a_sheet():
+    """αC_Lz from (1-2ν)/2G of the film to -ν/2G: u_x far from a normal point force is -αC_Lz/(2πr) x/r."""
+    film = elastic(2.0, 0.3)
+    body = asp.Layered([asp.Layer(film, 1.0, asp.Frictionless())], elastic(1.0, 0.1))
+    xz, yz = coupling_influence(asp.Grid((5, 5), (1e4, 1e4)), body)
+    expected = 0.3 / (2.0 * film.shear_modulus) / (2.0 * np.pi * np.arange(3, 5) * 1e4) * 1e8
+    # a pixel instead of a point: the mean of x/r² over a square, harmonic but for the fourth order, 1/60 r^-4 at most
+    np.testing.assert_allclose(xz[3:, 0], expected, rtol=2e-3)
+    np.testing.assert_allclose(yz, xz.T, rtol=1e-9, atol=1e-9 * np.abs(xz).max())

@@ -10,7 +10,7 @@ from typing import ClassVar, TypeAlias
 from ..core import require
 from ..core.errors import InputError
 from .elastic import Elastic
-from .interface import Bonded, Interface
+from .interface import Bonded, Frictionless, Interface
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,11 @@ class Layered:
         reduced = self.reduced
         layers = [Layer(_constants(layer.material), layer.thickness, layer.interface) for layer in reduced.layers]
         return Layered(layers, _constants(reduced.base) if isinstance(reduced.base, Elastic) else reduced.base)
+
+    @property
+    def slips(self) -> bool:
+        """Whether some layer may slip on what lies below it."""
+        return any(isinstance(layer.interface, Frictionless) for layer in self.reduced.layers)
 
     @property
     def surface_material(self) -> Base:

@@ -118,8 +118,9 @@ def stress(
     Raises
     ------
     InputError
-        If the body is rigid, a depth negative or below a rigid base, a position outside the grid, or shear acts above a
-        frictionless interface.
+        If the body is rigid, a depth negative or below a rigid base, a position outside the grid, or layers that can slip
+        on a frictionless interface carry shear that nothing holds: a mean shear on the periodic boundary, and for the
+        displacement any on the free one.
     """
     loads = tractions_on(result, friction, direction, of)
     job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)

@@ -14,6 +14,7 @@ from ..core.spectral import PaddedTransform, RealTransform, fast_length, thread_
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .coefficients import PlaneCoefficients
 from .line_coefficients import LineCoefficients
+from .mean_mode import require_displacement
 from .patch import Load
 from .regions import Plane, stack
 from .tractions import ShearTraction, Tractions
@@ -50,7 +51,14 @@ class FreePlanes:
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
-        """Displacement (m) of ``plane``, zero at infinity."""
+        """Displacement (m) of ``plane``, zero at infinity.
+
+        Raises
+        ------
+        InputError
+            If it has no limit, see ``require_displacement``.
+        """
+        require_displacement(self.tractions, self._body)
         coefficients = self._coefficients(plane)
         by_load = {load: vars(coefficients.displacement(load)) for load in self._loads}
         return Displacement(*self._convolved(AXES, by_load, None if out is None else list(vars(out).values())))

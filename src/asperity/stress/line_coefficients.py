@@ -1,9 +1,7 @@
 """Influence coefficients of strips under uniform traction for every field on a plane in a layered body, plane strain.
 
 With the wavevector along x, c = ±1 and s = 0: fields are cosine or sine integrals of the transfer amplitudes. In the
-outermost region the homogeneous strip is added in closed form (Johnson 1985, sec. 2.5). What is left is
-(b/α + a) exp(-αd) in closed form, which carries the slow decay, and a remainder by logarithmic Hankel transform.
-Displacements are zero on the surface at the distance ``datum`` from a line load, as in the contact.
+outermost region the homogeneous strip is added in closed form (Johnson 1985, sec. 2.5). Displacements are zero on the surface at the distance ``datum`` from a line load, as in the contact.
 """
 
 from __future__ import annotations
@@ -16,9 +14,8 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.grid import Grid
-from ..core.hankel import log_hankel
-from ..core.log_table import LogTable, log_table
 from ..core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
+from ..solids.compliance.line_integral import LineIntegral, line_integral
 from ..solids.compliance.point_kernel import wavenumber_grid
 from ..solids.layers import Layered, RigidBase
 from ..theories.line_loads import (
@@ -68,8 +65,6 @@ STRIPS = {"z": strip_pressure, "x": strip_shear, "y": strip_out_of_plane}
 LINES = {"z": flamant_normal, "x": flamant_tangential, "y": flamant_out_of_plane}
 """Homogeneous line loads by their direction."""
 
-_SMALL = 1e-5  # of the wavenumber 1/d, where the constant term of an amplitude can be read off
-
 
 @dataclass(frozen=True, eq=False)
 class LineCoefficients:
@@ -106,7 +101,7 @@ class LineCoefficients:
             found[name] = np.diff(at_edges, prepend=first)[:, None]
         return found
 
-    def _integrals(self, load: Load, names: tuple[str, ...]) -> dict[str, _Integral]:
+    def _integrals(self, load: Load, names: tuple[str, ...]) -> dict[str, LineIntegral]:
         if not self.body.layers:
             return {}
         length = self.body.thickness
@@ -115,7 +110,7 @@ class LineCoefficients:
         spectra, nu = ready.spectra(alpha), self.plane.region.material.poisson_ratio
         waves = {name: wave for name, wave in FIELDS[load].items() if name in names}
         return {
-            name: _integral(alpha, sign * amplitude(spectra, nu), length, cosine=cosine)
+            name: line_integral(alpha, sign * amplitude(spectra, nu), length, cosine=cosine)
             for name, (amplitude, cosine, sign) in waves.items()
         }
 
@@ -134,49 +129,3 @@ class LineCoefficients:
         known = LINES[load](x, 0.0, shear=solid.shear_modulus, nu=solid.poisson_ratio).displacement
         rest = surface._integrals(load, (load,))
         return float(getattr(known, load)) + (rest[load].slope(self.datum) if rest else 0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class _Integral:
-    """∫ of the line response K from 0 to x: (b/α + a) exp(-αd) in closed form, and a table of the remainder."""
-
-    b: float
-    a: float
-    d: float
-    cosine: bool
-    kernel: LogTable
-    moment: LogTable
-
-    def __call__(self, x: RealArray) -> RealArray:
-        """Integral at x > 0 in m."""
-        angle, log = np.arctan(x / self.d), np.log(x**2 + self.d**2)
-        if self.cosine:
-            closed = self.b * (x - 0.5 * x * log - self.d * angle) + self.a * angle
-        else:
-            rise = 0.5 * (log - 2.0 * np.log(self.d))
-            closed = self.b * (x * angle - self.d * rise) + self.a * rise
-        total: RealArray = closed / np.pi + self.moment(x)
-        return total
-
-    def slope(self, x: float) -> float:
-        """K at x > 0 of a cosine response."""
-        square = x**2 + self.d**2
-        closed = -0.5 * self.b * np.log(square) + self.a * self.d / square
-        return float(closed / np.pi + self.kernel(np.array([x]))[0])
-
-
-def _integral(alpha: RealArray, amplitude: RealArray, d: float, *, cosine: bool) -> _Integral:
-    """Integral of 1/π ∫ F cos αx dα, or of the sine, for the ``amplitude`` F on ``wavenumber_grid(d)``.
-
-    cos z = sqrt(πz/2) J_-1/2(z) and sin z with J_1/2 make it a Hankel transform.
-    """
-    b = float((alpha * amplitude)[0])
-    small = int(np.searchsorted(alpha, _SMALL / d))
-    a = float(amplitude[small] - b / alpha[small] * np.exp(-alpha[small] * d))
-    rest = amplitude - (b / alpha + a) * np.exp(-alpha * d)
-    x = 1.0 / alpha[::-1]
-    kernel = log_hankel(rest * np.sqrt(alpha), -0.5 if cosine else 0.5) * np.sqrt(0.5 / (np.pi * x))
-    start = float(x[0])
-    moment = log_table(start, kernel * x).integral()
-    moment.coefficients[0] += kernel[0] * moment.start
-    return _Integral(b, a, d, cosine, log_table(start, kernel), moment)

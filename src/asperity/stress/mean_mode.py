@@ -10,10 +10,11 @@ import math
 
 from ..core.errors import InputError
 from ..solids.elastic import Elastic
-from ..solids.interface import Frictionless
 from ..solids.layers import RigidBase
 from .regions import Plane, Region, regions, stack
 from .tractions import Tractions
+
+_BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precision that of a sum
 
 
 def mean_stress(loads: tuple[float, float, float], region: Region) -> tuple[float, ...]:
@@ -43,17 +44,41 @@ def mean_displacement(loads: tuple[float, float, float], body: object, plane: Pl
 
 
 def require_held(tractions: Tractions, body: object) -> None:
-    """Refuse shear traction on layers that nothing holds.
+    """Refuse a mean shear traction on layers that nothing holds.
+
+    At every other wavelength the layers above a frictionless interface carry shear as a sheet does. In a periodic cell
+    the mean would push them away; without periodicity the unloaded parts of the layers hold them.
 
     Raises
     ------
     InputError
-        If there is shear traction above a frictionless interface.
+        If the boundary is periodic and there is a mean shear traction above a frictionless interface.
     """
-    if tractions.sheared and any(isinstance(layer.interface, Frictionless) for layer in stack(body).layers):
+    x, y, _ = tractions.means
+    mean = math.hypot(x, y)
+    if tractions.boundary == "periodic" and stack(body).slips and tractions.sheared:
+        largest = max(float(abs(tractions.shear_x).max()), float(abs(tractions.shear_y).max()))
+        if mean > _BALANCED * largest:
+            raise InputError(
+                "mean shear traction must be zero on a periodic body with a Frictionless() interface, where nothing holds the "
+                "layers above it, but is not. Use Bonded() interfaces, the boundary Free(), whose unloaded parts "
+                "hold the layers, a ShearTraction without its mean, or friction=0."
+            )
+
+
+def require_displacement(tractions: Tractions, body: object) -> None:
+    """Refuse displacements that have no limit: of sheared layers that slip and are held at infinity only.
+
+    Raises
+    ------
+    InputError
+        If the boundary is not periodic and there is shear traction above a frictionless interface.
+    """
+    if tractions.boundary != "periodic" and tractions.sheared and stack(body).slips:
         raise InputError(
-            "shear traction must be zero on a body with a Frictionless() interface, which holds no layer above it, "
-            "but is not. Use Bonded() interfaces, or friction=0."
+            "displacement under shear traction must not be asked of a body with a Frictionless() interface on the boundary "
+            f"{tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
+            "displacement=False."
         )
 
 

@@ -105,8 +105,8 @@ class StressRequest:
         Raises
         ------
         InputError
-            If the body does not deform, a depth lies below its rigid base, a position outside the grid, or shear would
-            act above a frictionless interface.
+            If the body does not deform, a depth lies below its rigid base, a position outside the grid, or nothing would
+            hold sheared layers (see ``require_held``).
         """
         body, grid = getattr(problem, self.of), problem.grid
         if isinstance(body, Rigid):

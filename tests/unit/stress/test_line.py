@@ -125,3 +125,28 @@ def test_continuity_across_interfaces():
 def test_a_free_line_has_one_point_along_y():
     with pytest.raises(asp.InputError, match="one point along y"):
         Tractions(asp.Grid((4, 2), (1.0, 1.0)), np.zeros((4, 2)), asp.Sliding(0.0), "free line")
+
+
+SLIPPING = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.2), 0.8, asp.Frictionless())], asp.Elastic(1.0, 0.3))
+
+
+def test_a_layer_that_slips_carries_a_sheared_line_to_both_sides():
+    """Nothing else holds it: σxx over its thickness is the force of half the traction on either side, σxy likewise; in the
+    base there is none far away. Gauss points are exact for the smooth profile; waves die out like exp(-πx/h)."""
+    grid = asp.Grid((64, 1), (0.25, 1.0))
+    pressure, (qx, qy) = np.zeros((2, 64, 1))[0], np.zeros((2, 64, 1))
+    qx[30:33], qy[30:33] = 2.0, 1.0
+    loads = Tractions(grid, pressure, asp.ShearTraction(qx, qy), "free line")
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    field = StressPlanes(loads, SLIPPING, 0.4 * (1.0 + nodes)).whole()
+    force = np.einsum("k,kx->x", 0.4 * weights, field.normal_xx[..., 0])
+    across = np.einsum("k,kx->x", 0.4 * weights, field.shear_xy[..., 0])
+    np.testing.assert_allclose(force[40:], -0.5 * 1.5, rtol=1e-3)
+    np.testing.assert_allclose(force[:22], 0.5 * 1.5, rtol=1e-3)
+    np.testing.assert_allclose(across[40:], -0.5 * 0.75, rtol=1e-6)
+    np.testing.assert_allclose(across[:22], 0.5 * 0.75, rtol=1e-6)
+    base = StressPlanes(loads, SLIPPING, [0.8, 2.0]).whole().within(1)
+    np.testing.assert_allclose(base.shear_xz[0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(base.shear_xy, 0.0, atol=1e-9)
+    with pytest.raises(asp.InputError, match="slip without end"):
+        StressPlanes(loads, SLIPPING, [0.4]).whole(displacement=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
-from ...core.errors import InputError
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
-from ...solids.compliance.influence_tensor import influence_tensor
+from ...solids.compliance.influence_tensor import coupling_influence
+from ...solids.compliance.line_coupling import coupling_strips
 from ...solids.compliance.tensor import surface_tensor
 from ..boundary import Free, Periodic
 from ..problem import ContactProblem
@@ -17,12 +17,7 @@ class SlidingCoupling:
     """Normal displacement under shear that is the pressure times the ratios (kx, ky), prepared once.
 
     The coupling of the two bodies subtracts, for they carry opposite tractions: equal bodies have none, nor has an
-    incompressible body against a rigid one.
-
-    Raises
-    ------
-    InputError
-        If the boundary is a free line, or a layer may slip on the free boundary.
+    incompressible body against a rigid one. On a free line shear along y moves nothing up or down.
     """
 
     def __init__(self, problem: ContactProblem, ratios: tuple[float, float], *, threads: int | None = None) -> None:
@@ -34,17 +29,16 @@ class SlidingCoupling:
             tensor = surface_tensor(grid, problem.body, problem.counter_body)
             self._kernel = -1j * (kx * tensor.xz + ky * tensor.yz)  # C_zx = -C_xz
             self._transform = RealTransform(grid.shape, threads)
-        elif isinstance(problem.boundary, Free):
-            influence = influence_tensor(grid, problem.body, problem.counter_body)
-            padded = fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1)
-            x, y = wrapped(influence.xz, padded, odd_x=True), wrapped(influence.yz, padded, odd_y=True)
-            self._kernel = RealTransform(padded, threads).forward(-kx * x - ky * y)
-            self._transform = PaddedTransform(grid.shape, padded, threads)
         else:
-            raise InputError(
-                "boundary of a sliding contact with coupling must be Periodic() or Free(), but is FreeLine(). "
-                "Use Periodic() on a longer line."
-            )
+            bodies = problem.body, problem.counter_body
+            padded = fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1)
+            if isinstance(problem.boundary, Free):
+                xz, yz = coupling_influence(grid, *bodies)  # C_zx = -C_xz
+                kernel = -kx * wrapped(xz, padded, odd_x=True) - ky * wrapped(yz, padded, odd_y=True)
+            else:
+                kernel = kx * wrapped(coupling_strips(grid, *bodies), padded, odd_x=True)
+            self._kernel = RealTransform(padded, threads).forward(kernel)
+            self._transform = PaddedTransform(grid.shape, padded, threads)
 
     def displacement(self, pressure: RealArray) -> RealArray:
         """Normal displacement (nx, ny) in m of ``body`` relative to the counter body under the shear of ``pressure``."""

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ..body import Body, deformable
 from ..elastic import Elastic, Rigid
-from ..interface import Frictionless
 from ..layers import Layered
 from .patch_average import COS_1, COS_2, ISOTROPIC, SIN_1, SIN_2, patch_coefficients
-from .samples import samples
+from .samples import Samples, samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,35 +44,45 @@ def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> In
         If both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
     """
     total: dict[str, RealArray] = {}
-    for solid, sign in deformable(body, counter_body):
+    for solid, _ in deformable(body, counter_body):
         for name, values in _components(grid, solid).items():
-            total[name] = total.get(name, 0.0) + (sign * values if name in ("xz", "yz") else values)
-    return InfluenceTensor(**total)
+            total[name] = total.get(name, 0.0) + values
+    xz, yz = coupling_influence(grid, body, counter_body)
+    return InfluenceTensor(**total, xz=xz, yz=yz)
+
+
+def coupling_influence(grid: Grid, body: Body, counter_body: Body = Rigid()) -> tuple[RealArray, RealArray]:
+    """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
+    total = [np.zeros(grid.shape), np.zeros(grid.shape)]
+    for solid, sign in deformable(body, counter_body):
+        kernel = _samples(grid, solid).kernel(lambda c: c.Lz, order=1)
+        for found, angular in zip(total, (COS_1, SIN_1), strict=True):
+            found -= sign * patch_coefficients(kernel, grid, angular)
+    return total[0], total[1]
+
+
+def _samples(grid: Grid, body: Elastic | Layered) -> Samples:
+    depth = body.reduced.thickness if isinstance(body, Layered) else 0.0
+    return samples(body, depth or max(grid.spacing))
 
 
 def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
-    """From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2, C_xz = i cos phi Lz.
+    """From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
 
     A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m theta) and J_m.
     """
-    depth = max(grid.spacing)
-    if isinstance(body, Layered):
-        depth = body.reduced.thickness or depth
-        if any(isinstance(layer.interface, Frictionless) for layer in body.reduced.layers):
-            raise InputError(
-                "layers under a tangential traction must be bonded on the free boundary, but one is Frictionless(): "
-                "it would slip without end. Use Bonded() or the periodic boundary."
-            )
-    known = samples(body, depth)
+    if isinstance(body, Layered) and body.reduced.slips:
+        raise InputError(
+            "layers under a tangential traction must be bonded on the free boundary, but one is Frictionless(): "
+            "it would slip without end. Use Bonded() or the periodic boundary."
+        )
+    known = _samples(grid, body)
     mean = patch_coefficients(known.kernel(lambda c: 0.5 * (c.LL + c.T)), grid)
     bending = known.kernel(lambda c: 0.5 * (c.LL - c.T), order=2)
-    coupling = known.kernel(lambda c: c.Lz, order=1)
     along_x = patch_coefficients(bending, grid, COS_2)
     return {
         "xx": mean - along_x,
         "yy": mean + along_x,
         "zz": patch_coefficients(known.kernel(lambda c: c.zz), grid, ISOTROPIC),
         "xy": -patch_coefficients(bending, grid, SIN_2),
-        "xz": -patch_coefficients(coupling, grid, COS_1),
-        "yz": -patch_coefficients(coupling, grid, SIN_1),
     }

@@ -40,8 +40,12 @@ def samples(body: Elastic | Layered, depth: float) -> Samples:
     stack = body.reduced if isinstance(body, Layered) else Layered((), body)
     alpha = wavenumber_grid(depth)
     values = interface_compliances(stack, alpha)[0].scaled(alpha)
-    base = _strength(stack.base) if isinstance(stack.base, Elastic) else rigid(np.ones(()))
-    return Samples(depth, values, _strength(stack.layers[0].material) if stack.layers else base, base)
+    base = low = _strength(stack.base) if isinstance(stack.base, Elastic) else rigid(np.ones(()))
+    if stack.slips:
+        # the layers above carry a shear traction as a sheet does, and their Poisson contraction moves the surface: for
+        # one layer C_Lz alpha tends to -nu/2G; displacements along the surface grow without limit
+        low = PlaneCompliance(np.array(np.inf), base.zz, values.Lz[0], np.array(np.inf))
+    return Samples(depth, values, _strength(stack.layers[0].material) if stack.layers else base, low)
 
 
 def _strength(material: Elastic) -> PlaneCompliance:

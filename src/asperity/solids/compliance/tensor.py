@@ -10,7 +10,6 @@ from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ..body import Body, deformable
 from ..elastic import Elastic, Rigid
-from ..interface import Frictionless
 from ..layers import Layered
 from .hybrid import PlaneCompliance, half_space
 from .layered import LayerStack
@@ -110,7 +109,8 @@ def _mean_modes(body: Body, counter_body: Body) -> tuple[float, float]:
         stack = solid.reduced if isinstance(solid, Layered) else None
         if stack is None or isinstance(stack.base, Elastic):
             return 0.0, 0.0
-        slips = any(isinstance(layer.interface, Frictionless) for layer in stack.layers)
-        shears.append(0.0 if slips else sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers))
+        shears.append(
+            0.0 if stack.slips else sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers)
+        )
         normals.append(LayerStack(stack).mean_mode())
     return (sum(shears) if all(shears) else 0.0), sum(normals)
