@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
@@ -93,10 +93,23 @@ def _solved(case: Case, *, chosen: bool) -> ContactResult:
 def _slid(case: Case, stress: StressRequest, solver: Solver | None) -> ContactResult:
     """Contact whose pressure the shear traction has changed; not converged if that did not settle."""
     from ..contact.sliding import solve_sliding
+    from ..core.engine import CpuEngine
+    from .interrupt import interruptible
+    from .progress import shown
 
-    options: dict[str, Any] = {"direction": stress.direction, "solver": solver, "on_failure": "return"}
-    slid = solve_sliding(case.problem, case.control, stress.friction, **options)
-    return slid.contact if slid.converged else replace(slid.contact, status=slid.status)
+    with shown("solving") as bar, interruptible(bar) as progress:
+        slid = solve_sliding(
+            case.problem,
+            case.control,
+            stress.friction,
+            direction=stress.direction,
+            solver=solver,
+            progress=progress,
+            engine=CpuEngine(case.threads),
+            on_failure="return",
+        )
+    contact = replace(slid.contact, citation_keys=slid.citation_keys)
+    return contact if slid.converged else replace(contact, status=slid.status)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,9 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import RealArray
+from ..core.engine import Engine
 from ..core.errors import ConvergenceError
+from ..core.progress import NoProgress, Progress
 from ..core.status import Outcome, Status
 from ..surfaces.surface import Surface
 from .control import Approach, Control
@@ -24,7 +26,8 @@ from .solvers.protocol import Solver
 from .state import InterfaceState
 
 _TIGHT = 1e-12
-_REMEDY = "Allow more rounds, tighten the solver's tolerance, or lower the friction coefficient."
+_MOST_ROUNDS = 30  # a change that halves in every round is 1e-9 after them
+_REMEDY = "Tighten the solver's tolerance, allow more change, or lower the friction coefficient."
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,15 +84,16 @@ def solve_sliding(
     *,
     direction: float = 0.0,
     tolerance: float = 1e-6,
-    max_rounds: int = 30,
     solver: Solver | None = None,
     state: InterfaceState | None = None,
+    progress: Progress = NoProgress(),
+    engine: Engine | None = None,
     on_failure: Literal["raise", "return"] = "raise",
 ) -> SlidingResult:
     """Solve a contact in which all points slide, with the coupling of shear traction and normal displacement.
 
     The contact is solved again and again on the profile less the displacement of the last shear traction, until the
-    pressure stops changing; every round reduces the change by about friction times Dundurs' β.
+    pressure stops changing; every round reduces the change by about friction times Dundurs' β. After 30 rounds it gives up.
 
     Parameters
     ----------
@@ -101,10 +105,13 @@ def solve_sliding(
         Angle in rad of the shear traction on ``body``, from +x towards +y.
     tolerance
         Relative L2 change of the pressure from one round to the next at which to stop.
-    max_rounds
-        Largest number of solves, at least 2.
     solver
         Method; by default ``ActiveSet`` with a tolerance tight enough that its error does not hide convergence.
+    progress
+        Receives, after every iteration of every round, the number of all iterations so far and the larger of the solver's
+        error and the last change of the pressure.
+    engine
+        Machine to compute on, as for ``solve``.
     on_failure
         ``"raise"`` a ConvergenceError holding the result, or ``"return"`` it with its status, when not converged.
 
@@ -113,16 +120,17 @@ def solve_sliding(
     ConvergenceError
         If the pressure does not settle and ``on_failure`` is ``"raise"``, or a solve on the way does not converge.
     NoSolutionError, InputError
-        As for ``solve``; also if the boundary is a free line or the friction coefficient negative.
+        As for ``solve``; also if the friction coefficient is negative.
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     mu = require.not_negative(friction, "friction coefficient")
     require.positive(tolerance, "tolerance of a sliding contact")
-    require.integer(max_rounds, 2, "number of rounds")
-    coupling = SlidingCoupling(problem, (mu * math.cos(direction), mu * math.sin(direction)))
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    rounds = _Round(problem, control, solver or ActiveSet(tolerance=_TIGHT), operator, state)
-    contact, lift, count, change = _settled(rounds, coupling, tolerance, max_rounds)
+    ratios = mu * math.cos(direction), mu * math.sin(direction)
+    coupling = SlidingCoupling(problem, ratios, threads=getattr(engine, "threads", None))
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    told = _Told(progress, tolerance)
+    rounds = _Round(problem, control, solver or ActiveSet(tolerance=_TIGHT), operator, state, told)
+    contact, lift, count, change = _settled(rounds, coupling, told)
     status = _status(change <= tolerance, change, count)
     result = SlidingResult(contact, mu, direction, lift, count, change, status)
     if on_failure == "raise" and not status.converged:
@@ -139,6 +147,7 @@ class _Round:
     solver: Solver
     operator: Operator
     state: InterfaceState | None
+    told: _Told
 
     def solved(self, lift: RealArray, guess: RealArray | None) -> ContactResult:
         """Contact of the profile less ``lift`` (m), started from the pressure ``guess``, seen from the true profile."""
@@ -156,9 +165,8 @@ class _Round:
         if guess is not None:
             permanent = np.zeros(guess.shape) if start is None else start.permanent_indentation
             start = InterfaceState(permanent, guess)
-        found = solve(
-            posed, control, solver=self.solver, state=start, keep=Keep(stiffness=False), operator=self.operator
-        )
+        options = {"solver": self.solver, "operator": self.operator, "progress": self.told}
+        found = solve(posed, control, state=start, keep=Keep(stiffness=False), **options)  # type: ignore[arg-type]
         displacement = found.displacement + lift
         energy = 0.5 * float((found.pressure * displacement).sum()) * whole.grid.pixel_area
         return replace(
@@ -171,20 +179,36 @@ class _Round:
         )
 
 
-def _settled(
-    rounds: _Round, coupling: SlidingCoupling, tolerance: float, most: int
-) -> tuple[ContactResult, RealArray, int, float]:
+class _Told:
+    """Progress of all rounds together: one count of iterations, and an error that ends at the ``tolerance`` of the change."""
+
+    def __init__(self, progress: Progress, tolerance: float) -> None:
+        self.tolerance = tolerance
+        self._progress, self._before, self._latest, self._change = progress, 0, 0, 1.0
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        """An iteration of a round."""
+        self._latest = iteration
+        self._progress.update(self._before + iteration, max(error, self._change), self.tolerance)
+
+    def round(self, change: float) -> None:
+        """The end of a round."""
+        self._before, self._latest, self._change = self._before + self._latest, 0, change
+        self._progress.update(self._before, change, self.tolerance)
+
+
+def _settled(rounds: _Round, coupling: SlidingCoupling, told: _Told) -> tuple[ContactResult, RealArray, int, float]:
     """Last contact, the lift (m) it was solved on, number of solves and last change of the pressure."""
     lift: RealArray = np.zeros(rounds.problem.grid.shape)
-    contact, change = rounds.solved(lift, None), math.inf
-    for count in range(2, most + 1):
+    contact, count, change = rounds.solved(lift, None), 1, 1.0
+    while count < _MOST_ROUNDS and change > told.tolerance:
+        told.round(change)
         lift = coupling.displacement(contact.pressure)
         latest = rounds.solved(lift, contact.pressure)
         change = _change(latest.pressure, contact.pressure)
-        contact = latest
-        if change <= tolerance:
-            return contact, lift, count, change
-    return contact, lift, most, change
+        contact, count = latest, count + 1
+    told.round(change)
+    return contact, lift, count, change
 
 
 def _change(pressure: RealArray, before: RealArray) -> float:

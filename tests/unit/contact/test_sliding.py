@@ -136,14 +136,32 @@ def test_prescribed_approach_counts_from_the_true_surfaces():
     assert again.problem is problem
 
 
-def test_too_few_rounds_are_said_so():
-    problem = asp.ContactProblem(rough(), COMPRESSIBLE)
-    result = solve_sliding(problem, asp.MeanPressure(1e8), 0.5, max_rounds=2, on_failure="return")
+def test_a_pressure_that_does_not_settle_is_said_so():
+    """Friction times β = (1-2ν)/2(1-ν) = 4/9 beyond one: every round makes the change larger."""
+    problem = asp.ContactProblem(rough((12, 10)), COMPRESSIBLE)
+    result = solve_sliding(problem, asp.MeanPressure(1e8), 6.0, on_failure="return")
     assert not result.converged
-    assert "after 2 rounds" in result.status.message
+    assert "after 30 rounds" in result.status.message
     assert result.status.remedy
     with pytest.raises(asp.ConvergenceError, match="still changes"):
-        solve_sliding(problem, asp.MeanPressure(1e8), 0.5, max_rounds=2)
+        solve_sliding(problem, asp.MeanPressure(1e8), 6.0)
+
+
+def test_progress_counts_the_iterations_of_all_rounds():
+    heard = []
+
+    class Heard:
+        def update(self, iteration, error, tolerance):
+            heard.append((iteration, error, tolerance))
+
+    problem = asp.ContactProblem(rough(), COMPRESSIBLE)
+    engine = asp.CpuEngine(threads=1)
+    slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.5, progress=Heard(), engine=engine)
+    iterations, errors, tolerances = map(np.array, zip(*heard, strict=True))
+    assert np.all(np.diff(iterations) >= 0)
+    assert iterations[-1] >= slid.rounds
+    assert errors[-1] == slid.change <= tolerances[-1] == 1e-6
+    np.testing.assert_allclose(slid.pressure, solve_sliding(problem, asp.MeanPressure(1e8), 0.5).pressure, rtol=1e-12)
 
 
 def test_permanent_indentation_is_kept_once_not_once_per_round():
