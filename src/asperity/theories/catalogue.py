@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from ..core import require
+from .anisotropic_summits import AnisotropicSummits
+from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
+from .greenwood_tripp import GreenwoodTripp
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .kotwal_bhushan import KotwalBhushan
 from .majumdar_bhushan import MajumdarBhushan
+from .mccool import McCool
+from .onions_archard import OnionsArchard
 from .persson import Persson
 from .protocol import Described
 
@@ -14,6 +19,12 @@ _CLASSES: tuple[type[Described], ...] = (
     GreenwoodWilliamson,
     FittedGreenwoodWilliamson,
     KotwalBhushan,
+    GreenwoodTripp,
+    McCool,
+    OnionsArchard,
+    BushGibsonThomas,
+    GreenwoodElliptic,
+    AnisotropicSummits,
     MajumdarBhushan,
     Persson,
 )
