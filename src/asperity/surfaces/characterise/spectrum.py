@@ -161,10 +161,15 @@ def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, 
     return RadialSpectrum(mean_q, psd, modes, bounds[found], bounds[found + 1], spectrum.window)
 
 
-def default_edges(spectrum: PowerSpectrum, per_decade: int = 20) -> RealArray:
-    """Edges in rad/m of logarithmic rings from just below the longest wave to the Nyquist circle."""
+def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: bool = False) -> RealArray:
+    """Edges in rad/m of logarithmic rings from just below the longest wave to the Nyquist circle.
+
+    With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not complete, and their mean is that
+    of all directions only where the surface is isotropic.
+    """
     shortest = 2.0 * np.pi / max(spectrum.grid.size)
-    high = max(spectrum.nyquist, 2.0 * shortest)
+    last = float(np.hypot(*(np.pi / d for d in spectrum.grid.spacing))) if corners else spectrum.nyquist
+    high = max(last, 2.0 * shortest)
     count = max(2, round(per_decade * np.log10(high / shortest)))
     return np.geomspace(shortest * (1.0 - _ROUNDING), high * (1.0 + _ROUNDING), count + 1)
 

@@ -127,7 +127,8 @@ def spectrum_of(
 
     Level the surface and fill missing points first. One that is not periodic is windowed (Hann), without which the
     jump between its borders would be generated too; the lowest modes, which a window mixes with the mean, take the power
-    of the next ones. Waves longer than the surface have that power too, waves shorter than two of its pixels none.
+    of the next ones. Waves longer than the surface have that power too, waves shorter than those of its grid none. The
+    shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions.
 
     Parameters
     ----------
@@ -147,7 +148,7 @@ def spectrum_of(
     InputError
         If points are missing, all heights are equal, or nothing is left above the floor.
     """
-    from ..characterise.spectrum import power_spectrum, radial_spectrum
+    from ..characterise.spectrum import default_edges, power_spectrum, radial_spectrum
 
     if not require.finite(floor, "floor of the spectrum (m^4)") >= 0.0:
         raise InputError(f"floor of the spectrum (m^4) must be zero or greater, but is {floor:g}.")
@@ -156,10 +157,11 @@ def spectrum_of(
     keys = tuple(dict.fromkeys((*surface.citation_keys, *spectrum.citation_keys)))
     first = 0.0 if spectrum.window == "none" else _MIXED
     if isotropic:
-        rings = radial_spectrum(spectrum, per_decade=per_decade)
+        rings = radial_spectrum(spectrum, default_edges(spectrum, per_decade, corners=True))
         kept = rings.q >= first * 2.0 * np.pi / min(spectrum.grid.size)
-        psd = _above(rings.psd[kept], floor)
-        return TabulatedSpectrum(rings.q[kept], psd, words=f"radial spectrum of {source}", citation_keys=keys)
+        q, psd = np.append(rings.q[kept], rings.high[-1]), _above(rings.psd[kept], floor)
+        words = f"radial spectrum of {source}"
+        return TabulatedSpectrum(q, np.append(psd, psd[-1]), words=words, citation_keys=keys)
     psd = _above(_without_mixed(spectrum, first), floor)
     return MeasuredSpectrum(replace(spectrum, psd=psd), source, keys)
 
