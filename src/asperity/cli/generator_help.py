@@ -40,6 +40,7 @@ HELP = MappingProxyType(
         "system": "System of distributions of the heights; their tails differ.",
         "predistorted": "Whether the spectrum is that of the heights, or of the Gaussian field they are made of.",
         "last": "Whether heights or spectrum are exact in the end.",
+        "tolerance": "Relative error of the waves' amplitudes at which to stop.",
         "max_iterations": "Iterations after which to stop.",
         "separation": "Height of the first texture above the second, of either sign.",
         "bimodal.share": "Share of the area of the first texture.",

@@ -52,6 +52,7 @@ class RankOrdered(GeneratedSurface):
     spectrum: SpectrumTable
     heights: HeightsTable
     last: Literal["heights", "spectrum"] = "heights"
+    tolerance: Number = 1e-4
     max_iterations: Count = 1000
 
 

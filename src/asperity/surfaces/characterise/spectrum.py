@@ -168,7 +168,8 @@ def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: boo
     of all directions only where the surface is isotropic.
     """
     shortest = 2.0 * np.pi / max(spectrum.grid.size)
-    last = float(np.hypot(*(np.pi / d for d in spectrum.grid.spacing))) if corners else spectrum.nyquist
+    dx, dy = spectrum.grid.spacing
+    last = float(np.hypot(np.pi / dx, np.pi / dy)) if corners else spectrum.nyquist
     high = max(last, 2.0 * shortest)
     count = max(2, round(per_decade * np.log10(high / shortest)))
     return np.geomspace(shortest * (1.0 - _ROUNDING), high * (1.0 + _ROUNDING), count + 1)
