@@ -8,6 +8,8 @@ from solid_cases import on_half_space
 
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
+from asperity.theories.hertz import HertzPoint
+from asperity.theories.hertz_line import HertzLine
 
 RADIUS = 100.0
 WIDTH = 2.3
@@ -21,36 +23,41 @@ def body(row: Row) -> asp.Layered:
     return on_half_space(row["E1_over_E2"], row["h_over_a0"], nu=row["nu1"], nu_base=row["nu2"])
 
 
+def _on_base(row: Row) -> HertzPoint:
+    """Hertz's contact of the same paraboloid with the base alone."""
+    return HertzPoint(body(row).base.plane_strain_modulus, RADIUS)
+
+
 def sphere(row: Row, radius: float, n: int) -> asp.ContactResult:
-    """Paraboloid under the load that gives a_0 = 1 on the base alone (P = 4 E' a_0³/3R), on n x n pixels over ``radius``."""
+    """Paraboloid under the load that gives a_0 = 1 on the base alone, on n x n pixels over ``radius``."""
     layered = body(row)
     pixel = WIDTH * radius / n
     x, y = asp.Grid((n, n), (pixel, pixel)).centred_coordinates()
     surface = asp.Surface(-(x**2 + y**2) / (2.0 * RADIUS), pixel)
     problem = asp.ContactProblem(surface, layered, boundary=asp.Free())
-    force = 4.0 / 3.0 * layered.base.plane_strain_modulus / RADIUS
+    force = float(_on_base(row).at_radius(1.0).load)
     return asp.solve(problem, asp.Force(force), solver=SOLVER, keep=NO_EXTRAS)
 
 
 def sphere_peak(row: Row) -> float:
-    """Hertz's peak pressure p_0 = 2 a_0 E'/pi R on the base alone."""
-    return float(2.0 * body(row).base.plane_strain_modulus / (np.pi * RADIUS))
+    """Hertz's peak pressure on the base alone."""
+    return float(_on_base(row).at_radius(1.0).max_pressure)
 
 
 def cylinder(row: Row, radius: float, n: int, datum: float | None = None) -> asp.ContactResult:
-    """Parabolic cylinder under the load per length that gives a_0 = 1 on the base alone (P = pi E' a_0²/4R)."""
+    """Parabolic cylinder under the load per length that gives a_0 = 1 on the base alone."""
     layered = body(row)
     pixel = WIDTH * radius / n
     x, _ = asp.Grid((n, 1), (pixel, 1.0)).centred_coordinates()
     surface = asp.Surface(-(x**2) / (2.0 * RADIUS), pixel, 1.0)
     problem = asp.ContactProblem(surface, layered, boundary=asp.FreeLine(datum))
-    force = 0.25 * np.pi * layered.base.plane_strain_modulus / RADIUS
+    force = float(HertzLine(layered.base.plane_strain_modulus, RADIUS).at_half_width(1.0).load)
     return asp.solve(problem, asp.Force(force), solver=SOLVER, keep=NO_EXTRAS)
 
 
 def cylinder_peak(row: Row) -> float:
-    """Peak pressure p_0 = a_0 E'/2R on the base alone."""
-    return 0.5 * body(row).base.plane_strain_modulus / RADIUS
+    """Hertz's peak pressure on the base alone."""
+    return float(HertzLine(body(row).base.plane_strain_modulus, RADIUS).at_half_width(1.0).max_pressure)
 
 
 def pressure_at(result: asp.ContactResult, distance: float) -> float:

@@ -1,5 +1,6 @@
 """Contact mechanics of layered rough surfaces."""
 
+from . import theories
 from .contact import solvers
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
@@ -51,7 +52,6 @@ from .stress.sampling import depths_through
 from .stress.tractions import ShearTraction, Sliding
 from .stress.where import DepthProfile, Everywhere, Section
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
-from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
@@ -78,8 +78,6 @@ __all__ = [
     "ArrayEngine",
     "AsperityError",
     "Bonded",
-    "Campaign",
-    "CampaignState",
     "Characterisation",
     "ContactProblem",
     "ContactResult",
@@ -156,7 +154,6 @@ __all__ = [
     "mean_absolute_height",
     "on_common_grid",
     "open_dataset",
-    "open_study",
     "peak_to_valley",
     "periodised",
     "prepare_operator",
@@ -168,7 +165,6 @@ __all__ = [
     "rms_slope",
     "roughness",
     "roughness_of",
-    "run_study",
     "save",
     "save_endless",
     "save_plots",
@@ -183,6 +179,7 @@ __all__ = [
     "stress",
     "stress_planes",
     "tapered",
+    "theories",
     "tip_limited",
     "turned_over",
     "write_report",

@@ -10,7 +10,7 @@ import os
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -19,8 +19,6 @@ from .atomic import atomic_file
 from .schemas.problem import ProblemDocument
 from .schemas.values import Table
 from .schemas.wording import problems
-
-_Model = TypeVar("_Model", bound=Table)
 
 __all__ = [
     "ProblemDocument",
@@ -32,8 +30,6 @@ __all__ = [
     "read_table",
     "relocated",
     "save_document",
-    "tidy",
-    "validated",
 ]
 
 
@@ -55,8 +51,8 @@ def loads(text: str, *, form: str = "toml") -> ProblemDocument:
     return checked(_parsed(text, form, "problem document"), "problem document")
 
 
-def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:
-    """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in messages.
+def read_table(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Content of the file at ``path`` before any check of keys and values.
 
     Raises
     ------
@@ -67,14 +63,16 @@ def read_table(path: str | os.PathLike[str], what: str = "problem document") -> 
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise FileFormatError(f"{what} must exist, but {file} does not; check the path.") from None
+        raise FileFormatError(f"problem document must exist, but {file} does not; check the path.") from None
     except IsADirectoryError:
-        raise FileFormatError(f"{what} must be a file, but {file} is a folder; name the file in it.") from None
+        raise FileFormatError(
+            f"problem document must be a file, but {file} is a folder; name the file in it."
+        ) from None
     except UnicodeDecodeError:
-        raise FileFormatError(f"{what} must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
+        raise FileFormatError(f"problem document must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
     except OSError as error:
-        raise FileFormatError(f"{what} {file} must be readable, but is not: {error.strerror}.") from None
-    return _parsed(text, _form(file), f"{what} {file}")
+        raise FileFormatError(f"problem document {file} must be readable, but is not: {error.strerror}.") from None
+    return _parsed(text, _form(file), f"problem document {file}")
 
 
 def checked(
@@ -96,17 +94,10 @@ def checked(
     InputError
         If anything is missing, unknown or out of range; the message has one line for each problem.
     """
-    return validated(ProblemDocument, table, where, names)
-
-
-def validated(
-    model: type[_Model], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None
-) -> _Model:
-    """The ``model`` made of ``table``; errors as of ``checked``."""
     try:
-        return model.model_validate(dict(table))
+        return ProblemDocument.model_validate(dict(table))
     except ValidationError as error:
-        lines = problems(error, model.model_json_schema(), names or {})
+        lines = problems(error, json_schema(), names or {})
     if len(lines) == 1:
         raise InputError(f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
@@ -114,7 +105,7 @@ def validated(
 
 def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
     """Text of ``document`` as ``toml`` or ``json``; loading it gives an equal document."""
-    table = tidy(document.model_dump(mode="json", exclude_none=True))
+    table = _tidy(document.model_dump(mode="json", exclude_none=True))
     if form == "json":
         return json.dumps(table, indent=2, ensure_ascii=False) + "\n"
     import tomli_w
@@ -157,9 +148,9 @@ def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemD
     return elsewhere
 
 
-def tidy(table: dict[str, Any]) -> dict[str, Any]:
+def _tidy(table: dict[str, Any]) -> dict[str, Any]:
     """``table`` without empty parts, the key that tells what it is first and the preparation last."""
-    filled = {key: tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
+    filled = {key: _tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
     kept = {key: value for key, value in filled.items() if value not in ({}, [], "")}
     return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))
 

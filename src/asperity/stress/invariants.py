@@ -8,17 +8,10 @@ from collections.abc import Callable
 import numpy as np
 
 from ..core.arrays import RealArray
+from ..core.deviator import second_invariant
 from ..core.tensor import StressTensor
 
 _BLOCK = 1 << 14
-
-
-def second_invariant(s: StressTensor) -> RealArray:
-    """J2 of the deviator in Pa²: [(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²]/6 + σxy² + σyz² + σxz²."""
-    normal = (s.xx - s.yy) ** 2 + (s.yy - s.zz) ** 2 + (s.zz - s.xx) ** 2
-    shear = s.xy**2 + s.yz**2 + s.xz**2
-    invariant: RealArray = normal / 6.0 + shear
-    return invariant
 
 
 def sqrt_J2(s: StressTensor) -> RealArray:

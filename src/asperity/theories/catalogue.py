@@ -3,30 +3,44 @@
 from __future__ import annotations
 
 from ..core import require
-from .anisotropic_summits import AnisotropicSummits
-from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
-from .greenwood_tripp import GreenwoodTripp
+from .adhesive_sphere import DMT, JKR
+from .bisinusoid import CrossedWaves
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
+from .hertz import HertzPoint
+from .hertz_ellipse import HertzEllipse
+from .hertz_line import HertzLine
+from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
 from .kotwal_bhushan import KotwalBhushan
+from .line_indenters import LineFlatPunch, LinePowerLawIndenter
 from .majumdar_bhushan import MajumdarBhushan
-from .mccool import McCool
-from .onions_archard import OnionsArchard
+from .maugis import MaugisDugdale
+from .mindlin import MindlinLine, MindlinPoint
 from .persson import Persson
 from .protocol import Described
+from .wavy import Westergaard
 
 _CLASSES: tuple[type[Described], ...] = (
     GreenwoodWilliamson,
     FittedGreenwoodWilliamson,
     KotwalBhushan,
-    GreenwoodTripp,
-    McCool,
-    OnionsArchard,
-    BushGibsonThomas,
-    GreenwoodElliptic,
-    AnisotropicSummits,
     MajumdarBhushan,
     Persson,
+    HertzPoint,
+    HertzLine,
+    HertzEllipse,
+    PowerLawIndenter,
+    FlatPunch,
+    SphericalIndenter,
+    LinePowerLawIndenter,
+    LineFlatPunch,
+    Westergaard,
+    CrossedWaves,
+    MindlinPoint,
+    MindlinLine,
+    JKR,
+    DMT,
+    MaugisDugdale,
 )
 
 THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from asperity.core.deviator import second_invariant
 from asperity.core.tensor import StressTensor
 from asperity.stress import invariants
 
@@ -85,7 +86,7 @@ def test_definitions_on_simple_states():
 def test_invariants_do_not_change_under_rotation():
     m = random_matrices(100)
     q = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
-    for function in (invariants.second_invariant, invariants.hydrostatic, invariants.tresca):
+    for function in (second_invariant, invariants.hydrostatic, invariants.tresca):
         np.testing.assert_allclose(function(tensor(q @ m @ q.T)), function(tensor(m)), atol=1e-13)
 
 

@@ -1,1 +1,0 @@
-"""Layer 4: campaigns over many contacts, unattended and resumable."""

@@ -1,0 +1,237 @@
+"""Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975; Tabor 1977)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import require
+from ..core.arrays import RealArray
+from .hertz import hertz_profile
+from .protocol import E_STAR, Input, Limit
+from .single_contact import ContactAnswer, bisected, checked, small_slope
+
+
+def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -> float:
+    """μ_T = (R w²/E*² z0³)^(1/3): elastic stretch of the neck over the equilibrium ``spacing`` z0 in m; all > 0."""
+    for value, what in (
+        (radius, "radius (m)"),
+        (E_star, "contact modulus E_star (Pa)"),
+        (work, "work of adhesion (J/m^2)"),
+    ):
+        require.positive(value, what)
+    return float(np.cbrt(radius * (work / E_star) ** 2) / require.positive(spacing, "equilibrium spacing (m)"))
+
+
+@dataclass(frozen=True)
+class JKR:
+    """Sphere with adhesion inside of the contact alone: P = Ka³/R - sqrt(6πwKa³), δ = a²/R - sqrt(2πwa/E*), K = 4E*/3.
+
+    Loads may be negative down to the pull-off force -1.5πwR; approaches down to -δc (fixed grips).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    work
+        Work of adhesion w in J/m², > 0.
+    spacing
+        Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether the theory applies (``limits``).
+    """
+
+    E_star: float
+    radius: float
+    work: float
+    spacing: float = 0.3e-9
+    name: ClassVar[str] = "jkr"
+    title: ClassVar[str] = "JKR, adhesive sphere"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1971", "Tabor1977")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+        Input("work", "J/m^2", "work of adhesion"),
+        Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
+    )
+
+    def __post_init__(self) -> None:
+        self.tabor  # noqa: B018 - checks all values
+
+    @property
+    def tabor(self) -> float:
+        """Tabor's parameter; the theory holds from 5 on."""
+        return tabor_parameter(self.E_star, self.radius, self.work, self.spacing)
+
+    @property
+    def pull_off(self) -> float:
+        """Pc = 1.5πwR in N, the force that separates the bodies under dead load."""
+        return 1.5 * np.pi * self.work * self.radius
+
+    @property
+    def critical_radius(self) -> float:
+        """ac in m at which the contact breaks with fixed grips: ac³ = πwR²/8E*."""
+        return float(np.cbrt(np.pi * self.work * self.radius**2 / (8.0 * self.E_star)))
+
+    @property
+    def critical_extension(self) -> float:
+        """δc = (3/4)(π²w²R/E*²)^(1/3) in m, the extension at which the contact breaks with fixed grips."""
+        return 0.75 * float(np.cbrt((np.pi * self.work / self.E_star) ** 2 * self.radius))
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The stable contact under ``load`` in N, >= -1.5πwR, of any shape.
+
+        Raises
+        ------
+        InputError
+            If a load is below the pull-off force.
+        """
+        P = checked(load, "load (N)", lowest=-self.pull_off)
+        adhesive = 2.0 * self.pull_off  # 3πwR
+        # the root vanishes at pull-off, where rounding may make it negative
+        root = np.sqrt(np.maximum(adhesive * (adhesive + 2.0 * P), 0.0))
+        return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + adhesive + root)))
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The stable contact with fixed grips at the ``approach`` δ in m, >= -δc, of any shape."""
+        delta = checked(approach, "approach (m)", lowest=-self.critical_extension) / self.critical_extension
+        return self.at_radius(self.critical_radius * contact_ratio(delta))
+
+    def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
+        """The contact of the ``contact_radius`` a in m, >= 0, of any shape: stable under dead load where dP/dδ > 0."""
+        a = checked(contact_radius, "contact radius (m)")
+        x = a / self.critical_radius
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = (np.sqrt(x) * x - 3.0) / (np.sqrt(x) * x - 1.0)  # dP/dδ = 2E*a (x^1.5 - 3)/(x^1.5 - 1)
+        return ContactAnswer(
+            load=self.pull_off * load_ratio(x),
+            approach=self.critical_extension * approach_ratio(x),
+            radius=a,
+            area=np.pi * a**2,
+            max_pressure=self._central(a),
+            stiffness=2.0 * self.E_star * a * slope,
+        )
+
+    def pressure(self, r: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis, negative where it pulls.
+
+        (2E*/πR) sqrt(a² - r²) - sqrt(2E*w/πa)/sqrt(1 - r²/a²), minus infinity at the edge.
+        """
+        a = float(self.at_load(load).radius)
+        s = np.sqrt(np.maximum(1.0 - (np.asarray(r, dtype=float) / a) ** 2, 0.0))
+        pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
+        with np.errstate(divide="ignore"):
+            inside = 2.0 / np.pi * self.E_star * a / self.radius * s - pull / s
+        profile: RealArray = np.where(np.abs(np.asarray(r)) <= a, inside, 0.0)
+        return profile
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Tabor's parameter >= 5 and small slopes."""
+        message = "Adhesion reaches beyond the contact; MaugisDugdale allows for that."
+        tabor = Limit("Tabor's parameter", np.full(answer.load.size, self.tabor), 5.0, math.inf, "Tabor1977", message)
+        return (tabor, small_slope("contact radius over radius of curvature", answer.radius / self.radius))
+
+    def _central(self, a: RealArray) -> RealArray:
+        with np.errstate(divide="ignore"):
+            pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
+        return np.asarray(2.0 / np.pi * self.E_star * a / self.radius - pull)
+
+
+def load_ratio(x: RealArray) -> RealArray:
+    """P/Pc of JKR at x = a/ac: (x³/6 - x^(3/2))/1.5."""
+    ratio: RealArray = (x**3 / 6.0 - x * np.sqrt(x)) / 1.5
+    return ratio
+
+
+def approach_ratio(x: RealArray) -> RealArray:
+    """δ/δc of JKR at x = a/ac: (x² - 4 sqrt(x))/3."""
+    ratio: RealArray = (x**2 - 4.0 * np.sqrt(x)) / 3.0
+    return ratio
+
+
+def contact_ratio(approach: ArrayLike) -> RealArray:
+    """a/ac >= 1 of JKR at δ/δc = ``approach`` >= -1 of any shape: the branch that is stable with fixed grips."""
+    delta = np.asarray(approach, dtype=float)
+    highest = np.sqrt(3.0 * np.maximum(delta, 0.0)) + 3.0  # x² = 3δ + 4 sqrt(x) is below it
+    return bisected(lambda x: approach_ratio(x) - delta, np.ones_like(delta), highest)
+
+
+@dataclass(frozen=True)
+class DMT:
+    """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    work
+        Work of adhesion w in J/m², > 0.
+    spacing
+        Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether the theory applies (``limits``).
+    """
+
+    E_star: float
+    radius: float
+    work: float
+    spacing: float = 0.3e-9
+    name: ClassVar[str] = "dmt"
+    title: ClassVar[str] = "DMT, adhesive sphere"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Derjaguin1975", "Tabor1977")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+        Input("work", "J/m^2", "work of adhesion"),
+        Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
+    )
+
+    def __post_init__(self) -> None:
+        self.tabor  # noqa: B018 - checks all values
+
+    @property
+    def tabor(self) -> float:
+        """Tabor's parameter; the theory holds up to 0.1."""
+        return tabor_parameter(self.E_star, self.radius, self.work, self.spacing)
+
+    @property
+    def pull_off(self) -> float:
+        """Pc = 2πwR in N."""
+        return 2.0 * np.pi * self.work * self.radius
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, >= -2πwR, of any shape; ``max_pressure`` is that of the contact, p0.
+
+        Raises
+        ------
+        InputError
+            If a load is below the pull-off force.
+        """
+        P = checked(load, "load (N)", lowest=-self.pull_off)
+        return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
+
+    def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
+        """The contact of the ``contact_radius`` a in m, >= 0, of any shape."""
+        a = checked(contact_radius, "contact radius (m)")
+        return ContactAnswer(
+            load=4.0 / 3.0 * self.E_star * a**3 / self.radius - self.pull_off,
+            approach=a**2 / self.radius,
+            radius=a,
+            area=np.pi * a**2,
+            max_pressure=2.0 / np.pi * self.E_star * a / self.radius,
+            stiffness=2.0 * self.E_star * a,
+        )
+
+    def pressure(self, r: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa inside of the contact at the distance ``r`` in m (any shape): that of Hertz at P + 2πwR."""
+        return hertz_profile(np.asarray(r, dtype=float), self.at_load(load))
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Tabor's parameter <= 0.1 and small slopes."""
+        message = "Adhesion deforms the bodies around the contact; MaugisDugdale allows for that."
+        tabor = Limit("Tabor's parameter", np.full(answer.load.size, self.tabor), 0.0, 0.1, "Tabor1977", message)
+        return (tabor, small_slope("contact radius over radius of curvature", answer.radius / self.radius))
