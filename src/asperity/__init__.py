@@ -4,12 +4,15 @@ from . import theories
 from .contact import solvers
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
-from .contact.control import Approach, Force, MeanGap, MeanPressure
+from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
+from .contact.energy import EnergyBalance, energy_balance
 from .contact.finding import Advice
-from .contact.laws import Hardness, HardWall
+from .contact.laws import Hardness, HardWall, LayeredHardness
 from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
+from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import ContactProblem, Flat
+from .contact.ramps import ramps
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
 from .contact.sliding import SlidingResult, solve_sliding
@@ -85,6 +88,7 @@ __all__ = [
     "CpuEngine",
     "DepthProfile",
     "Elastic",
+    "EnergyBalance",
     "Everywhere",
     "ExponentialGrading",
     "FileFormatError",
@@ -101,6 +105,7 @@ __all__ = [
     "Keep",
     "Layer",
     "Layered",
+    "LayeredHardness",
     "LinearGrading",
     "LoadAtYield",
     "LoadPath",
@@ -110,6 +115,7 @@ __all__ = [
     "NoSolutionError",
     "OutputError",
     "Periodic",
+    "PlasticLoad",
     "PowerGrading",
     "Rigid",
     "RigidBase",
@@ -124,6 +130,7 @@ __all__ = [
     "SurfacePair",
     "Tresca",
     "UnitError",
+    "Unloaded",
     "VonMises",
     "YieldReport",
     "__version__",
@@ -136,6 +143,7 @@ __all__ = [
     "cropped",
     "depths_through",
     "despiked",
+    "energy_balance",
     "export_csv",
     "export_stress_vtk",
     "export_vtk",
@@ -156,7 +164,9 @@ __all__ = [
     "open_dataset",
     "peak_to_valley",
     "periodised",
+    "plastic_load",
     "prepare_operator",
+    "ramps",
     "read",
     "reliability_cutoff",
     "resampled",

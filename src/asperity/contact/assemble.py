@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from ..core.arrays import RealArray
 from . import measure
 from .certificate import Certificate
 from .control import Control
+from .depth_limit import added_indentation
+from .laws import work_density
 from .problem import ContactProblem
 from .result import ContactResult
 from .solvers.optimality import level
@@ -28,13 +33,13 @@ def assemble(
 ) -> ContactResult:
     """Fields and scalars of ``solution``; ``state`` is the interface before this load."""
     p, u = solution.state.pressure, solution.state.deflection
-    grid, cap = problem.grid, qp.cap
+    grid = problem.grid
     gap = u - qp.profile
     offset = -level(qp, p, gap)
     gap += offset
     contact = p > 0.0
-    capped = contact & (p >= cap)
-    indentation = np.where(capped, np.maximum(-gap, 0.0), 0.0)
+    capped = contact & (p >= qp.cap)
+    indentation = added_indentation((qp, solution))
     permanent = indentation if state is None else state.permanent_indentation + indentation
     pixels = int(np.count_nonzero(contact))
     wraps = problem.boundary.wraps
@@ -48,7 +53,7 @@ def assemble(
         pressure=p,
         displacement=u,
         gap=gap,
-        permanent_indentation=permanent,
+        plastic=capped,
         offset=offset,
         mean_pressure=load / grid.n_points,
         force=load * grid.pixel_area,
@@ -60,10 +65,8 @@ def assemble(
         approach=float(problem.profile().max()) - offset,
         mean_gap=float(gap.mean()),
         elastic_energy=0.5 * float(np.multiply(p, u, dtype=np.float64).sum()) * grid.pixel_area,
-        plastic_work=float((np.where(capped, cap, 0.0) * indentation).sum()) * grid.pixel_area,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
-        max_permanent_indentation=float(permanent.max()),
-        normal_stiffness=normal_stiffness(qp.operator, p, cap) if stiffness else np.nan,
+        normal_stiffness=normal_stiffness(qp.operator, p, qp.cap) if stiffness else np.nan,
         n_spots=int(spots.size),
         spot_areas=spots,
         mean_spot_area=float(spots.mean()) if spots.size else 0.0,
@@ -71,4 +74,20 @@ def assemble(
         certificate=certificate,
         status=solution.status,
         citation_keys=citations,
+        **_indentation(problem, state, permanent),
     )
+
+
+def _indentation(problem: ContactProblem, state: InterfaceState | None, permanent: RealArray) -> dict[str, Any]:
+    """What a result says of the ``permanent`` indentation (nx, ny) in m that it leaves in place of that of ``state``."""
+    before = np.zeros_like(permanent) if state is None else state.permanent_indentation
+    pixel = problem.grid.pixel_area
+    work = float(work_density(problem.law, before, permanent).sum()) * pixel
+    return {
+        "permanent_indentation": permanent,
+        "plastic_work": work,
+        "total_plastic_work": work + (0.0 if state is None else state.plastic_work),
+        "indented_area": int(np.count_nonzero(permanent)) * pixel,
+        "plastic_volume": float(permanent.sum()) * pixel,
+        "max_permanent_indentation": float(permanent.max()),
+    }

@@ -1,4 +1,4 @@
-"""What is prescribed: mean pressure, force, approach or mean gap."""
+"""What is prescribed: mean pressure, force, approach, mean gap, or no load at all."""
 
 from __future__ import annotations
 
@@ -61,10 +61,19 @@ class MeanGap:
         require.positive(self.value, "mean gap (m)", "A gap of zero is full contact; use MeanPressure(...) there.")
 
 
+@dataclass(frozen=True)
+class Unloaded:
+    """No load: the bodies, dented as they are, just touch with their highest point. Ends the unloading of a load path."""
+
+    value: ClassVar[float] = 0.0
+    name: ClassVar[str] = "mean pressure"
+    unit: ClassVar[str] = "Pa"
+
+
 def mean_pressure(control: MeanPressure | Force, grid: Grid) -> float:
     """Nominal pressure in Pa that ``control`` prescribes on ``grid``."""
     return control.value if isinstance(control, MeanPressure) else control.value / grid.area
 
 
-Control: TypeAlias = MeanPressure | Force | Approach | MeanGap
+Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded
 """A prescribed quantity."""

@@ -9,11 +9,14 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
 from ..core.progress import Progress
-from .control import Approach, Control, Force, MeanGap, MeanPressure, mean_pressure
+from ..core.status import Outcome, Status
+from .control import Approach, Control, Force, MeanGap, MeanPressure, Unloaded, mean_pressure
+from .depth_limit import at_reached_depth
+from .laws import LimitByDepth
 from .load_search import LoadSearch, Solved, contact_level, mean_gap, solve_at_load
 from .operators import Operator
 from .problem import ContactProblem
-from .solvers.protocol import ContactQP, FixedOffset, Solver, run
+from .solvers.protocol import ContactQP, FixedOffset, Solution, Solver, SolverState, run
 from .state import InterfaceState
 
 
@@ -28,14 +31,43 @@ def drive(
     """Pose the discrete problem that ``control`` asks for, starting from ``state``, and solve it."""
     virgin = problem.profile()
     scale = _height_scale(virgin, control, operator)
-    posed = ContactQP(operator, indented(virgin, state), problem.law.pressure_cap(), FixedOffset(0.0), scale)
-    start = None if state is None else state.pressure
+    profile = indented(virgin, state)
+    if isinstance(control, Unloaded):
+        return _unloaded(operator, profile, scale)
+    before = np.zeros_like(profile) if state is None else state.permanent_indentation
+    start = None if state is None or not state.pressure.any() else state.pressure
+
+    def at_cap(cap: float | RealArray, start: RealArray | None) -> Solved:
+        posed = ContactQP(operator, profile, cap, FixedOffset(0.0), scale)
+        return _controlled(problem, control, posed, solver, start, progress)
+
+    if isinstance(problem.law, LimitByDepth):
+        return at_reached_depth(problem.law, before, start, at_cap)
+    return at_cap(problem.law.pressure_cap(), start)
+
+
+def _unloaded(operator: Operator, profile: RealArray, scale: float) -> Solved:
+    """The bodies touch at the highest point; nothing is to be solved."""
+    none = np.zeros_like(profile)
+    qp = ContactQP(operator, profile, np.inf, FixedOffset(float(profile.max())), scale)
+    return qp, Solution(SolverState(none, none, 0.0), Status(Outcome.CONVERGED, "Unloaded: nothing to solve."), (0.0,))
+
+
+def _controlled(
+    problem: ContactProblem,
+    control: MeanPressure | Force | Approach | MeanGap,
+    posed: ContactQP,
+    solver: Solver,
+    start: RealArray | None,
+    progress: Progress | None,
+) -> Solved:
+    """Solve ``posed`` with the load or position that ``control`` prescribes."""
     if isinstance(control, MeanPressure | Force):
         return solve_at_load(posed, mean_pressure(control, problem.grid), solver, start, progress)
-    top = float(virgin.max())
+    top = float(problem.profile().max())
     if isinstance(control, Approach):
         _require_below_full_contact(posed, top, control.value)
-        if not operator.zero_mean_mode:
+        if not posed.operator.zero_mean_mode:
             qp = replace(posed, constraint=FixedOffset(top - control.value))
             return qp, run(solver, qp, start, progress)
         search = LoadSearch(posed, solver, progress, start)
@@ -70,6 +102,8 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
         return rms
     if isinstance(control, Approach | MeanGap):
         return control.value
+    if isinstance(control, Unloaded):
+        return 1.0
     uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
     return float(np.abs(operator.apply(uniform)).max()) or 1.0
 

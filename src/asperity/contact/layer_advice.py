@@ -12,6 +12,7 @@ from ..solids.body import materials_of
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered
 from .finding import Advice
+from .laws import LimitByDepth
 from .problem import ContactProblem
 
 PIXELS_PER_LAYER = 1.0
@@ -65,6 +66,8 @@ def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
 
 def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
     """A pressure limit says nothing of what lies below the surface, where a softer material may yield first."""
+    if isinstance(problem.law, LimitByDepth):
+        return
     limit = float(np.max(problem.law.pressure_cap()))
     surface, *below = (part.strength.hardness for part in materials_of(body))
     if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
@@ -73,7 +76,8 @@ def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
             "softer layers below",
             f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
             f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
-            "lower pressure. Compute the stresses, which tell the load factor of each layer.",
+            "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
+            "the stresses, which tell the load factor of each layer.",
         )
 
 

@@ -68,7 +68,7 @@ def mean_gap(qp: ContactQP, solution: Solution) -> float:
     return float(np.maximum(r - contact_level(qp, solution), 0.0).mean())
 
 
-def _with_work_of(earlier: Solved | None, solved: Solved) -> Solved:
+def with_work_of(earlier: Solved | None, solved: Solved) -> Solved:
     """``solved`` with the work of the solves before it added."""
     if earlier is None:
         return solved
@@ -111,8 +111,9 @@ class LoadSearch:
         def miss(log_load: float) -> float:
             if log_load not in known:
                 start = self.start if self.last is None else self.last[1].state.pressure
-                solved = solve_at_load(self.posed, float(np.exp(log_load)), self.solver, start, self.progress)
-                self.last, self.at = _with_work_of(self.last, solved), log_load
+                mean = min(float(np.exp(log_load)), float(np.mean(self.posed.cap)))  # exp(log x) may exceed x
+                solved = solve_at_load(self.posed, mean, self.solver, start, self.progress)
+                self.last, self.at = with_work_of(self.last, solved), log_load
                 if not self.last[1].status.converged:
                     raise _NotConvergedError
                 found = measure(*self.last) - target

@@ -14,6 +14,7 @@ from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.progress import Progress
 from .control import Control, Force, MeanPressure, mean_pressure
+from .laws import cap_at
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
 from .result import ContactResult
@@ -35,9 +36,12 @@ class LoadPath:
     results
         One for each control. A step that did not converge carries the status that says so; the steps after it
         started from the last one that did.
+    start
+        Interface before the first step; None for a virgin one.
     """
 
     results: tuple[ContactResult, ...]
+    start: InterfaceState | None = None
 
     @property
     def mean_pressure(self) -> RealArray:
@@ -58,6 +62,16 @@ class LoadPath:
     def mean_gap(self) -> RealArray:
         """Mean gap (m) of every step."""
         return self._scalars("mean_gap")
+
+    @property
+    def force(self) -> RealArray:
+        """Force (N) of every step."""
+        return self._scalars("force")
+
+    @property
+    def elastic_energy(self) -> RealArray:
+        """Elastic energy (J) of every step."""
+        return self._scalars("elastic_energy")
 
     @property
     def plastic_work(self) -> RealArray:
@@ -96,7 +110,7 @@ def solve_path(
     problem
         Surfaces, bodies, boundary, law.
     controls
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap`` in any mixture; at least one.
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded`` in any mixture; at least one. See ``ramps``.
     solver, operator, progress, engine
         See ``solve``.
     state
@@ -127,7 +141,7 @@ def solve_path(
         engine=engine,
         on_failure=on_failure,
     )
-    return LoadPath(tuple(stream))
+    return LoadPath(tuple(stream), state)
 
 
 def steps(
@@ -193,7 +207,7 @@ def _checked(controls: Iterable[Control]) -> tuple[Control, ...]:
     for number, control in enumerate(ordered, start=1):
         if not isinstance(control, Control):
             raise InputError(
-                f"control of step {number} of a load path must be a MeanPressure, Force, Approach or MeanGap, "
+                f"control of step {number} of a load path must be a MeanPressure, Force, Approach, MeanGap or Unloaded, "
                 f"but is {control!r}. Write for example MeanPressure(50e3)."
             )
     return ordered
@@ -213,4 +227,4 @@ def _predicted(problem: ContactProblem, control: Control, last: list[ContactResu
     if not 0.0 < ratio <= _FARTHEST:
         return state
     guess = second.pressure + ratio * (second.pressure - first.pressure)
-    return replace(state, pressure=np.clip(guess, 0.0, problem.law.pressure_cap()))
+    return replace(state, pressure=np.clip(guess, 0.0, cap_at(problem.law, state.permanent_indentation)))

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
+from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.status import Status
+from ..surfaces.pair import composite
+from ..surfaces.surface import Surface
 from .certificate import Certificate
 from .control import Control
 from .problem import ContactProblem
@@ -36,7 +40,10 @@ SCALARS = (
     Quantity("mean_gap", "m", "mean gap"),
     Quantity("elastic_energy", "J", "elastic energy"),
     Quantity("plastic_work", "J", "plastic work of this load"),
+    Quantity("total_plastic_work", "J", "plastic work since the virgin surface"),
     Quantity("plastic_area_fraction", "1", "plastic area / real contact area"),
+    Quantity("indented_area", "m**2", "area ever at the hardness (pixels)"),
+    Quantity("plastic_volume", "m**3", "volume of the permanent indentation"),
     Quantity("max_permanent_indentation", "m", "maximum permanent indentation"),
     Quantity("normal_stiffness", "Pa/m", "normal stiffness per nominal area"),
     Quantity("n_spots", "1", "number of contact spots"),
@@ -62,6 +69,8 @@ class ContactResult:
         Distance of the deformed surfaces in m, >= 0, zero in contact.
     permanent_indentation
         Plastic change of the composite profile in m since the virgin surface, >= 0.
+    plastic
+        True where the pressure is at its limit.
     offset
         Rigid-body position in m: gap = offset + displacement - profile + permanent_indentation.
     mean_pressure, force
@@ -74,10 +83,12 @@ class ContactResult:
         Approach from first touch of the virgin surfaces (see ``Approach``); mean of the gap; m.
     elastic_energy
         Half of pressure times displacement, J; periodic: without the (unbounded) part of the mean mode.
-    plastic_work
-        Hardness times indentation volume added by this load, J.
+    plastic_work, total_plastic_work
+        Integral of the hardness over the volume of the indentation: of what this load added, and since the virgin surface, J.
     plastic_area_fraction
         Area at the pressure cap over real contact area.
+    indented_area, plastic_volume
+        Area (m²) of the pixels with permanent indentation, so ever at the cap, and volume (m³) of the indentation.
     max_permanent_indentation
         Maximum of ``permanent_indentation``, m.
     normal_stiffness
@@ -94,6 +105,7 @@ class ContactResult:
     displacement: RealArray
     gap: RealArray
     permanent_indentation: RealArray
+    plastic: BoolArray
     offset: float
     mean_pressure: float
     force: float
@@ -106,7 +118,10 @@ class ContactResult:
     mean_gap: float
     elastic_energy: float
     plastic_work: float
+    total_plastic_work: float
     plastic_area_fraction: float
+    indented_area: float
+    plastic_volume: float
     max_permanent_indentation: float
     normal_stiffness: float
     n_spots: int
@@ -123,9 +138,9 @@ class ContactResult:
         return self.pressure > 0.0
 
     @property
-    def plastic(self) -> BoolArray:
-        """(nx, ny), True where the pressure is at its cap."""
-        return self.contact & (self.pressure >= self.problem.law.pressure_cap())
+    def indented(self) -> BoolArray:
+        """(nx, ny), True where the surface was ever indented for good."""
+        return self.permanent_indentation > 0.0
 
     @property
     def is_plastic(self) -> bool:
@@ -139,5 +154,30 @@ class ContactResult:
 
     @property
     def state(self) -> InterfaceState:
-        """State to continue from: permanent indentation and pressure."""
-        return InterfaceState(self.permanent_indentation, self.pressure)
+        """State to continue from: permanent indentation, pressure and plastic work."""
+        return InterfaceState(self.permanent_indentation, self.pressure, self.total_plastic_work)
+
+    def residual_surface(self, part: Literal["composite", "body", "counter_body"] = "composite") -> Surface:
+        """Surface that is left when the load is taken away: the one before less the permanent indentation.
+
+        Parameters
+        ----------
+        part
+            ``"composite"``, the sum of both surfaces, which holds whichever body yields; or the surface of the
+            ``"body"`` or ``"counter_body"`` if that is the softer one, which takes all of the indentation.
+
+        Raises
+        ------
+        InputError
+            If ``part`` is none of these.
+        """
+        require.one_of(part, ("composite", "body", "counter_body"), "part of a residual surface")
+        problem = self.problem
+        surface, counter = problem.surface, problem.counter_surface
+        if part == "counter_body":
+            before = counter if isinstance(counter, Surface) else surface.with_heights(0.0 * surface.heights, "flat")
+        else:
+            pair = part == "composite" and isinstance(counter, Surface)
+            before = composite(surface, counter) if pair else surface  # type: ignore[arg-type]
+        load = f"{self.mean_pressure:.6g} Pa"
+        return before.with_heights(before.heights - self.permanent_indentation, f"indented for good, last load {load}")

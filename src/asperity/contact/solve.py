@@ -48,7 +48,7 @@ def solve(
     problem
         Surfaces, bodies, boundary, law.
     control
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
     solver
         Method with its tolerance; chosen by ``default_solver`` if not given.
     state
@@ -75,7 +75,7 @@ def solve(
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     if not isinstance(control, Control):
-        kinds = "MeanPressure, Force, Approach or MeanGap"
+        kinds = "MeanPressure, Force, Approach, MeanGap or Unloaded"
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     if solver is not None and not hasattr(solver, "step"):
         raise InputError(f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name.")

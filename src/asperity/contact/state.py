@@ -21,6 +21,8 @@ class InterfaceState:
         (nx, ny), m, >= 0: material removed from the composite profile by plastic flow so far.
     pressure
         (nx, ny), Pa, >= 0: last pressure, where the next solve starts from.
+    plastic_work
+        J, >= 0: energy dissipated by plastic flow so far.
 
     Raises
     ------
@@ -30,6 +32,7 @@ class InterfaceState:
 
     permanent_indentation: RealArray
     pressure: RealArray
+    plastic_work: float = 0.0
 
     def __post_init__(self) -> None:
         for values, what in (
@@ -42,3 +45,4 @@ class InterfaceState:
                     f"{what} of an interface state must be finite and not negative, but its smallest value is "
                     f"{field.min():g}. Pass the state of an earlier result."
                 )
+        require.not_negative(self.plastic_work, "plastic work (J) of an interface state")

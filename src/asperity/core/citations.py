@@ -7,6 +7,7 @@ from .errors import InputError
 REFERENCES = {
     "Abbott1933": "Abbott, E. J., Firestone, F. A. (1933). Specifying surface quality: a method based on accurate measurement and comparison. Mechanical Engineering 55, 569-572.",
     "Almqvist2007": "Almqvist, A., Sahlin, F., Larsson, R., Glavatskih, S. (2007). On the dry elasto-plastic contact of nominally flat surfaces. Tribology International 40, 574-579.",
+    "Anderson1965": "Anderson, D. G. (1965). Iterative procedures for nonlinear integral equations. Journal of the ACM 12, 547-560.",
     "Ausloos1985": "Ausloos, M., Berman, D. H. (1985). A multivariate Weierstrass-Mandelbrot function. Proceedings of the Royal Society A 400, 331-350.",
     "Bemporad2015": "Bemporad, A., Paggi, M. (2015). Optimization algorithms for the solution of the frictionless normal contact between rough surfaces. International Journal of Solids and Structures 69-70, 94-105.",
     "Bertsekas1976": "Bertsekas, D. P. (1976). On the Goldstein-Levitin-Polyak gradient projection method. IEEE Transactions on Automatic Control 21, 174-184.",

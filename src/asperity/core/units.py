@@ -106,7 +106,7 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
     quantity = _registry().Quantity(value, unit)
-    compact = quantity if value == 0.0 else _compact_area(quantity) if unit == "m**2" else quantity.to_compact()
+    compact = quantity if value == 0.0 else _COMPACT.get(unit, _prefixed)(quantity)
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
 
 
@@ -115,12 +115,28 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{100.0 * share:.{digits}g} %"
 
 
+def _prefixed(quantity: Any) -> Any:
+    return quantity.to_compact()
+
+
 def _compact_area(quantity: Any) -> Any:
     """Area in the largest unit in which it is at least 0.01; squared prefixes are a factor of a million apart."""
-    for unit in ("m**2", "mm**2", "um**2"):
-        if abs(quantity.to(unit).magnitude) >= 0.01:
+    return _in_largest(quantity, ("m**2", "mm**2", "um**2"), "nm**2")
+
+
+def _compact_volume(quantity: Any) -> Any:
+    """Volume in the largest unit in which it is at least 0.001; cubed prefixes are a factor of a thousand million apart."""
+    return _in_largest(quantity, ("m**3", "mm**3", "um**3"), "nm**3", 1e-3)
+
+
+def _in_largest(quantity: Any, units: tuple[str, ...], smallest: str, least: float = 0.01) -> Any:
+    for unit in units:
+        if abs(quantity.to(unit).magnitude) >= least:
             return quantity.to(unit)
-    return quantity.to("nm**2")
+    return quantity.to(smallest)
+
+
+_COMPACT = {"m**2": _compact_area, "m**3": _compact_volume}
 
 
 _EXAMPLES = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact.boundary import Boundary
 from ..contact.control import Control
-from ..contact.laws import Hardness, HardWall
+from ..contact.laws import Hardness, HardWall, LayeredHardness
 from ..contact.problem import Flat
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
@@ -28,6 +28,7 @@ TYPES: tuple[type, ...] = (
     Flat,
     Hardness,
     HardWall,
+    LayeredHardness,
     Layer,
     RigidBase,
     Strength,

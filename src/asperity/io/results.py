@@ -62,7 +62,12 @@ def save(result: ContactResult, path: str | Path, *, document: str | None = None
     """
     data = dataset(result, document=document)
     encoding: dict[str, dict[str, Any]] = {str(name): {"_FillValue": None} for name in data.variables}
-    for name in ("pressure", "permanent_indentation", "contact"):  # mostly zero, so packing costs little and saves much
+    for name in (
+        "pressure",
+        "permanent_indentation",
+        "contact",
+        "plastic",
+    ):  # mostly zero, so packing costs little and saves much
         encoding[name] |= {"zlib": True, "complevel": 1, "shuffle": True}
     with atomic_file(path, overwrite=overwrite) as partial:
         data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)
@@ -131,6 +136,7 @@ def _result(data: xarray.Dataset) -> ContactResult:
     return ContactResult(
         problem=ContactProblem(surface=surface, **parts),
         control=control,
+        plastic=arrays["plastic"].astype(bool),
         spot_areas=np.asarray(data["spot_areas"]),
         certificate=Certificate(**certificate),
         status=Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"]),
@@ -151,6 +157,7 @@ def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dat
     for item in FIELDS:
         variables[item.attribute] = _field(getattr(result, item.attribute), item.unit, item.label)
     variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
+    variables["plastic"] = _field(result.plastic, "1", "whether the pressure is at its limit")
     variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
     for item in ALL_SCALARS:
         variables[item.attribute] = ((), getattr(result, item.attribute), _labels(item.unit, item.label))

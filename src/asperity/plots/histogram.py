@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..contact.laws import LimitByDepth
 from ..contact.measure import distribution
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
@@ -26,7 +27,7 @@ def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
         return ax
     _mark(ax, float(in_unit(result.mean_real_pressure)), f"mean {{:.3g}} {in_unit.symbol}", BLACK, "--")
     cap = result.problem.law.pressure_cap()
-    if result.plastic.any() and not isinstance(cap, np.ndarray):
+    if result.plastic.any() and not isinstance(cap, np.ndarray) and not isinstance(result.problem.law, LimitByDepth):
         _mark(ax, float(in_unit(cap)), f"hardness {{:.3g}} {in_unit.symbol}", VERMILLION, ":")
     return _with_legend(ax)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.units import show
@@ -27,6 +28,9 @@ def setting_rows(result: ContactResult) -> Rows:
 
 def limit_text(problem: ContactProblem) -> str:
     """Pressure limit of the law of ``problem``, and whose hardness it is; empty without a limit."""
+    if isinstance(problem.law, LayeredHardness):
+        top, base = show(problem.law.pressure_cap(), "Pa"), show(problem.law.base_hardness, "Pa")
+        return f"{top} at the surface to {base} deep in the base, by local indentation"
     cap = np.asarray(problem.law.pressure_cap())
     if not np.isfinite(cap).all():
         return ""

@@ -1,0 +1,162 @@
+"""Hardness that follows the local indentation of a coated body: limits, agreement of depth and limit, independence of steps."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from contact_cases import rough
+
+import asperity as asp
+from asperity.contact.laws import LimitByDepth
+from asperity.contact.solvers import ActiveSet
+
+SOLVER = ActiveSet(tolerance=1e-10)
+FILMS = pytest.mark.parametrize(("film", "base"), [(0.3, 0.6), (0.6, 0.3), (0.25, 1.0)])
+
+
+def coated(film: float, base: float, *thicknesses: float) -> asp.Layered:
+    """Unit E* throughout; every layer of the hardness of the film."""
+    upper, lower = (asp.Elastic(0.91, 0.3, asp.Strength(hardness=h)) for h in (film, base))
+    return asp.Layered([asp.Layer(upper, t) for t in thicknesses], lower)
+
+
+def solved(body, load=0.2, law=None, **options):
+    problem = asp.ContactProblem(rough((24, 20), 3), body, law=law or asp.LayeredHardness(body))
+    return asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, **options)
+
+
+@FILMS
+@pytest.mark.parametrize("thickness", [0.05, 0.5, 5.0])
+def test_limit_and_indentation_agree(film, base, thickness):
+    body = coated(film, base, thickness)
+    result = solved(body)
+    limit = asp.LayeredHardness(body).cap_at(result.permanent_indentation)
+    assert result.plastic.any()
+    np.testing.assert_allclose(result.pressure[result.plastic], limit[result.plastic], rtol=1.01e-5)
+    assert (result.pressure <= limit * (1.0 + 1.01e-5)).all()
+    np.testing.assert_array_equal(result.indented, result.plastic)
+
+
+@FILMS
+def test_much_thicker_than_the_indentation_is_the_film(film, base):
+    plain = solved(coated(film, base, 1.0), law=asp.Hardness(film))
+    result = solved(coated(film, base, 1e5 * plain.max_permanent_indentation))
+    np.testing.assert_allclose(result.pressure, plain.pressure, rtol=0.0, atol=1e-4 * plain.max_pressure)
+    assert result.plastic_work == pytest.approx(plain.plastic_work, rel=1e-4)
+
+
+def test_much_thinner_than_the_indentation_is_the_base():
+    """A soft film bears nothing: what differs goes with its thickness. A hard one must first be broken; there the base bears."""
+    plain = solved(coated(0.3, 0.6, 1.0), law=asp.Hardness(0.6))
+    found = [np.abs(solved(coated(0.3, 0.6, t)).pressure - plain.pressure).max() for t in (0.1, 0.03, 0.01)]
+    assert found[1] < 0.6 * found[0]
+    assert found[2] < 0.5 * found[1]
+    assert found[2] < 0.04 * plain.max_pressure
+    hard = solved(coated(0.6, 0.3, 1e-5))
+    broken = hard.permanent_indentation > 1e-3
+    assert broken.any()
+    np.testing.assert_allclose(hard.pressure[broken], 0.3, rtol=1e-5)
+    assert hard.pressure[~broken].max() <= 0.6
+
+
+def test_a_load_above_the_hardness_of_the_film_presses_through_it():
+    result = solved(coated(0.1, 1.0, 0.05), 0.2)
+    assert result.converged
+    assert result.max_pressure > 0.2
+    with pytest.raises(asp.NoSolutionError, match=r"at most the mean hardness 0\.1 Pa"):
+        solved(coated(0.1, 0.15, 0.05), 0.2)
+
+
+@FILMS
+def test_equal_layers_are_one(film, base):
+    one, two = solved(coated(film, base, 0.5)), solved(coated(film, base, 0.2, 0.3))
+    np.testing.assert_allclose(one.pressure, two.pressure, rtol=0.0, atol=1e-9)
+
+
+def test_a_film_of_the_base_is_no_film():
+    body = coated(0.4, 0.4, 0.5)
+    np.testing.assert_array_equal(solved(body).pressure, solved(body, law=asp.Hardness(0.4)).pressure)
+    assert solved(body).plastic_work == pytest.approx(solved(body, law=asp.Hardness(0.4)).plastic_work, rel=1e-12)
+
+
+def test_more_film_is_softer_or_harder_as_the_film_is():
+    for film, base, sign in ((0.3, 0.6, 1.0), (0.6, 0.3, -1.0)):
+        areas = [solved(coated(film, base, t)).area_fraction for t in (0.02, 0.3, 1.0, 3.0, 1e4)]
+        assert (np.diff(areas) * sign >= 0.0).all()
+        assert areas[0] != areas[-1]
+
+
+@FILMS
+@pytest.mark.parametrize("thickness", [0.2, 2.0])
+def test_one_step_ends_where_many_do(film, base, thickness):
+    """Limit and depth agree after a step of any size; what little differs are points that yielded on the way."""
+    body = coated(film, base, thickness)
+    problem = asp.ContactProblem(rough((24, 20), 3), body, law=asp.LayeredHardness(body))
+    many = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2], steps=8), solver=SOLVER).results[-1]
+    one = solved(body)
+    assert one.approach == pytest.approx(many.approach, rel=2e-3)
+    assert one.area_fraction == pytest.approx(many.area_fraction, abs=1.1 / 480)
+    assert one.total_plastic_work == pytest.approx(many.total_plastic_work, rel=0.01)
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize("kind", [asp.Approach, asp.MeanGap])
+def test_prescribed_positions(boundary, kind):
+    body = coated(0.3, 0.6, 0.5)
+    problem = asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.LayeredHardness(body))
+    aim = asp.solve(problem, asp.MeanPressure(0.15), solver=SOLVER)
+    found = asp.solve(problem, kind(aim.approach if kind is asp.Approach else aim.mean_gap), solver=SOLVER)
+    assert found.mean_pressure == pytest.approx(0.15, rel=1e-3)
+    assert found.max_permanent_indentation == pytest.approx(aim.max_permanent_indentation, rel=1e-2)
+
+
+def test_rounds_that_do_not_agree_are_flagged():
+    class Restless:
+        """Softer whenever it is asked again."""
+
+        name = "restless"
+        citation_keys = ()
+        asked = 0
+
+        def pressure_cap(self) -> float:
+            return 0.4
+
+        def cap_at(self, indentation):
+            self.asked += 1
+            return np.full(indentation.shape, 0.4 + 0.01 * (self.asked % 3))
+
+        def work_at(self, indentation):
+            return 0.4 * indentation
+
+    law = Restless()
+    assert isinstance(law, LimitByDepth)
+    result = solved(coated(0.3, 0.6, 0.5), law=law, on_failure="return")
+    assert result.status.outcome == "stagnated"
+    assert "hardness still changes by" in result.status.message
+    with pytest.raises(asp.ConvergenceError, match="smaller steps of load or a finer grid"):
+        solved(coated(0.3, 0.6, 0.5), law=Restless())
+
+
+def test_yield_stresses_enter_where_both_are_known():
+    known = asp.Strength(0.6, 0.1), asp.Strength(0.3, 0.12)
+    solids = [asp.Elastic(0.91, 0.3, s) for s in known]
+    law = asp.LayeredHardness(asp.Layered([asp.Layer(solids[0], 1.0)], solids[1]))
+    ratio = 0.1 / 0.12
+    expected = 0.3 + 0.3 * math.exp(-(0.6 / 0.3) / ratio * 0.5)
+    assert float(law.cap_at(np.array([[0.5]]))[0, 0]) == pytest.approx(expected, rel=1e-12)
+    assert law.pressure_cap() == 0.6
+
+
+def test_every_material_needs_a_hardness():
+    soft = asp.Elastic(1.0, 0.3, name="soft")
+    hard = asp.Elastic(1.0, 0.3, asp.Strength(hardness=1.0))
+    with pytest.raises(asp.InputError, match="hardness of soft in layer 1 must be known"):
+        asp.LayeredHardness(asp.Layered([asp.Layer(soft, 1.0)], hard))
+    with pytest.raises(asp.InputError, match="hardness of soft in the base must be known"):
+        asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], soft))
+    with pytest.raises(asp.InputError, match=r"base of a body with an effective hardness .* is rigid"):
+        asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], asp.RigidBase()))
+    with pytest.raises(asp.InputError, match="of type Layered"):
+        asp.LayeredHardness(hard)  # type: ignore[arg-type]
