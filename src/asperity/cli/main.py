@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from . import contact, generate, info, materials, results
+from . import contact, generate, info, materials, results, stress
 from .failures import Reporting
 from .groups import grouped
 
@@ -26,6 +26,7 @@ app = typer.Typer(
 COMMANDS: tuple[Callable[..., None], ...] = (
     contact.contact,
     contact.demo,
+    stress.stress,
     info.info,
     materials.materials,
     results.plot,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,14 +29,15 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.build import build
     from ..io.documents import relocated
     from .show import print_advice, print_files, print_result
-    from .stress_run import print_stress, surveyed, write_volume
+    from .stress_run import output_folder, print_stress, surveyed, write_volume
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
-    with _folder(output) as folder:
+    with output_folder(output) as folder:
         result = _solved(case, chosen=_chooses_solver(document))
-        stress = surveyed(case, result, lines=folder is not None)
+        asked, lines = case.stress, folder is not None
+        stress = None if asked is None else surveyed(asked, result, lines=lines, threads=case.threads)
         findings = (*before, *review(result))
         if folder is not None and output.out is not None:
             moved = relocated(document, base_folder, output.out)
@@ -51,18 +50,6 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     print_advice(findings)
     print_files(_written(output, stressed=stress is not None))
     return OK if result.converged else NOT_CONVERGED
-
-
-@contextmanager
-def _folder(options: OutputOptions) -> Iterator[Path | None]:
-    """Temporary folder that becomes the output folder when all has gone well; None if none is wanted."""
-    from ..io.atomic import atomic_folder
-
-    if options.out is None:
-        yield None
-        return
-    with atomic_folder(options.out, overwrite=options.force) as folder:
-        yield folder
 
 
 def _chooses_solver(document: ProblemDocument) -> bool:

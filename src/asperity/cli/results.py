@@ -71,18 +71,19 @@ def cite(
 ) -> None:
     """Print the papers behind the numbers of a result or a problem."""
     from ..core.citations import cite as references
+    from ..io.build import build
+    from ..io.build_stress import build_stress
+    from ..io.documents import load_document, loads
+    from ..io.results import document_in, load
+    from ..stress.request import Planned
     from .show import say
 
     if file.suffix.lower() in (".toml", ".json"):
-        from ..io.build import build
-        from ..io.documents import load_document
-
-        case = build(load_document(file), file.parent)
-        say(references(case.problem, case.solver))
+        say(references(build(load_document(file), file.parent)))
         return
-    from ..io.results import load
-
-    say(references(load(file)))
+    result, text = load(file), document_in(file)
+    asked = None if text is None else loads(text).stress
+    say(references(result, *(() if asked is None else (Planned(build_stress(asked), result.problem),))))
 
 
 def _make(folder: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,26 +11,24 @@ from .options import OutputOptions
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
-    from ..io.build import Case
     from ..plots.stress_figures import Figure
     from ..report.stress import StressPart
     from ..stress.field import StressField
+    from ..stress.request import StressRequest
     from ..stress.survey import StressSurvey
 
 FOLDER, TABLE = "stress", "stress.csv"
 """Names in the folder of a run: the fields, and the table of the largest stresses."""
 
 
-def surveyed(case: Case, result: ContactResult, *, lines: bool) -> StressSurvey | None:
-    """Stresses that ``case`` asks for, without sections and profiles unless these ``lines`` are wanted."""
+def surveyed(request: StressRequest, result: ContactResult, *, lines: bool, threads: int | None) -> StressSurvey:
+    """Stresses that ``request`` asks for, without sections and profiles unless these ``lines`` are wanted."""
     from ..stress.survey import survey
     from .interrupt import interruptible
     from .progress import shown_planes
 
-    if case.stress is None:
-        return None
     with shown_planes("stresses") as bar, interruptible(bar) as progress:
-        return survey(case.stress, result, lines=lines, threads=case.threads, progress=progress)
+        return survey(request, result, lines=lines, threads=threads, progress=progress)
 
 
 def write_stress(survey: StressSurvey, folder: Path) -> StressPart:
@@ -63,6 +62,18 @@ def write_volume(survey: StressSurvey, output: OutputOptions) -> None:
         save_stress(survey.planes(survey.depths), output.stress_nc, overwrite=output.force)
     if output.stress_vtk is not None:
         export_stress_vtk(survey.planes(survey.depths), output.stress_vtk, overwrite=output.force)
+
+
+@contextmanager
+def output_folder(options: OutputOptions) -> Iterator[Path | None]:
+    """Temporary folder that becomes the output folder when all has gone well; None if none is wanted."""
+    from ..io.atomic import atomic_folder
+
+    if options.out is None:
+        yield None
+        return
+    with atomic_folder(options.out, overwrite=options.force) as folder:
+        yield folder
 
 
 def print_stress(survey: StressSurvey) -> None:

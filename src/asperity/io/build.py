@@ -14,10 +14,11 @@ from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
 from ..core import units
+from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..solids.body import Body, surface_material
 from ..solids.layers import Layered
-from ..stress.request import StressRequest
+from ..stress.request import Planned, StressRequest
 from .build_body import build_body
 from .build_stress import build_stress, check_stress
 from .build_surface import build_surfaces
@@ -34,6 +35,12 @@ class Case:
     solver: Solver
     threads: int | None = None
     stress: StressRequest | None = None
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers that its numbers will rest on."""
+        asked = () if self.stress is None else (Planned(self.stress, self.problem),)
+        return citation_keys(self.problem, self.solver, *asked)
 
 
 def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:

@@ -10,19 +10,21 @@ import os
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from ..core.errors import FileFormatError, InputError
 from .atomic import atomic_file
 from .schemas.problem import ProblemDocument
+from .schemas.stress import StressDocument, StressTable
 from .schemas.values import Table
 from .schemas.wording import problems
 
 __all__ = [
     "ProblemDocument",
     "checked",
+    "checked_stress",
     "dumps",
     "json_schema",
     "load_document",
@@ -31,6 +33,10 @@ __all__ = [
     "relocated",
     "save_document",
 ]
+
+
+Kind = TypeVar("Kind", bound=Table)
+"""Type of a document."""
 
 
 def load_document(path: str | os.PathLike[str]) -> ProblemDocument:
@@ -94,10 +100,19 @@ def checked(
     InputError
         If anything is missing, unknown or out of range; the message has one line for each problem.
     """
+    return _validated(ProblemDocument, table, where, names or {})
+
+
+def checked_stress(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> StressTable:
+    """The part ``stress`` of ``table``, which has no other; arguments and errors as for :func:`checked`."""
+    return _validated(StressDocument, table, where, names or {}).stress
+
+
+def _validated(kind: type[Kind], table: Mapping[str, Any], where: str, names: Mapping[str, str]) -> Kind:
     try:
-        return ProblemDocument.model_validate(dict(table))
+        return kind.model_validate(dict(table))
     except ValidationError as error:
-        lines = problems(error, json_schema(), names or {})
+        lines = problems(error, kind.model_json_schema(), names)
     if len(lines) == 1:
         raise InputError(f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))

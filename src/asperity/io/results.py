@@ -122,6 +122,24 @@ def load(path: str | Path) -> ContactResult:
         raise FileFormatError(f"result file must hold a whole result, but {path} lacks or garbles {error}.") from error
 
 
+def document_in(path: str | Path) -> str | None:
+    """Text of the problem document in the result file ``path``, None if it was saved without one.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing or no NetCDF-4 file.
+    """
+    import h5netcdf
+
+    try:
+        with h5netcdf.File(path, "r") as file:
+            text = file.attrs.get("document")
+    except OSError as error:
+        raise FileFormatError(f"result file must be a whole NetCDF-4 file, but {path} is not ({error}).") from error
+    return None if text is None else str(text)
+
+
 def _result(data: xarray.Dataset) -> ContactResult:
     attributes = data.attrs
     arrays = {str(name): np.asarray(variable) for name, variable in data.data_vars.items() if variable.ndim == 2}

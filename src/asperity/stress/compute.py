@@ -168,7 +168,7 @@ class StressPlanes:
         self._source = _source(tractions, body, dtype, threads)
         self._dtype = dtype
         self._grid = tractions.grid
-        self.citation_keys = _citation_keys(tractions, body)
+        self.citation_keys = papers(body, tractions.boundary, sheared=tractions.sheared)
 
     def each(self, *, displacement: bool = False) -> Iterator[StressField]:
         """One field after the other, each of one plane."""
@@ -224,12 +224,13 @@ def _copy(source: StressTensor | Displacement, target: StressTensor | Displaceme
         getattr(target, name)[number] = component[0]
 
 
-def _citation_keys(tractions: Tractions, body: object) -> tuple[str, ...]:
+def papers(body: object, boundary: str, *, sheared: bool) -> tuple[str, ...]:
+    """Keys of the papers that stresses in ``body`` rest on, under pressure and perhaps shear, for a ``boundary`` by name."""
     keys = {"Johnson1985"}
     if stack(body).layers:
         keys |= {"Burmister1945", "Tan2006"}
-    if tractions.boundary == "free line":
+    if boundary == "free line":
         keys |= {"Liu2002", "Flamant1892"}
-    elif tractions.boundary == "free":
-        keys |= {"Liu2002", "Love1929"} | ({"Cerruti1882"} if tractions.sheared else set())
+    elif boundary == "free":
+        keys |= {"Liu2002", "Love1929"} | ({"Cerruti1882"} if sheared else set())
     return tuple(sorted(keys))

@@ -13,7 +13,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..solids.elastic import Rigid
-from .compute import Loaded
+from .compute import Loaded, papers
 from .criteria import Criterion, VonMises
 from .mean_mode import require_held
 from .regions import planes
@@ -96,8 +96,9 @@ class StressRequest:
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
-        """Keys of the papers on the coupling of shear and pressure, where that is asked for."""
-        return ("Dundurs1969",) if self.coupled else ()
+        """Keys of the papers on what is done with the stresses: principal ones, those in sections, coupling, criterion."""
+        drawn = ("Peng2001",) if self.sections else ()
+        return ("Eberly2014", *drawn, *(("Dundurs1969",) if self.coupled else ()), *self.criterion.citation_keys)
 
     def check(self, problem: Any) -> None:
         """Refuse what ``problem`` has no stress for, before it is solved.
@@ -127,6 +128,21 @@ class StressRequest:
         for line in self.profiles:
             _require_within(line.x, "x", "profile", grid)
             _require_within(line.y, "y", "profile", grid)
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Stresses asked for in a ``problem``, before it is solved; for ``cite``."""
+
+    request: StressRequest
+    problem: Any
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers that the stresses will rest on."""
+        body = getattr(self.problem, self.request.of)
+        sheared = self.request.friction != 0.0
+        return (*papers(body, self.problem.boundary.name, sheared=sheared), *self.request.citation_keys)
 
 
 def _require_within(place: Place, axis: str, kind: str, grid: Grid) -> None:

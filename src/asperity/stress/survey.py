@@ -99,7 +99,7 @@ def survey(
         maxima.regions(),
         maxima.interfaces(),
         report,
-        citation_keys(maxima, request.criterion, request),
+        citation_keys(maxima, request),
         threads,
     )
 

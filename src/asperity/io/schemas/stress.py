@@ -92,3 +92,9 @@ class StressTable(Table):
 def _listed(value: object) -> object:
     """A list as a tuple; one section or profile, as a table or text, as a list of it."""
     return (value,) if isinstance(value, str | dict) else tuple(value) if isinstance(value, list) else value
+
+
+class StressDocument(Table):
+    """Nothing but the stresses that are wanted of a contact that has been solved."""
+
+    stress: StressTable

@@ -1,0 +1,136 @@
+"""The command ``stress``: the stresses in a contact that has been solved and saved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .options import OUTPUT, OutputOptions
+from .results import Result
+from .stressing import StressOptions, stress_names, with_stress
+
+if TYPE_CHECKING:
+    from ..contact.result import ContactResult
+    from ..io.documents import ProblemDocument
+    from ..stress.request import StressRequest
+    from ..stress.survey import StressSurvey
+
+
+def _option(name: str, text: str, metavar: str | None = None) -> Any:
+    return typer.Option(name, help=text, rich_help_panel=OUTPUT, metavar=metavar)
+
+
+@dataclass(frozen=True)
+class StressOutput:
+    """Where the stresses are written."""
+
+    out: Annotated[Path | None, _option("--out", "Folder for report, tables, fields and plots.", "DIR")] = None
+    force: Annotated[bool, _option("--force", "Replace files that exist.")] = False
+    stress_vtk: Annotated[
+        Path | None, _option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).")
+    ] = None
+    stress_nc: Annotated[
+        Path | None, _option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).")
+    ] = None
+
+
+def stress(
+    file: Result,
+    wanted: StressOptions,
+    output: StressOutput,
+    threads: Annotated[
+        int | None, typer.Option("--threads", help="Threads of the transforms; all cores by default.")
+    ] = None,
+) -> None:
+    """Compute the stresses in a saved contact, without solving it again.
+
+    What the result's own problem document asks for is computed, with the options in place of its parts; without either, the
+    section y=max. The pressure stays that of the result, whatever the friction.
+
+    Example: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out stresses
+
+    Exit code 1 if the saved contact has not converged; the others as for `contact`.
+    """
+    from ..io.atomic import require_new_files
+    from ..io.build_stress import check_stress
+    from ..io.documents import relocated
+    from ..io.results import document_in, load
+    from .failures import NOT_CONVERGED, OK
+    from .show import console, print_files, problem_rows, table
+    from .stress_run import output_folder, print_stress, surveyed, write_volume
+
+    written = OutputOptions(**vars(output))
+    files = [path for path in (output.stress_vtk, output.stress_nc) if path is not None]
+    require_new_files(files, overwrite=output.force)
+    result = load(file)
+    request, document = _asked(document_in(file), wanted)
+    check_stress(request, result.problem)
+    with output_folder(written) as folder:
+        survey = surveyed(request, result, lines=folder is not None, threads=threads)
+        if folder is not None and output.out is not None:
+            moved = None if document is None else relocated(document, file.parent, output.out)
+            names = _write_folder(result, survey, moved, folder)
+            files = [*(output.out / name for name in names), *files]
+    write_volume(survey, written)
+    console().print(table(f"Stresses in {file}", problem_rows(result)))
+    print_stress(survey)
+    print_files(files)
+    raise typer.Exit(OK if result.converged else NOT_CONVERGED)
+
+
+def _asked(text: str | None, wanted: StressOptions) -> tuple[StressRequest, ProblemDocument | None]:
+    """What is asked for, and the document in the result, whose ``text`` is given, with that in it."""
+    from ..io.build_stress import build_stress
+    from ..io.documents import checked_stress, loads
+
+    document = None if text is None else loads(text)
+    before = None if document is None else document.stress
+    start = {} if before is None else {"stress": before.model_dump(mode="json", exclude_none=True)}
+    table = with_stress(start, wanted, wanted=True)
+    checked = checked_stress(table, "command line", stress_names(table))
+    request = build_stress(checked)
+    _require_same_coupling(request, None if before is None else build_stress(before))
+    return request, None if document is None else document.model_copy(update={"stress": checked})
+
+
+def _require_same_coupling(request: StressRequest, before: StressRequest | None) -> None:
+    """Refuse a coupling that the saved pressure does not have."""
+    from ..core.errors import InputError
+
+    had = None if before is None or not before.coupled else (before.friction, before.direction)
+    if request.coupled and had != (request.friction, request.direction):
+        holds = (
+            "without coupling"
+            if had is None
+            else f"coupled with friction {had[0]:g} along {math.degrees(had[1]):g} deg"
+        )
+        raise InputError(
+            f"--coupled needs the pressure under the friction asked for, but that of the result was solved {holds}. "
+            "Solve again: asperity contact --from problem.toml --coupled with that friction."
+        )
+
+
+def _write_folder(
+    result: ContactResult, survey: StressSurvey, document: ProblemDocument | None, folder: Path
+) -> list[str]:
+    """Write everything into ``folder``; return the names."""
+    from ..contact.advice import advise, review
+    from ..io.documents import dumps, save_document
+    from ..plots.figures import save_plots
+    from ..report import write_report
+    from .stress_run import FOLDER, TABLE, write_stress
+
+    names = ["report.html", "plots", FOLDER, TABLE]
+    save_plots(result, folder / "plots")
+    part, text, title = write_stress(survey, folder), None, ""
+    if document is not None:
+        text, title = dumps(document), document.title
+        save_document(document, folder / "problem.toml")
+        names.append("problem.toml")
+    findings = (*advise(result.problem, result.control), *review(result))
+    write_report(result, folder / names[0], advice=findings, document=text, title=title, stress=part)
+    return names
