@@ -101,10 +101,15 @@ def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     ]
 
 
+def print_problem(result: ContactResult, title: str) -> None:
+    """Print what was solved."""
+    console().print(table(title, problem_rows(result)))
+
+
 def print_result(result: ContactResult, title: str) -> None:
     """Print problem, scalars and status of ``result``."""
     out = console()
-    out.print(table(title or "Contact", problem_rows(result)))
+    print_problem(result, title or "Contact")
     for step in result.problem.surface.origin.history:
         say(f"  {step}", "dim")
     out.print(table("Result", scalar_rows(result)))

@@ -37,6 +37,11 @@ class StressOutput:
         Path | None, _option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).")
     ] = None
 
+    @property
+    def files(self) -> list[Path]:
+        """Single files that are asked for."""
+        return [path for path in (self.stress_vtk, self.stress_nc) if path is not None]
+
 
 def stress(
     file: Result,
@@ -60,11 +65,11 @@ def stress(
     from ..io.documents import relocated
     from ..io.results import document_in, load
     from .failures import NOT_CONVERGED, OK
-    from .show import console, print_files, problem_rows, table
+    from .show import print_files, print_problem
     from .stress_run import output_folder, print_stress, surveyed, write_volume
 
     written = OutputOptions(**vars(output))
-    files = [path for path in (output.stress_vtk, output.stress_nc) if path is not None]
+    files = output.files
     require_new_files(files, overwrite=output.force)
     result = load(file)
     request, document = _asked(document_in(file), wanted)
@@ -73,10 +78,9 @@ def stress(
         survey = surveyed(request, result, lines=folder is not None, threads=threads)
         if folder is not None and output.out is not None:
             moved = None if document is None else relocated(document, file.parent, output.out)
-            names = _write_folder(result, survey, moved, folder)
-            files = [*(output.out / name for name in names), *files]
+            files = [*(output.out / name for name in _write_folder(result, survey, moved, folder)), *files]
     write_volume(survey, written)
-    console().print(table(f"Stresses in {file}", problem_rows(result)))
+    print_problem(result, f"Stresses in {file}")
     print_stress(survey)
     print_files(files)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
