@@ -68,8 +68,7 @@ def stress(
     from .show import print_files, print_problem
     from .stress_run import output_folder, print_stress, surveyed, write_volume
 
-    written = OutputOptions(**vars(output))
-    files = output.files
+    written, files = OutputOptions(**vars(output)), output.files
     require_new_files(files, overwrite=output.force)
     result = load(file)
     request, document = _asked(document_in(file), wanted)
@@ -77,7 +76,7 @@ def stress(
     with output_folder(written) as folder:
         survey = surveyed(request, result, lines=folder is not None, threads=threads)
         if folder is not None and output.out is not None:
-            moved = None if document is None else relocated(document, file.parent, output.out)
+            moved = document and relocated(document, file.parent, output.out)
             files = [*(output.out / name for name in _write_folder(result, survey, moved, folder)), *files]
     write_volume(survey, written)
     print_problem(result, f"Stresses in {file}")
