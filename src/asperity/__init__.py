@@ -18,6 +18,9 @@ from .contact.roughness import roughness_of
 from .contact.sliding import SlidingResult, solve_sliding
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
+from .contact.wet import Friction, Steady, solve_wet
+from .contact.wet_result import WetContactResult
+from .contact.wetting import LiquidFilm
 from .core.citations import cite
 from .core.engine import ArrayEngine, CpuEngine
 from .core.errors import (
@@ -46,6 +49,7 @@ from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, gra
 from .solids.interface import Bonded, Frictionless
 from .solids.layers import Layer, Layered, RigidBase
 from .solids.library import material, materials
+from .solids.liquids import Liquid, liquid, liquids
 from .solids.strength import Strength
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
@@ -96,6 +100,7 @@ __all__ = [
     "Force",
     "Free",
     "FreeLine",
+    "Friction",
     "Frictionless",
     "Grid",
     "HardWall",
@@ -107,6 +112,8 @@ __all__ = [
     "Layered",
     "LayeredHardness",
     "LinearGrading",
+    "Liquid",
+    "LiquidFilm",
     "LoadAtYield",
     "LoadPath",
     "MaxPrincipal",
@@ -124,6 +131,7 @@ __all__ = [
     "ShearTraction",
     "Sliding",
     "SlidingResult",
+    "Steady",
     "Strength",
     "StressField",
     "Surface",
@@ -132,6 +140,7 @@ __all__ = [
     "UnitError",
     "Unloaded",
     "VonMises",
+    "WetContactResult",
     "YieldReport",
     "__version__",
     "advise",
@@ -155,6 +164,8 @@ __all__ = [
     "graded",
     "levelled",
     "line_corrected",
+    "liquid",
+    "liquids",
     "load",
     "load_at_yield",
     "material",
@@ -185,6 +196,7 @@ __all__ = [
     "solve",
     "solve_path",
     "solve_sliding",
+    "solve_wet",
     "solvers",
     "stress",
     "stress_planes",

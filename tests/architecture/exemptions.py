@@ -7,6 +7,7 @@ LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "asperity.core.engine.kernels.survey_capped": "one pass over memory for all sums; splitting it would read the fields twice",
         "asperity.contact.assemble.assemble": "one line for each field of the result",
+        "asperity.contact.wet.solve_wet": "one line for each field of the result; no loop and no nesting",
         "asperity.contact.solve.solve": "one call per stage, laid out by the formatter; no loop and no nesting",
         "asperity.contact.solvers.conjugate_gradient._conjugate_step": (
             "one iteration in the order of the paper; its parts share seven arrays"
@@ -34,6 +35,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.contact.path.steps": "the choices of solve, for a sequence of controls",
         "asperity.contact.solve.solve": "independent keyword-only choices of the user, each with a default",
         "asperity.contact.sliding.solve_sliding": "the choices of solve, with friction and its direction",
+        "asperity.contact.wet.solve_wet": "the choices of solve, with a film, friction and when to stop",
         "asperity.stress.compute.stress": "independent keyword-only choices of the user, each with a default",
         "asperity.stress.compute.stress_planes": "independent keyword-only choices of the user, each with a default",
         "asperity.io.tiles.save_endless": "independent keyword-only choices of the user, each with a default",

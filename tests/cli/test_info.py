@@ -68,6 +68,17 @@ def test_materials_as_json(run: Runner) -> None:
     assert len(json.loads(run("materials", "--json").stdout)) > 10
 
 
+def test_liquids_are_listed_with_sources(run: Runner) -> None:
+    listed = run("liquids").stdout
+    assert "18.05 cm³/mol" in listed
+    assert "24 mN/m *" in listed, "typical values are marked"
+    one = run("liquids", "zdol").stdout
+    assert "assumed: typical of perfluoropolyethers" in one
+    (found,) = json.loads(run("liquids", "water", "--json").stdout)
+    assert found["surface_tension"]["value"] == 0.07274
+    assert "did you mean" in run("liquids", "watr").output
+
+
 def test_own_materials(run: Runner, tmp_path: Path) -> None:
     own = tmp_path / "own.toml"
     own.write_text('[material."jelly"]\nyoungs_modulus = "1 MPa"\npoisson_ratio = 0.49\n')

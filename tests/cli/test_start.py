@@ -10,7 +10,7 @@ import pytest
 from cli.conftest import Runner
 from heavy_imports import HEAVY
 
-COMMANDS = ("contact", "demo", "info", "materials", "plot", "export", "cite", "generate")
+COMMANDS = ("contact", "demo", "info", "materials", "liquids", "plot", "export", "cite", "generate")
 
 
 def test_help_imports_nothing_heavy() -> None:

@@ -29,6 +29,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     stress.stress,
     info.info,
     materials.materials,
+    materials.liquids,
     results.plot,
     results.export,
     results.cite,

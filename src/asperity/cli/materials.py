@@ -1,14 +1,62 @@
-"""The command ``materials``: the library of named materials and where its values come from."""
+"""The commands ``materials`` and ``liquids``: libraries of named substances and where their values come from."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from ..solids.library import MaterialRecord
+    from ..solids.liquids import LiquidRecord
+
+
+@dataclass(frozen=True)
+class _Listing:
+    """What a list of records shows: its ``command`` and ``title``, and heading and SI unit of each value by key."""
+
+    command: str
+    title: str
+    columns: tuple[tuple[str, str, str], ...]
+
+    def text(self, record: MaterialRecord | LiquidRecord, key: str) -> str:
+        """Value of ``key`` with its unit; a star behind an assumed one, a dash where it is not known."""
+        from ..core.units import show
+
+        if key not in record.values:
+            return "–"
+        item, unit = record.values[key], {name: unit for name, _, unit in self.columns}[key]
+        # a compact unit of molar volumes is read by nobody
+        text = f"{1e6 * item.value:.4g} cm³/mol" if unit == "m**3/mol" else show(item.value, unit, 5)
+        return f"{text} *" if item.assumed else text
+
+
+MATERIALS = _Listing(
+    "materials",
+    "Materials",
+    (
+        ("youngs_modulus", "E", "Pa"),
+        ("poisson_ratio", "ν", "1"),
+        ("hardness", "hardness", "Pa"),
+        ("yield_stress", "yield stress", "Pa"),
+    ),
+)
+LIQUIDS = _Listing(
+    "liquids",
+    "Liquids",
+    (
+        ("surface_tension", "surface tension", "N/m"),
+        ("temperature", "at", "K"),
+        ("molar_volume", "molar volume", "m**3/mol"),
+        ("viscosity", "viscosity", "Pa*s"),
+    ),
+)
+NAMES = MappingProxyType({MATERIALS.command: "material", LIQUIDS.command: "liquid"})
+"""What one record of each command is called."""
 
 
 def materials(
@@ -17,55 +65,67 @@ def materials(
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, pressures in Pa.")] = False,
 ) -> None:
     """List the named materials with their values and sources."""
-    import json
-
     from ..solids.library import material
     from ..solids.library import materials as library
+
+    wanted = None if name is None else material(name, library=file).name
+    _print(MATERIALS, library(file), wanted, as_json=as_json)
+
+
+def liquids(
+    name: Annotated[str | None, typer.Argument(help="Name or alias of one liquid.")] = None,
+    file: Annotated[Path | None, typer.Option("--file", help="Your own liquids, a TOML file.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, in SI units.")] = False,
+) -> None:
+    """List the named liquids for films between surfaces, with their values and sources."""
+    from ..solids.liquids import liquid
+    from ..solids.liquids import liquids as library
+
+    wanted = None if name is None else liquid(name, library=file).name
+    _print(LIQUIDS, library(file), wanted, as_json=as_json)
+
+
+def _print(
+    listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord], wanted: str | None, *, as_json: bool
+) -> None:
+    """Print all ``records``, or with every source the one that is ``wanted``."""
+    import json
+
     from .show import console
 
-    records = library(file)
-    if name is not None:
-        wanted = material(name, library=file).name
-        records = tuple(record for record in records if record.name == wanted)
+    if wanted is not None:
+        records = [record for record in records if record.name == wanted]
     if as_json:
         console().out(json.dumps([_described(record) for record in records], indent=2), highlight=False)
-    elif name is not None:
-        _print_one(records[0])
+    elif wanted is not None:
+        _print_one(listing, records[0])
     else:
-        _print_all(records)
+        _print_all(listing, records)
 
 
-def _described(record: MaterialRecord) -> dict[str, Any]:
+def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
     values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
     return {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values}
 
 
-def _text(record: MaterialRecord, key: str) -> str:
-    from ..core.units import show
-
-    if key not in record.values:
-        return "–"
-    item = record.values[key]
-    text = f"{item.value:g}" if key == "poisson_ratio" else show(item.value, "Pa")
-    return f"{text} *" if item.assumed else text
-
-
-def _print_all(records: tuple[MaterialRecord, ...]) -> None:
+def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord]) -> None:
     from .show import console, say, table
 
-    keys = ("youngs_modulus", "poisson_ratio", "hardness", "yield_stress")
-    rows = [(record.name, *(_text(record, key) for key in keys), ", ".join(record.aliases)) for record in records]
-    headings = ("material", "E", "ν", "hardness", "yield stress", "also called")
-    console().print(table("Materials (* assumed)", rows, headings))
+    rows = [
+        (record.name, *(listing.text(record, key) for key, _, _ in listing.columns), ", ".join(record.aliases))
+        for record in records
+    ]
+    headings = (NAMES[listing.command], *(heading for _, heading, _ in listing.columns), "also called")
+    console().print(table(f"{listing.title} (* assumed)", rows, headings))
     for source in dict.fromkeys(item.source for record in records for item in record.values.values()):
         say(f"  source: {source}", "dim")
-    say("`asperity materials NAME` shows the source of every value.")
+    say(f"`asperity {listing.command} NAME` shows the source of every value.")
 
 
-def _print_one(record: MaterialRecord) -> None:
+def _print_one(listing: _Listing, record: MaterialRecord | LiquidRecord) -> None:
     from .show import console, say, table
 
-    rows = [(key.replace("_", " "), _text(record, key), item.source) for key, item in record.values.items()]
+    rows = [(key.replace("_", " "), listing.text(record, key), item.source) for key, item in record.values.items()]
     console().print(table(record.name, rows, ("quantity", "value", "source")))
     if record.aliases:
         say(f"also called {', '.join(record.aliases)}")

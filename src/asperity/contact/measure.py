@@ -11,6 +11,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from .islands import labelled
 
 PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""
@@ -50,23 +51,8 @@ def corrected_area(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) 
 
 def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:
     """Number of pixels of every contact spot (pixels joined by edges), largest first."""
-    from scipy.ndimage import label
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    labels, count = label(contact)
-    if count == 0:
-        return np.zeros(0)
-    if any(wraps):
-        ends = [(labels.take(0, axis), labels.take(-1, axis)) for axis in (0, 1) if wraps[axis]]
-        first, last = (np.concatenate(lines) for lines in zip(*ends, strict=True))
-        joined = (first > 0) & (last > 0)
-        rows, columns = first[joined] - 1, last[joined] - 1
-        links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
-        count, merged = connected_components(links, directed=False)
-        pixels = np.bincount(merged[labels[contact] - 1], minlength=count)
-    else:
-        pixels = np.bincount(labels[contact] - 1, minlength=count)
+    labels, count = labelled(contact, wraps=wraps)
+    pixels = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     return np.sort(pixels)[::-1].astype(float)
 
 

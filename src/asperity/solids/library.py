@@ -2,42 +2,26 @@
 
 from __future__ import annotations
 
-import difflib
-import tomllib
-from dataclasses import dataclass, fields, replace
-from importlib import resources
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from ..core import require, units
-from ..core.errors import FileFormatError, InputError
 from .elastic import INCOMPRESSIBLE, Elastic
+from .records import Kind, Sourced, built_in_text, checked, find, overridden, parsed, read_text, sourced
 from .strength import Strength
 
-REQUIRED_KEYS = ("youngs_modulus", "poisson_ratio")
-"""Keys that every material in a file must have."""
-
-OPTIONAL_KEYS = ("hardness", "yield_stress", "aliases", "note")
-"""Keys that a material in a file may have."""
+KIND = Kind(
+    "material",
+    "asperity materials",
+    required=("youngs_modulus", "poisson_ratio"),
+    values=("youngs_modulus", "poisson_ratio", "hardness", "yield_stress"),
+)
+"""Keys of a material in a file."""
 
 BUILT_IN = "materials.toml"
 """Name of the built-in material file, as shown in messages."""
-
-
-@dataclass(frozen=True)
-class Sourced:
-    """SI ``value`` (Pa, or dimensionless for Poisson's ratio) with the text of its ``source``.
-
-    A source that begins with ``assumed:`` marks a value that was not measured on this very material.
-    """
-
-    value: float
-    source: str
-
-    @property
-    def assumed(self) -> bool:
-        """Whether the value is an assumption."""
-        return self.source.startswith("assumed:")
 
 
 @dataclass(frozen=True)
@@ -100,18 +84,10 @@ def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
     InputError
         If the file is missing or not TOML, or a key or value in it cannot be used.
     """
-    text = resources.files(__package__).joinpath("data", BUILT_IN).read_text(encoding="utf-8")
-    built_in = _parse_records(text, BUILT_IN)
+    built_in = parsed(built_in_text(BUILT_IN), BUILT_IN, KIND, _record)
     if path is None:
         return built_in
-    own = _parse_records(_read_text(Path(path)), str(path))
-    taken = {key for record in own for key in _lookup_keys(record)}
-    kept = (
-        replace(record, aliases=tuple(alias for alias in record.aliases if _normal(alias) not in taken))
-        for record in built_in
-        if _normal(record.name) not in taken
-    )
-    return (*kept, *own)
+    return overridden(built_in, parsed(read_text(Path(path), KIND), str(path), KIND, _record))
 
 
 def material(name: str, *, library: str | Path | None = None) -> Elastic:
@@ -122,96 +98,19 @@ def material(name: str, *, library: str | Path | None = None) -> Elastic:
     InputError
         If no material has that name, with the nearest names, or if the file cannot be used (see ``materials``).
     """
-    index = {key: record for record in materials(library) for key in _lookup_keys(record)}
-    wanted = _normal(str(name))
-    if wanted in index:
-        return index[wanted].body
-    containing = [key for key in index if wanted and wanted in key.split()]
-    near = (*containing, *difflib.get_close_matches(wanted, index, n=3))
-    names = list(dict.fromkeys(index[key].name for key in near))[:3]
-    hint = f"did you mean {' or '.join(names)}? The command `asperity materials` lists all names."
-    raise InputError(
-        f"material must be a name in the material library, but is {name!r}; "
-        + (hint if names else "the command `asperity materials` lists all names.")
-    )
+    return find(name, materials(library), KIND).body
 
 
-def _normal(name: str) -> str:
-    return " ".join(name.casefold().split())
+def _record(name: str, table: Any, file: str) -> MaterialRecord:
+    where, entries, aliases, note = checked(name, table, file, KIND)
+    values = {
+        key: sourced(entry, f"{key} {where}", _conversion(key, f"{key} {where}")) for key, entry in entries.items()
+    }
+    return MaterialRecord(name, aliases=aliases, note=note, **values)
 
 
-def _lookup_keys(record: MaterialRecord) -> tuple[str, ...]:
-    return tuple(_normal(name) for name in (record.name, *record.aliases))
-
-
-def _read_text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise FileFormatError(f"material file must exist, but {path} does not; check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError(
-            f"material file must be a readable text file in UTF-8, but {path} is not: {error}."
-        ) from None
-
-
-def _parse_records(text: str, file: str) -> tuple[MaterialRecord, ...]:
-    """Records of the TOML ``text``; ``file`` names it in messages."""
-    try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise FileFormatError(f"material file must be valid TOML, but {file} is not: {error}.") from None
-    tables = document.get("material")
-    unknown = sorted(set(document) - {"material"})
-    if unknown or not isinstance(tables, dict) or not tables:
-        received = f"the key {unknown[0]!r}" if unknown else "no such table"
-        raise InputError(f'material file {file} must hold tables [material."name"] only, but has {received}.')
-    records = tuple(_record(name, table, file) for name, table in tables.items())
-    owner: dict[str, str] = {}
-    for record in records:
-        for key in _lookup_keys(record):
-            if owner.setdefault(key, record.name) != record.name:
-                raise InputError(
-                    f"names and aliases in material file {file} must be distinct, but {key!r} belongs to both "
-                    f"{owner[key]!r} and {record.name!r}; rename one."
-                )
-    return records
-
-
-def _record(name: str, table: object, file: str) -> MaterialRecord:
-    where = f"of material {name!r} in {file}"
-    if not isinstance(table, dict):
-        raise InputError(f"entry {where} must be a table with {' and '.join(REQUIRED_KEYS)}, but is {table!r}.")
-    unknown = sorted(set(table) - {*REQUIRED_KEYS, *OPTIONAL_KEYS})
-    if unknown:
-        raise InputError(
-            f"key {where} must be one of {', '.join(REQUIRED_KEYS + OPTIONAL_KEYS)}, but is {unknown[0]!r}."
-        )
-    for key in REQUIRED_KEYS:
-        if key not in table:
-            raise InputError(f"{key} {where} must be given, but is missing.")
-    aliases, note = table.get("aliases", []), table.get("note", "")
-    if not isinstance(aliases, list) or not all(isinstance(alias, str) for alias in aliases):
-        raise InputError(f'aliases {where} must be a list of names, such as ["steel"], but is {aliases!r}.')
-    if not isinstance(note, str):
-        raise InputError(f"note {where} must be text, but is {note!r}.")
-    values = {key: _sourced(key, table[key], where) for key in (*REQUIRED_KEYS, *OPTIONAL_KEYS[:2]) if key in table}
-    return MaterialRecord(name, aliases=tuple(aliases), note=note, **values)
-
-
-def _sourced(key: str, entry: Any, where: str) -> Sourced:
-    """Value of ``key`` from ``entry``, a bare value or a table with value and source."""
-    what = f"{key} {where}"
-    if not isinstance(entry, dict):
-        entry = {"value": entry}
-    if "value" not in entry or set(entry) - {"value", "source"}:
-        raise InputError(
-            f"{what} must have a value and may have a source, but has the keys {', '.join(entry) or 'none'}."
-        )
-    source = entry.get("source", "user")
-    if not isinstance(source, str) or not source.strip():
-        raise InputError(f"source of {what} must be text, but is {source!r}.")
-    value = entry["value"]
+def _conversion(key: str, what: str) -> Callable[[Any], float]:
+    """How the value of ``key`` is read."""
     if key == "poisson_ratio":
-        return Sourced(require.within(value, -1.0, 0.5, what, INCOMPRESSIBLE), source)
-    return Sourced(require.positive(units.parse(value, "pressure", what), f"{what} (Pa)"), source)
+        return lambda value: require.within(value, -1.0, 0.5, what, INCOMPRESSIBLE)
+    return lambda value: require.positive(units.parse(value, "pressure", what), f"{what} (Pa)")

@@ -1,0 +1,71 @@
+"""Connected islands of a map, across its border where it repeats."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.arrays import BoolArray
+
+Labels = NDArray[np.int64]
+"""Number of the island of each pixel, from 1; zero outside all."""
+
+
+def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = False) -> tuple[Labels, int]:
+    """Label the islands of ``mask`` (nx, ny) and count them.
+
+    Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across the border where the
+    map ``wraps``.
+    """
+    from scipy.ndimage import label
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    found, count = label(mask, np.ones((3, 3)) if diagonal else None)
+    labels = np.asarray(found, dtype=np.int64)
+    if count == 0 or not any(wraps):
+        return labels, int(count)
+    first, last = _across(labels, wraps, diagonal=diagonal)
+    joined = (first > 0) & (last > 0)
+    rows, columns = first[joined] - 1, last[joined] - 1
+    links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
+    merged_count, merged = connected_components(links, directed=False)
+    numbers = np.concatenate([[0], np.asarray(merged, dtype=np.int64) + 1])
+    return numbers[labels], int(merged_count)
+
+
+def _across(labels: Labels, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, Labels]:
+    """Labels of the neighbours on both sides of the borders that wrap, (n,) each."""
+    pairs: list[tuple[Labels, Labels]] = []
+    for axis in (0, 1):
+        if not wraps[axis]:
+            continue
+        first, last = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
+        pairs.append((first, last))
+        if diagonal and wraps[1 - axis]:
+            pairs += [(first, np.roll(last, shift)) for shift in (1, -1)]
+        elif diagonal:
+            pairs += [(first[1:], last[:-1]), (first[:-1], last[1:])]
+    ends = zip(*pairs, strict=True)
+    first_side, last_side = (np.concatenate(lines) for lines in ends)
+    return first_side, last_side
+
+
+def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:
+    """Whether each island, (count,) in the order of the labels, reaches all across the map along x or along y.
+
+    Where the map wraps, an island that has pixels in every row or column goes round it or nearly so.
+    """
+    count = int(labels.max(initial=0))
+    reaching = np.zeros(count + 1, dtype=bool)
+    for axis in (0, 1):
+        if labels.shape[axis] == 1:
+            continue
+        if wraps[axis]:
+            lines = np.zeros((count + 1, labels.shape[axis]), dtype=bool)
+            lines[labels, np.indices(labels.shape)[axis]] = True
+            reaching |= lines.all(axis=1)
+        else:
+            both = np.intersect1d(labels.take(0, axis), labels.take(-1, axis))
+            reaching[both] = True
+    return reaching[1:]
