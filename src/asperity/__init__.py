@@ -71,6 +71,7 @@ from .surfaces.prepare.filter import filtered
 from .surfaces.prepare.level import levelled
 from .surfaces.prepare.outliers import despiked, line_corrected
 from .surfaces.prepare.resample import resampled
+from .surfaces.prepare.slice import sliced
 from .surfaces.prepare.tip import reliability_cutoff, tip_limited
 from .surfaces.prepare.window import periodised, tapered
 from .surfaces.read import channels, read
@@ -193,6 +194,7 @@ __all__ = [
     "save_stress",
     "save_surface",
     "save_surface_plot",
+    "sliced",
     "solve",
     "solve_path",
     "solve_sliding",

@@ -10,6 +10,7 @@ from cli.conftest import BODY, LOAD, SCALE, Runner
 from asperity import InputError
 from asperity.cli.preparing import PreparationOptions, step_names, steps
 from asperity.io.documents import load_document
+from asperity.io.results import load
 
 
 def kinds(**options: object) -> list[str]:
@@ -26,6 +27,7 @@ def test_order_of_the_steps() -> None:
         "resample": "64",
         "taper": 0.1,
         "periodise": True,
+        "line": "y=middle",
     }
     before = [
         "crop",
@@ -38,9 +40,10 @@ def test_order_of_the_steps() -> None:
         "resample",
         "taper",
         "periodise",
+        "slice",
     ]
     assert kinds(**everything) == before
-    assert kinds(**everything, filter="sharp")[-1] == "filter"
+    assert kinds(**everything, filter="sharp")[-2:] == ["filter", "slice"]
     assert kinds() == ["level", "fill"]
     assert kinds(level="none", fill="none") == []
 
@@ -105,3 +108,21 @@ def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: P
     assert (placed.shift, placed.angle) == (("1um", "0um"), "90deg")
     wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--shift", "1um")
     assert "--shift must be" in wrong.stderr
+
+
+def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    """In the frame of plane strain: loads per metre, stresses with a section along the line, no section across it."""
+    line = ("--boundary", "line", "--load", "0.5N", "--friction", 0.2, "--coupled")
+    found = run("contact", matrix, *SCALE, *BODY, *line, "--line", "x=3um", "--out", tmp_path / "run")
+    assert found.exit_code == 0, found.stderr
+    result = load(tmp_path / "run" / "result.nc")
+    assert result.problem.surface.shape == (24, 1)
+    assert result.problem.surface.size == pytest.approx((6e-6, 1.0))
+    assert result.force == pytest.approx(0.5)
+    assert "sliced: line at x = 3.125 µm (24 points)" in found.stdout
+    assert load_document(tmp_path / "run" / "problem.toml").surface.prepare[-1].x == "3um"
+    refused = run("contact", matrix, *SCALE, *BODY, *line)
+    assert refused.exit_code == 2
+    assert "--line y=middle" in refused.stderr
+    for text, words in (("3um", "--line must be a position"), ("y=9um", "must lie on the map, between 0 and 6 µm")):
+        assert words in " ".join(run("contact", matrix, *SCALE, *BODY, *line, "--line", text).stderr.split())

@@ -99,7 +99,7 @@ class BodyOptions:
     ] = None
     boundary: Annotated[
         str | None,
-        _option("--boundary", "periodic (default), free, or line (plane strain; one point along y).", BODIES),
+        _option("--boundary", "periodic (default), free, or line (plane strain; see --line).", BODIES),
     ] = None
 
 

@@ -48,6 +48,10 @@ class PreparationOptions:
         float | None, _option("--taper", "Taper this fraction of the side at each border.", "FRACTION")
     ] = None
     periodise: Annotated[bool, _option("--periodise", "Remove the jumps between opposite borders.")] = False
+    line: Annotated[
+        str | None,
+        _option("--line", "One line of the map, for --boundary line: y=middle; x=3um. Loads per metre.", "AXIS=PLACE"),
+    ] = None
 
 
 _LEVELS = ("mean", "plane", "quadratic", "none")
@@ -58,11 +62,12 @@ _NAMES = {
     ("tip_limit", "step"): "--tip-radius",
     ("line_correct", "axis"): "--line-correct",
     ("level", "robust"): "--robust-level",
+    **{("slice", key): "--line" for key in ("step", "x", "y", "length")},
 }
 
 
 def steps(preparation: PreparationOptions) -> list[dict[str, Any]]:
-    """Preparation steps in the order of the options; a sharp filter comes last, since it needs a periodic surface."""
+    """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so that it comes after that."""
     fill = require.one_of(preparation.fill, ("harmonic", "nearest", "mean", "none"), "--fill")
     cutoffs = {"short": preparation.short_cutoff, "long": preparation.long_cutoff}
     given = {key: value for key, value in cutoffs.items() if value is not None}
@@ -82,6 +87,7 @@ def steps(preparation: PreparationOptions) -> list[dict[str, Any]]:
         (preparation.taper, {"step": "taper", "width": preparation.taper}),
         (preparation.periodise or None, {"step": "periodise"}),
         *((True, step) for step in sieve if kind == "sharp"),
+        (preparation.line, {"step": "slice", **_line(preparation.line)}),
     ]
     return [step for wanted, step in candidates if wanted is not None]
 
@@ -118,6 +124,16 @@ def _crop(text: str) -> dict[str, list[str]]:
     ):
         raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
     return {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
+
+
+def _line(text: str | None) -> dict[str, str]:
+    """Position of ``"y=middle"``."""
+    if text is None:
+        return {}
+    axis, equals, position = (part.strip() for part in text.partition("="))
+    if axis not in ("x", "y") or not equals or not position:
+        raise InputError(f'--line must be a position such as "y=middle" or "x=3um", but is {text!r}.')
+    return {axis: position}
 
 
 def _points(text: str | None) -> list[int]:

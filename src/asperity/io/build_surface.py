@@ -15,6 +15,7 @@ from ..surfaces.prepare.filter import filtered
 from ..surfaces.prepare.level import levelled
 from ..surfaces.prepare.outliers import despiked, line_corrected
 from ..surfaces.prepare.resample import resampled
+from ..surfaces.prepare.slice import sliced
 from ..surfaces.prepare.tip import tip_limited
 from ..surfaces.prepare.window import periodised, tapered
 from ..surfaces.read import read
@@ -31,10 +32,12 @@ from .schemas.preparation import (
     LineCorrect,
     Periodise,
     Resample,
+    Slice,
     Step,
     Taper,
     TipLimit,
 )
+from .schemas.values import MIDDLE
 
 _Table: TypeAlias = tables.SurfaceTable
 
@@ -90,6 +93,11 @@ def _filter(surface: Surface, step: Filter) -> Surface:
     return filtered(surface, short=cutoffs.get("short"), long=cutoffs.get("long"), kind=step.kind, order=step.order)
 
 
+def _slice(surface: Surface, step: Slice) -> Surface:
+    x, y = (_length(at) if at not in (None, MIDDLE) else at for at in (step.x, step.y))
+    return sliced(surface, x=x, y=y, length=_length(step.length))  # type: ignore[arg-type]
+
+
 _STEPS: dict[type, Callable[[Surface, Any], Surface]] = {
     Level: _level,
     Crop: lambda surface, step: cropped(surface, x=_interval(step.x), y=_interval(step.y)),
@@ -101,6 +109,7 @@ _STEPS: dict[type, Callable[[Surface, Any], Surface]] = {
     TipLimit: lambda surface, step: tip_limited(surface, _length(step.radius)),
     Taper: lambda surface, step: tapered(surface, step.width),
     Periodise: lambda surface, _: periodised(surface),
+    Slice: _slice,
 }
 """What carries out each kind of step."""
 

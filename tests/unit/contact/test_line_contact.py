@@ -147,7 +147,7 @@ def test_rigid_base_needs_no_datum():
 def test_refusals():
     flat = asp.Surface(np.zeros((4, 3)), 1.0)
     line = asp.Surface(np.zeros((4, 1)), 1.0)
-    with pytest.raises(asp.InputError, match=r"one point along y, but has 4 x 3 points.*\(nx, 1\)"):
+    with pytest.raises(asp.InputError, match=r"one point along y, but has 4 x 3 points.*sliced"):
         asp.ContactProblem(flat, elastic(1.0), boundary=asp.FreeLine())
     with pytest.raises(asp.InputError, match=r"datum of a line contact .* at least the length 4 of the grid, but is 3"):
         asp.ContactProblem(line, elastic(1.0), boundary=asp.FreeLine(3.0))

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_data import FOLDER, reference
 
+import asperity as asp
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.surfaces.characterise.heights import rms_height
@@ -341,3 +342,26 @@ def test_steps_never_change_their_input():
     tapered(resampled(filled(levelled(surface)), (20, 20)))
     np.testing.assert_array_equal(surface.heights, before)
     assert surface.origin.history == ()
+
+
+def test_sliced_lines_are_those_of_the_map():
+    surface = asp.Surface(np.arange(12.0).reshape(4, 3), 1e-6, 2e-6, periodic=True)
+    along_x, along_y = asp.sliced(surface, y="middle"), asp.sliced(surface, x=3.2e-6, length=0.5)
+    np.testing.assert_array_equal(along_x.heights[:, 0], [1.0, 4.0, 7.0, 10.0])
+    assert (along_x.shape, along_x.dx, along_x.dy, along_x.periodic) == ((4, 1), 1e-6, 1.0, True)
+    np.testing.assert_array_equal(along_y.heights[:, 0], [9.0, 10.0, 11.0])
+    assert (along_y.dx, along_y.dy) == (2e-6, 0.5)
+    np.testing.assert_array_equal(asp.sliced(surface, y=6e-6).heights, surface.heights[:, 2:])
+    assert asp.sliced(surface, y=0.0).origin.history == ("sliced: line at y = 1 µm (4 points)",)
+    holed = asp.sliced(asp.Surface([[1.0, np.nan], [2.0, 3.0]], 1.0), y=1.5)
+    assert holed.n_missing == 1
+    for keys, words in (
+        ({}, "exactly one of x and y"),
+        ({"x": 0.0, "y": 0.0}, "exactly one of x and y"),
+        ({"y": 6.1e-6}, "between 0 and 6 µm, but is 6.1 µm"),
+        ({"x": -1e-9}, "must lie on the map"),
+        ({"x": "end"}, "middle"),
+        ({"x": 0.0, "length": 0.0}, "length that a line"),
+    ):
+        with pytest.raises(asp.InputError, match=words):
+            asp.sliced(surface, **keys)

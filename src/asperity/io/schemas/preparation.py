@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field, model_validator
 from ...core import require
 from ...core.errors import InputError
 from ...surfaces.prepare.level import HIGHEST_DEGREE
-from .values import Length, LengthRange, Number, Points, Table
+from .values import Length, LengthRange, Number, PlaceOnMap, Points, Table
 
 
 def _width(value: float) -> float:
@@ -134,8 +134,27 @@ class Periodise(Table):
     step: Literal["periodise"]
 
 
+class Slice(Table):
+    """Keep one line, that at ``y`` or that at ``x``, as a surface of one row, for line contact.
+
+    ``length`` is the length along the contact that forces and areas belong to: per metre by default.
+    """
+
+    step: Literal["slice"]
+    x: PlaceOnMap | None = None
+    y: PlaceOnMap | None = None
+    length: Length = "1 m"
+
+    @model_validator(mode="after")
+    def _one(self) -> Slice:
+        if (self.x is None) == (self.y is None):
+            given = "none" if self.x is None else "both"
+            raise InputError(f' must give exactly one of x and y, such as y = "middle", but gives {given}.')
+        return self
+
+
 Step: TypeAlias = Annotated[
-    Level | Crop | Resample | Fill | Despike | LineCorrect | Filter | TipLimit | Taper | Periodise,
+    Level | Crop | Resample | Fill | Despike | LineCorrect | Filter | TipLimit | Taper | Periodise | Slice,
     Field(discriminator="step"),
 ]
 """One preparation step, told apart by the key ``step``."""

@@ -145,6 +145,14 @@ PlaceOfMaximum: TypeAlias = Annotated[
 ]
 """Text of a position >= 0, or one of the ``PLACES``."""
 
+MIDDLE = "middle"
+"""Word for a position: of the line in the middle of a map."""
+
+PlaceOnMap: TypeAlias = Annotated[
+    str, _quantity("length", MIDDLE, check=lambda value: _not_negative(value)), _as_quantity("length", "3 um")
+]
+"""Text of a position >= 0, or ``MIDDLE``."""
+
 Lengths: TypeAlias = Annotated[tuple[Length, Length], BeforeValidator(_ordered)]
 """Texts of two lengths > 0, along x and y."""
 
