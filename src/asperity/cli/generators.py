@@ -100,8 +100,7 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
         raise InputError("--memory must be left out with --periodic: a periodic surface is generated as a whole.")
     grid = table_grid(table)
     spectrum = build_spectrum(table.spectrum, Path(), build_file_surface)
-    moments = {"skewness": table.skewness, "kurtosis": table.kurtosis, "system": table.system}
-    made = endless(spectrum, grid.spacing, seed=table.seed, **moments)
+    made = endless(spectrum, grid.spacing, seed=table.seed, skewness=table.skewness, kurtosis=table.kurtosis)
     bytes_allowed = parse(memory, "memory", "--memory")
     with shown("writing tiles") as bar, interruptible(bar) as progress:
         save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)

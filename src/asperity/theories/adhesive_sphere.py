@@ -13,7 +13,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from .hertz import hertz_profile
 from .protocol import E_STAR, Input, Limit
-from .single_contact import ContactAnswer, bisected, checked, small_slope
+from .single_contact import ContactAnswer, checked, small_slope
 
 
 def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -> float:
@@ -154,10 +154,19 @@ def approach_ratio(x: RealArray) -> RealArray:
 
 
 def contact_ratio(approach: ArrayLike) -> RealArray:
-    """a/ac >= 1 of JKR at δ/δc = ``approach`` >= -1 of any shape: the branch that is stable with fixed grips."""
+    """a/ac >= 1 of JKR at δ/δc = ``approach`` >= -1 of any shape: the branch that is stable with fixed grips.
+
+    Largest root of y⁴ - 4y - 3δ = 0, y² = a/ac, by Ferrari's resolvent u³ + 12δu - 16 = 0 and a step of Newton's method.
+    """
     delta = np.asarray(approach, dtype=float)
-    highest = np.sqrt(3.0 * np.maximum(delta, 0.0)) + 3.0  # x² = 3δ + 4 sqrt(x) is below it
-    return bisected(lambda x: approach_ratio(x) - delta, np.ones_like(delta), highest)
+    v = np.cbrt(1.0 + np.sqrt(np.maximum(1.0 + delta**3, 0.0)))
+    u = 2.0 * (v - delta / v)
+    for _ in range(2):  # the difference loses digits for large δ
+        u = u - (u**3 + 12.0 * delta * u - 16.0) / np.maximum(3.0 * u**2 + 12.0 * delta, 1.0)
+    y = 0.5 * (np.sqrt(u) + np.sqrt(np.maximum(8.0 / np.sqrt(u) - u, 0.0)))
+    slope = 4.0 * (y**3 - 1.0)  # nothing where the contact breaks
+    step = np.divide(y**4 - 4.0 * y - 3.0 * delta, slope, out=np.zeros_like(y), where=slope > 1e-3)
+    return np.asarray((y - step) ** 2)
 
 
 @dataclass(frozen=True)

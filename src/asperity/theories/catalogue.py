@@ -5,12 +5,17 @@ from __future__ import annotations
 from ..core import require
 from .adhesive_sphere import DMT, JKR
 from .bisinusoid import CrossedWaves
+from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
+from .fuller_tabor import FullerTabor
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .hertz import HertzPoint
 from .hertz_ellipse import HertzEllipse
 from .hertz_line import HertzLine
+from .identical_asperities import IdenticalAsperities
 from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
+from .jackson_green import JacksonGreen, JacksonGreenSphere
+from .kogut_etsion import KogutEtsion, KogutEtsionSphere
 from .kotwal_bhushan import KotwalBhushan
 from .line_indenters import LineFlatPunch, LinePowerLawIndenter
 from .majumdar_bhushan import MajumdarBhushan
@@ -18,12 +23,18 @@ from .maugis import MaugisDugdale
 from .mindlin import MindlinLine, MindlinPoint
 from .persson import Persson
 from .protocol import Described
+from .sinusoidal_asperity import SinusoidalAsperity
 from .wavy import Westergaard
 
 _CLASSES: tuple[type[Described], ...] = (
     GreenwoodWilliamson,
     FittedGreenwoodWilliamson,
     KotwalBhushan,
+    ChangEtsionBogy,
+    KogutEtsion,
+    JacksonGreen,
+    FullerTabor,
+    IdenticalAsperities,
     MajumdarBhushan,
     Persson,
     HertzPoint,
@@ -41,6 +52,10 @@ _CLASSES: tuple[type[Described], ...] = (
     JKR,
     DMT,
     MaugisDugdale,
+    ChangEtsionBogySphere,
+    KogutEtsionSphere,
+    JacksonGreenSphere,
+    SinusoidalAsperity,
 )
 
 THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}

@@ -13,7 +13,7 @@ from asperity.theories.catalogue import THEORIES, theory
 
 SURFACE = [name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness")]
 E_STAR = 1e11
-BODIES = {"E_star": E_STAR, "hardness": 8e9}
+BODIES = {"E_star": E_STAR, "hardness": 8e9, "yield_stress": 8e9 / 2.8, "work": 0.05}
 """What theories may ask of the bodies; a new input of the bodies is one more entry."""
 
 

@@ -1,0 +1,97 @@
+"""Rough contact of spherical summits of Gaussian heights that obey any law of an elastic-plastic asperity."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.arrays import RealArray
+from ..core.quadrature import gauss
+from .elastic_plastic_asperity import ElasticPlasticLaw, at_first_yield
+from .greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
+from .inversion import separation_at
+from .limits import area_limit, blunt_summits
+from .protocol import Limit, Prediction, curve, prediction
+from .summit_heights import GaussianHeights
+
+_NODES = 48  # between breaks of the law; 32 leave 1e-12
+_SIGMAS = 9.0
+
+
+@dataclass(frozen=True)
+class ElasticPlasticSummits:
+    """Sums over summits, p = η ∫ P(z - d) φ(z) dz and A_r/A_a = η ∫ A(z - d) φ(z) dz, with the law P, A of one summit.
+
+    Parameters
+    ----------
+    summits
+        Greenwood and Williamson's summits: what holds if none of them yields. Gaussian heights.
+    law
+        Law of one summit, of the same modulus and radius.
+    """
+
+    summits: GreenwoodWilliamson
+    law: ElasticPlasticLaw
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
+        pressure, stiffness = self._law(h)
+        D = self.summits.standardised(h)
+        u, weight = self._depths(D)
+        area = np.sum(weight * self.law.area_ratio(u / self._unit) * _density(D[..., None] + u), axis=-1)
+        return prediction(
+            pressure,
+            area_fraction=self.summits.density * float(at_first_yield(self.law).area) * area,
+            contact_density=self.summits.density * GaussianHeights().tail_moment(D, 0.0),
+            separation=h,
+            stiffness=stiffness,
+        )
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive."""
+        wanted = curve(pressure, "pressures (Pa)", positive=True)
+        deviation = self.summits.height_deviation
+        low, high = (self.summits.mean_height + deviation * D for D in (LOWEST, HIGHEST))
+        return self.at_separation(separation_at(wanted, self._law, low, high, unit=deviation))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits."""
+        return (area_limit(prediction), blunt_summits(prediction, self.summits.roughness_ratio))
+
+    @property
+    def _unit(self) -> float:
+        """ω_c/σ_s."""
+        return self.law.critical_interference / self.summits.height_deviation
+
+    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        """Pressure and stiffness: -d/dD of φ(D + u) is (D + u) φ, so that jumps of the law need no care."""
+        D = self.summits.standardised(h)
+        u, weight = self._depths(D)
+        scale = self.summits.density * float(at_first_yield(self.law).load)
+        terms = weight * self.law.load_ratio(u / self._unit) * _density(D[..., None] + u)
+        pressure: RealArray = scale * np.sum(terms, axis=-1)
+        rise: RealArray = scale * np.sum(terms * (D[..., None] + u), axis=-1)
+        return pressure, rise / self.summits.height_deviation
+
+    def _depths(self, D: RealArray) -> tuple[RealArray, RealArray]:
+        """Nodes u = s - D > 0 and weights between the breaks of the law and where the density of heights is nothing.
+
+        Over sqrt(u), in which half-integer powers are smooth. For D > 0 the density falls like exp(-Du), so the panels
+        end where it has fallen by exp(-40).
+        """
+        first = np.maximum(0.0, -_SIGMAS - D)
+        last = np.where(D > 0.0, 80.0 / (np.sqrt(D * D + 80.0) + np.abs(D)), _SIGMAS - D)
+        middle = 0.5 * (first + last)  # a narrow law leaves one wide panel: halved
+        inner = [np.full_like(D, x * self._unit) for x in self.law.breaks]
+        ends = np.sort(np.stack([np.clip(e, first, last) for e in (first, *inner, middle, last)], axis=-1), axis=-1)
+        q, weight = gauss(np.sqrt(ends), _NODES)
+        return q * q, 2.0 * q * weight
+
+
+def _density(s: RealArray) -> RealArray:
+    density: RealArray = np.exp(-0.5 * s * s) / math.sqrt(2.0 * math.pi)
+    return density

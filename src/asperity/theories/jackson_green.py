@@ -1,0 +1,193 @@
+"""Finite elements of a sphere whose hardness falls as the contact grows (Jackson & Green 2005)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import require
+from ..core.arrays import RealArray
+from . import elastic_plastic_asperity as law
+from .elastic_plastic_summits import ElasticPlasticSummits
+from .greenwood_williamson import GreenwoodWilliamson
+from .plasticity_index import critical_interference, yield_coefficient
+from .protocol import E_STAR, Input, Limit, Prediction
+from .roughness import Roughness
+from .single_contact import ContactAnswer
+
+
+@dataclass(frozen=True)
+class JacksonGreenSphere:
+    """Sphere, Hertz up to x = ω/ω_c = 1.9, with a hardness H_G that depends on a/R beyond.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    yield_stress
+        Yield stress Y of the softer body in Pa, > 0.
+    nu
+        Poisson's ratio ν of the body that yields, up to 0.5; C = 1.295 exp(0.736ν).
+    """
+
+    E_star: float
+    radius: float
+    yield_stress: float
+    nu: float = 0.3
+    breaks: ClassVar[tuple[float, ...]] = (1.9,)
+    name: ClassVar[str] = "jackson-green-sphere"
+    title: ClassVar[str] = "Jackson-Green, one sphere"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Jackson2005",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+        Input("yield_stress", "Pa", "yield stress of the softer body", of="bodies"),
+        Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.critical_interference, "critical interference (m)")
+
+    @property
+    def critical_interference(self) -> float:
+        """ω_c = (πCY/2E*)² R in m, C = 1.295 exp(0.736ν)."""
+        return critical_interference(self.E_star, self.radius, yield_coefficient(self.nu) * self.yield_stress)
+
+    @property
+    def yield_strain(self) -> float:
+        """e_y = Y/E*."""
+        return self.yield_stress / self.E_star
+
+    def load_ratio(self, x: RealArray) -> RealArray:
+        """P/P_c: x^1.5 up to 1.9, then exp(-x^(5/12)/4) x^1.5 + (4H_G/CY)(1 - exp(-x^(5/9)/25)) x."""
+        x = np.asarray(x, dtype=float)
+        C = yield_coefficient(self.nu)
+        flow = 4.0 / C * self.hardness_ratio(x) * -np.expm1(-(x ** (5.0 / 9.0)) / 25.0) * x
+        return np.where(x <= self.breaks[0], x**1.5, np.exp(-0.25 * x ** (5.0 / 12.0)) * x**1.5 + flow)
+
+    def area_ratio(self, x: RealArray) -> RealArray:
+        """A/A_c: x up to 1.9, then x (x/1.9)^B with B = 0.14 exp(23 e_y)."""
+        x = np.asarray(x, dtype=float)
+        B = 0.14 * math.exp(23.0 * self.yield_strain)
+        return np.asarray(x * np.maximum(x / self.breaks[0], 1.0) ** B)
+
+    def hardness_ratio(self, x: RealArray) -> RealArray:
+        """H_G/Y = 2.84 [1 - exp(-0.82 (a/R)^(-0.7))] at ``x`` of any shape, with a/R = (πCe_y/2) sqrt(A/A_c)."""
+        slope = 0.5 * math.pi * yield_coefficient(self.nu) * self.yield_strain * np.sqrt(self.area_ratio(x))
+        with np.errstate(divide="ignore"):
+            ratio: RealArray = -2.84 * np.expm1(-0.82 * slope**-0.7)
+        return ratio
+
+    def at_interference(self, interference: ArrayLike) -> ContactAnswer:
+        """The contact at ``interference`` ω in m, >= 0, of any shape."""
+        return law.at_interference(self, interference)
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, >= 0, of any shape."""
+        return law.at_load(self, load)
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """a/R up to 0.4, to which the finite elements went."""
+        message = "The formulas were fitted to finite elements up to there."
+        return (
+            Limit(
+                "contact radius over radius", np.ravel(answer.radius / self.radius), 0.0, 0.4, "Jackson2005", message
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class JacksonGreen:
+    """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian heights.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    density
+        Summits per area η in 1/m², > 0.
+    radius
+        Radius R of the summits in m, > 0.
+    height_deviation
+        Standard deviation σ_s of the summit heights in m, > 0.
+    yield_stress
+        Yield stress Y of the softer body in Pa, > 0.
+    nu
+        Poisson's ratio ν of the body that yields, up to 0.5; C = 1.295 exp(0.736ν).
+    mean_height
+        Mean height of the summits above the mean plane of the surface in m, from which separations count.
+    """
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    yield_stress: float
+    nu: float = 0.3
+    mean_height: float = 0.0
+    name: ClassVar[str] = "jackson-green"
+    title: ClassVar[str] = "Jackson-Green"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Jackson2005",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("density", "1/m^2", "summits per area"),
+        Input("radius", "m", "radius of the summits"),
+        Input("height_deviation", "m", "standard deviation of the summit heights"),
+        Input("yield_stress", "Pa", "yield stress of the softer body", of="bodies"),
+        Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),
+        Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
+    )
+
+    def __post_init__(self) -> None:
+        self.model  # noqa: B018 - checks all values
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float, *, yield_stress: float, nu: float = 0.3) -> Self:
+        """Theory for the summits of a map, taken as Greenwood and Williamson's.
+
+        Raises
+        ------
+        InputError
+            If the roughness holds no summits, or their heights are all equal.
+        """
+        s = GreenwoodWilliamson.from_roughness(roughness, E_star)
+        return cls(E_star, s.density, s.radius, s.height_deviation, yield_stress, nu, s.mean_height)
+
+    @property
+    def model(self) -> ElasticPlasticSummits:
+        """The summits, and the law of one of them."""
+        summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
+        return ElasticPlasticSummits(summits, JacksonGreenSphere(self.E_star, self.radius, self.yield_stress, self.nu))
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        return self.model.at_separation(separation)
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
+        """
+        return self.model.at_pressure(pressure)
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits, and a mean contact radius of up to 0.4 R."""
+        mean_area = np.divide(
+            prediction.area_fraction,
+            prediction.contact_density,
+            out=np.zeros_like(prediction.area_fraction),
+            where=prediction.contact_density > 0.0,
+        )
+        message = "The law of one summit was fitted to finite elements up to there."
+        slope = np.sqrt(mean_area / np.pi) / self.radius
+        limit = Limit("mean contact radius over radius of summits", slope, 0.0, 0.4, "Jackson2005", message)
+        return (*self.model.validity(prediction), limit)
