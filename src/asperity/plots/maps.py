@@ -119,7 +119,8 @@ def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any)
     """Pixels of ``drawn`` [x, y] with x to the right and y up, lengths to scale unless the map is very slender."""
     from matplotlib import colormaps
 
-    length = scale(max(grid.size), "m")
+    row = 1 in grid.shape
+    length = scale(grid.size[0] if row else max(grid.size), "m")
     width, height = (float(side) for side in length(grid.size))
     ratio = max(width, height) / min(width, height)
     colours = (colormaps[cmap] if isinstance(cmap, str) else cmap).with_extremes(bad=NO_CONTACT)
@@ -132,7 +133,9 @@ def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any)
         **options,
     )
     ax.locator_params(nbins=6, steps=(1, 2, 5, 10))
-    ax.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})")
+    ax.set(xlabel=f"x ({length.symbol})", ylabel="" if row else f"y ({length.symbol})")
+    if row:  # nothing varies along y
+        ax.set_yticks([])
     return image
 
 

@@ -35,7 +35,8 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     height = scale(np.concatenate([rough, counter]), "m")
     _draw_surfaces(x, height(rough), height(counter), ax)
     ax.set(
-        xlabel=f"x ({length.symbol}), at y = {show((row + 0.5) * grid.spacing[1], 'm')}",
+        xlabel=f"x ({length.symbol})"
+        + (f", at y = {show((row + 0.5) * grid.spacing[1], 'm')}" if grid.shape[1] > 1 else ""),
         ylabel=f"height ({height.symbol})",
         xlim=(0.0, float(length(grid.size[0]))),
     )

@@ -91,7 +91,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     _draw_interfaces(field, ax, depth_unit)
     _mark_peak(field, ax, values if kind.tension else np.abs(values), (axis, length, depth_unit))
     ax.set(
-        xlabel=f"{axis} ({length.symbol}), at {other} = {show(at, 'm')}",
+        xlabel=f"{axis} ({length.symbol})" + ("" if field.single_row else f", at {other} = {show(at, 'm')}"),
         ylabel=f"depth ({depth_unit.symbol})",
         xlim=(float(length(line[0])), float(length(line[-1]))),
         ylim=(float(depth_unit(field.depth[-1])), 0.0),
@@ -131,11 +131,12 @@ def plot_stress_profile(
     ax.axvline(0.0, color="0.7", linewidth=0.6, zorder=0)
     ax.set(
         xlabel=f"stress ({in_unit.symbol}), at "
-        + ", ".join(f"{a} = {show(float(_middle(field, a)), 'm')}" for a in "xy"),
+        + ", ".join(f"{a} = {show(float(_middle(field, a)), 'm')}" for a in ("x" if field.single_row else "xy")),
         ylabel=f"depth ({depth_unit.symbol})",
         ylim=(float(depth_unit(field.depth[-1])) or 1.0, 0.0),
     )
-    ax.legend(loc="best", frameon=True, framealpha=0.85, edgecolor="none")  # interfaces run across it
+    # above, where it hides neither curves nor interfaces
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=min(3, len(kinds)), borderaxespad=0.3, borderpad=0.2)
     return ax
 
 
@@ -185,11 +186,13 @@ def _two_digits(value: float, _: object) -> str:
 def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
     """Steps of the contours: from zero or by equal factors for magnitudes; for signed stresses symmetric about zero.
 
-    Zero itself is no step of signed stresses: far from the contact its line would wander through rounding.
+    Where tension matters alone they end at the largest, so that a compression many times as large does not drown it. Zero
+    itself is no step of signed stresses: far from the contact its line would wander through rounding.
     """
     from matplotlib.ticker import MaxNLocator
 
-    high = float(np.abs(values).max()) or 1.0
+    high = float(values.max()) if kind.tension else 0.0
+    high = high if high > 0.0 else float(np.abs(values).max()) or 1.0
     if log:
         return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
     steps = np.array(MaxNLocator(LEVELS, symmetric=kind.signed).tick_values(-high if kind.signed else 0.0, high))
@@ -204,7 +207,8 @@ def _contours(
 
     line, depth_unit, values = drawn
     colours = SIGNED_MAP if kind.signed else UNSIGNED_MAP
-    norm = BoundaryNorm(levels, 256, extend="neither")
+    extend, low = ("min", -np.inf) if kind.tension else ("neither", levels[0])
+    norm = BoundaryNorm(levels, 256)
     contours = None
     for part in _parts(field):
         if len(part) < 2:
@@ -212,8 +216,8 @@ def _contours(
                 "field of a stress section must have at least two planes in every region; see depths_through."
             )
         depth = depth_unit(field.depth[part])
-        inside = np.clip(values[part], levels[0], levels[-1])
-        contours = ax.contourf(line, depth, inside, levels, cmap=colours, norm=norm)
+        inside = np.clip(values[part], low, levels[-1])
+        contours = ax.contourf(line, depth, inside, levels, cmap=colours, norm=norm, extend=extend)
         ax.contour(line, depth, inside, levels[1:-1], colors="black", linewidths=0.3, alpha=0.5)
     return contours
 

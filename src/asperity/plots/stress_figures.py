@@ -67,12 +67,13 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
     for quantity in section.quantities:
         kind = QUANTITIES[quantity]
         label = kind.label if kind.label.startswith("σ") else f"{kind.label[:1].upper()}{kind.label[1:]}"
-        title = f"{label} at {axis} = {at}"
+        title = label if field.single_row else f"{label} at {axis} = {at}"
         name = f"stress_section_{number}_{quantity}"
         said = "depth downwards, interfaces as lines, a cross at the largest "
         said += "tension." if kind.tension else "magnitude."
         if kind.signed:
-            said += " Red is tension, blue compression." if kind.tension else " Red and blue are the two directions."
+            tension = " Red is tension, blue compression, the darkest blue beyond the scale."
+            said += tension if kind.tension else " Red and blue are the two directions."
         near = close_up(field, quantity)
         log = near is not None and not kind.signed
         scale = " Steps are equal factors." if log else ""

@@ -182,9 +182,13 @@ def _value(peak: Any) -> float:
 
 
 def _place(survey: StressSurvey, peak: Peak) -> tuple[str, str, str]:
-    """x and y as in figures, in the middle of a pixel; depth."""
-    dx, dy = survey.result.problem.grid.spacing
-    return show(peak.x + 0.5 * dx, "m"), show(peak.y + 0.5 * dy, "m"), _depth_text(peak)
+    """x and y as in figures, in the middle of a pixel, but on a grid of one row; depth."""
+    grid = survey.result.problem.grid
+    x, y = (
+        show(at + 0.5 * step, "m") if n > 1 else "–"
+        for at, step, n in zip((peak.x, peak.y), grid.spacing, grid.shape, strict=True)
+    )
+    return x, y, _depth_text(peak)
 
 
 def _where(peak: Peak) -> str:

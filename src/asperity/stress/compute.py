@@ -194,7 +194,9 @@ class StressPlanes:
     def _field(self, sections: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
         place = self._place
         dims = ("plane", *place.dims)
-        return StressField(sections, tensor, moved, place.x, place.y, dims, self._grid.spacing, self.citation_keys)
+        grid, keys = self._grid, self.citation_keys
+        row = grid.shape[1] == 1
+        return StressField(sections, tensor, moved, place.x, place.y, dims, grid.spacing, keys, single_row=row)
 
 
 def _source(tractions: Tractions, body: object, dtype: str, threads: int | None) -> Planes:

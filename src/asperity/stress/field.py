@@ -60,6 +60,8 @@ class StressField:
         Grid spacing (dx, dy) in m.
     citation_keys
         Keys of the papers the numbers rest on.
+    single_row
+        Whether the grid has one point along y, as in plane strain.
     """
 
     planes: tuple[Plane, ...]
@@ -70,6 +72,7 @@ class StressField:
     dims: tuple[str, ...]
     spacing: tuple[float, float]
     citation_keys: tuple[str, ...] = ()
+    single_row: bool = False
 
     @property
     def depth(self) -> RealArray:

@@ -28,6 +28,13 @@ def test_layer_thinner_than_a_pixel():
     assert found(on_half_space(2.0, 0.0)) == {}
 
 
+def test_a_row_has_pixels_along_x_only():
+    """The length along y, 1 m of a line contact, is no pixel."""
+    row = asp.sliced(rough((32, 32), power=3.0), y="middle")
+    problem = asp.ContactProblem(row, on_half_space(2.0, 4.0), boundary=asp.FreeLine())
+    assert not [a for a in asp.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "layer against pixel"]
+
+
 def test_layers_too_thick_for_the_period():
     assert set(found(on_half_space(2.0, 17.0))) == {"layer against period"}
     assert found(on_half_space(2.0, 15.0)) == {}

@@ -89,6 +89,35 @@ def test_signed_stresses_are_white_about_zero(contact, ax):
     assert above[0] > above[2]
 
 
+def test_compression_does_not_drown_the_tension(contact, ax):
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    assert -field.principal_tensile.min() > 1.5 * field.principal_tensile.max()
+    plots.plot_stress_section(field, ax, "principal_tensile")
+    filled = ax.collections[0]
+    largest = field.principal_tensile.max()
+    assert min(abs(filled.levels[-1] * unit / largest - 1.1) for unit in (1e6, 1e9)) < 0.2
+    assert filled.extend == "min"
+    white = filled.to_rgba([0.0])[0]
+    assert white[:3].min() > 0.9
+
+
+def test_a_line_has_no_place_along_y(ax):
+    profile = asp.Surface(asp.sliced(oblong(), y="middle").heights, 1e-7, 1.0)
+    result = asp.solve(asp.ContactProblem(profile, BODY, boundary=asp.FreeLine()), asp.Force(1.0))
+    plots.plot_stress_section(asp.stress(result, DEPTHS, on=asp.Section(y="max")), ax)
+    assert "at y" not in ax.get_xlabel()
+    ax.clear()
+    plots.plot_stress_profile(asp.stress(result, DEPTHS, on=asp.DepthProfile()), ax)
+    assert "at x = " in ax.get_xlabel()
+    assert "y =" not in ax.get_xlabel()
+    ax.clear()
+    plots.plot_contact(result, ax)
+    assert ax.get_xlabel() == "x (µm)"
+    assert (ax.get_ylabel(), len(ax.get_yticks())) == ("", 0)
+    ax.clear()
+    assert plots.plot_section(result, ax).get_xlabel() == "x (µm)"
+
+
 def test_logarithmic_steps(contact, ax):
     field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
     plots.plot_stress_section(field, ax, "sqrt_J2", log=True)
