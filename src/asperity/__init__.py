@@ -59,6 +59,7 @@ from .stress.sampling import depths_through
 from .stress.tractions import ShearTraction, Sliding
 from .stress.where import DepthProfile, Everywhere, Section
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
+from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
@@ -86,6 +87,8 @@ __all__ = [
     "ArrayEngine",
     "AsperityError",
     "Bonded",
+    "Campaign",
+    "CampaignState",
     "Characterisation",
     "ContactProblem",
     "ContactResult",
@@ -174,6 +177,7 @@ __all__ = [
     "mean_absolute_height",
     "on_common_grid",
     "open_dataset",
+    "open_study",
     "peak_to_valley",
     "periodised",
     "plastic_load",
@@ -187,6 +191,7 @@ __all__ = [
     "rms_slope",
     "roughness",
     "roughness_of",
+    "run_study",
     "save",
     "save_endless",
     "save_plots",

@@ -168,7 +168,7 @@ def steps(
     def run() -> Iterator[ContactResult]:
         last: list[ContactResult] = []
         for number, control in enumerate(ordered, start=1):
-            start = _predicted(problem, control, last) if last else state
+            start = predicted(problem, control, last) if last else state
             try:
                 result = solve(
                     problem,
@@ -213,7 +213,7 @@ def _checked(controls: Iterable[Control]) -> tuple[Control, ...]:
     return ordered
 
 
-def _predicted(problem: ContactProblem, control: Control, last: list[ContactResult]) -> InterfaceState:
+def predicted(problem: ContactProblem, control: Control, last: list[ContactResult]) -> InterfaceState:
     """Interface to start from, its pressure extrapolated in the load where the path goes on in one direction.
 
     Measured on self-affine surfaces, 20 steps: about a sixth fewer FFT pairs than from the last pressure itself.

@@ -32,6 +32,8 @@ __all__ = [
     "read_table",
     "relocated",
     "save_document",
+    "tidy",
+    "validated",
 ]
 
 
@@ -57,8 +59,8 @@ def loads(text: str, *, form: str = "toml") -> ProblemDocument:
     return checked(_parsed(text, form, "problem document"), "problem document")
 
 
-def read_table(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Content of the file at ``path`` before any check of keys and values.
+def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:
+    """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in messages.
 
     Raises
     ------
@@ -69,16 +71,14 @@ def read_table(path: str | os.PathLike[str]) -> dict[str, Any]:
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise FileFormatError(f"problem document must exist, but {file} does not; check the path.") from None
+        raise FileFormatError(f"{what} must exist, but {file} does not; check the path.") from None
     except IsADirectoryError:
-        raise FileFormatError(
-            f"problem document must be a file, but {file} is a folder; name the file in it."
-        ) from None
+        raise FileFormatError(f"{what} must be a file, but {file} is a folder; name the file in it.") from None
     except UnicodeDecodeError:
-        raise FileFormatError(f"problem document must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
+        raise FileFormatError(f"{what} must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
     except OSError as error:
-        raise FileFormatError(f"problem document {file} must be readable, but is not: {error.strerror}.") from None
-    return _parsed(text, _form(file), f"problem document {file}")
+        raise FileFormatError(f"{what} {file} must be readable, but is not: {error.strerror}.") from None
+    return _parsed(text, _form(file), f"{what} {file}")
 
 
 def checked(
@@ -100,19 +100,20 @@ def checked(
     InputError
         If anything is missing, unknown or out of range; the message has one line for each problem.
     """
-    return _validated(ProblemDocument, table, where, names or {})
+    return validated(ProblemDocument, table, where, names)
 
 
 def checked_stress(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> StressTable:
     """The part ``stress`` of ``table``, which has no other; arguments and errors as for :func:`checked`."""
-    return _validated(StressDocument, table, where, names or {}).stress
+    return validated(StressDocument, table, where, names).stress
 
 
-def _validated(kind: type[Kind], table: Mapping[str, Any], where: str, names: Mapping[str, str]) -> Kind:
+def validated(model: type[Kind], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> Kind:
+    """The ``model`` made of ``table``; errors as of ``checked``."""
     try:
-        return kind.model_validate(dict(table))
+        return model.model_validate(dict(table))
     except ValidationError as error:
-        lines = problems(error, kind.model_json_schema(), names)
+        lines = problems(error, model.model_json_schema(), names or {})
     if len(lines) == 1:
         raise InputError(f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
@@ -120,7 +121,7 @@ def _validated(kind: type[Kind], table: Mapping[str, Any], where: str, names: Ma
 
 def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
     """Text of ``document`` as ``toml`` or ``json``; loading it gives an equal document."""
-    table = _tidy(document.model_dump(mode="json", exclude_none=True))
+    table = tidy(document.model_dump(mode="json", exclude_none=True))
     if form == "json":
         return json.dumps(table, indent=2, ensure_ascii=False) + "\n"
     import tomli_w
@@ -163,9 +164,9 @@ def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemD
     return elsewhere
 
 
-def _tidy(table: dict[str, Any]) -> dict[str, Any]:
+def tidy(table: dict[str, Any]) -> dict[str, Any]:
     """``table`` without empty parts, the key that tells what it is first and the preparation last."""
-    filled = {key: _tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
+    filled = {key: tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
     kept = {key: value for key, value in filled.items() if value not in ({}, [], "")}
     return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))
 

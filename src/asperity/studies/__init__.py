@@ -1,0 +1,1 @@
+"""Layer 4: campaigns over many contacts, unattended and resumable."""

@@ -1,0 +1,99 @@
+"""What a study says beyond its cases: means, orders, critical thicknesses, sensitivities, as a labelled dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..io.schemas.study import StudyDocument
+from .convergence import convergence, step_sizes
+from .critical_thickness import critical_thickness
+from .monte_carlo import CONFIDENCE, estimate
+from .sensitivity import BASE, ENDS, sensitivity
+
+if TYPE_CHECKING:
+    import xarray
+
+Found = Mapping[str, Any]
+"""Numbers by name of what they are."""
+
+UNITS = {"order": "1", "error": "1", "count": "1", "floor": "m", "ceiling": "m", "elasticity": "1"}
+"""Units of derived numbers that are not those of the quantity."""
+
+
+def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | None:
+    """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a sweep.
+
+    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``, ``error``;
+    critical_thickness: ``floor``, ``ceiling``, ``at_zero``, ``at_infinity``; sensitivity, along ``scalar``: ``low``, ``high``,
+    ``elasticity``, ``slope``.
+    """
+    if document.monte_carlo is not None:
+        stop = document.monte_carlo.stop
+        confidence = CONFIDENCE if stop is None else stop.confidence
+        return _reduced(data, document.quantities, "sample", lambda values: vars(estimate(values, confidence)))
+    if document.convergence is not None:
+        steps = step_sizes(document.convergence.of, [float(level) for level in data["level"]])
+        return _reduced(data, document.quantities, "level", lambda values: _numbers(convergence(steps, list(values))))
+    if document.critical_thickness is not None:
+        inside, share = np.asarray(data["thickness"])[1:-1], document.critical_thickness.share
+
+        def critical(values: RealArray) -> Found:
+            return vars(critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share))
+
+        return _reduced(data, document.quantities, "thickness", critical)
+    return None if document.sensitivity is None else _sensitivities(data, document.quantities)
+
+
+def _numbers(found: object) -> Found:
+    return {name: value for name, value in vars(found).items() if isinstance(value, float)}
+
+
+def _reduced(
+    data: xarray.Dataset, quantities: Sequence[str], dim: str, derive: Callable[[RealArray], Found]
+) -> xarray.Dataset:
+    """Numbers that ``derive`` makes of each quantity along ``dim``, on the other axes."""
+    import xarray
+
+    made: dict[str, Any] = {}
+    for name in quantities:
+        array = data[name].transpose(..., dim)
+        shape, dims = array.shape[:-1], array.dims[:-1]
+        rows = [derive(row) for row in np.asarray(array).reshape(-1, array.shape[-1])]
+        for key in rows[0]:
+            column = np.array([float(row[key]) for row in rows]).reshape(shape)
+            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+    kept = {str(key): value for key, value in data.coords.items() if dim not in value.dims}
+    return xarray.Dataset(made, kept, {"kind": data.attrs["kind"], "title": data.attrs["title"]})
+
+
+def _sensitivities(data: xarray.Dataset, quantities: Sequence[str]) -> xarray.Dataset:
+    """Low and high case of every scalar side by side."""
+    import xarray
+
+    names = [str(name) for name in np.asarray(data["parameter"])]
+    scalars = list(dict.fromkeys(name.rpartition(" ")[0] for name in names if name != BASE))
+    ends = [data.isel(parameter=[names.index(f"{scalar} {end}") for scalar in scalars]) for end in ENDS]
+    x = [np.asarray(end["value"], dtype=float) for end in ends]
+    made: dict[str, Any] = {"scalar_low": ("scalar", x[0]), "scalar_high": ("scalar", x[1])}
+    for name in quantities:
+        y = [np.asarray(end[name].transpose(..., "parameter"), dtype=float) for end in ends]
+        dims = (*ends[0][name].transpose(..., "parameter").dims[:-1], "scalar")
+        rows = [
+            vars(sensitivity((float(x[0][at[-1]]), float(x[1][at[-1]])), (float(y[0][at]), float(y[1][at]))))
+            for at in np.ndindex(y[0].shape)
+        ]
+        for key in rows[0]:
+            column = np.array([row[key] for row in rows]).reshape(y[0].shape)
+            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+    kept = {str(key): value for key, value in data.coords.items() if "parameter" not in value.dims}
+    attributes = {"kind": data.attrs["kind"], "title": data.attrs["title"]}
+    return xarray.Dataset(made, {**kept, "scalar": np.array(scalars, object)}, attributes)
+
+
+def _labels(data: xarray.Dataset, name: str, key: str) -> dict[str, str]:
+    unit = "" if key == "slope" else UNITS.get(key, data[name].attrs["units"])
+    return {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}

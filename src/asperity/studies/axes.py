@@ -1,0 +1,203 @@
+"""What a study varies: axes of points, each of which changes some scalars of the problem document."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..core import require
+from ..core.errors import InputError
+from ..io.documents import ProblemDocument, checked
+from ..io.schemas.study import AxisTable
+from .places import Key, Place, content, locate, problem_table, replaced
+
+Coordinate: TypeAlias = float | str
+"""Where a point lies on its axis: a number in SI units, or a word."""
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One change of a document: ``value`` at ``keys``, and the ``content`` it stands for."""
+
+    keys: tuple[Key, ...]
+    value: Any
+    content: Any
+
+
+@dataclass(frozen=True)
+class Point:
+    """One point of an axis: its coordinate, its changes, and further ``columns`` to be listed beside it."""
+
+    coordinate: Coordinate
+    edits: tuple[Edit, ...]
+    columns: Mapping[str, Coordinate] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One dimension of a study.
+
+    ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of its points; ``is_load``
+    says that its points differ in the load alone.
+    """
+
+    name: str
+    unit: str
+    path: str
+    points: Sequence[Point]
+    is_load: bool = False
+    columns: Mapping[str, str] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+@dataclass(frozen=True)
+class Base:
+    """The problem ``document`` that a study starts from, and the ``folder`` at which its relative paths start."""
+
+    document: ProblemDocument
+    folder: Path
+
+    def edit(self, place: Place, value: Any) -> Edit:
+        """Change of the scalar at ``place`` to ``value`` as a document writes it.
+
+        Raises
+        ------
+        InputError
+            If the changed document has a problem.
+        """
+        made = Edit(place.keys, value, place.content(value, self.folder))
+        checked(replaced(problem_table(self.document), place.keys, value), f"problem with {place.path} = {value!r}")
+        return made
+
+    def whole(self, key: str, table: Any, coordinate: Coordinate) -> Point:
+        """Point at which the whole ``table`` stands under ``key``."""
+        changed = checked({**problem_table(self.document), key: table}, f"problem with another {key}")
+        return Point(coordinate, (Edit((key,), table, content(changed, self.folder)[key]),))
+
+
+def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
+    """Axis that ``table`` describes.
+
+    Raises
+    ------
+    InputError
+        If a path leads nowhere, a value does not suit it, or ``also`` does not fit the values.
+    """
+    place = locate(base.document, table.path)
+    values = values_of(place, table)
+    followers = [(locate(base.document, path), rule) for path, rule in table.also.items()]
+    points = []
+    for number, value in enumerate(values):
+        changes = [(place, value)]
+        changes += [(other, _following(other, rule, place, value, number, len(values))) for other, rule in followers]
+        points.append(Point(coordinate(place, value), _together(base, changes)))
+    is_load = place.is_load and all(other.is_load for other, _ in followers)
+    return Axis(name, place.unit, place.path, _uniform(points), is_load)
+
+
+def listed(axes: Sequence[Axis]) -> Axis:
+    """One axis that goes through the points of all ``axes`` together.
+
+    Raises
+    ------
+    InputError
+        If they are not equally long.
+    """
+    lengths = {part.name: len(part) for part in axes}
+    if len(set(lengths.values())) > 1:
+        shown = ", ".join(f"{name} has {count}" for name, count in lengths.items())
+        raise InputError(f'axes of a study with combine = "list" must have equally many values, but {shown}.')
+    points = [
+        Point(
+            float(number),
+            tuple(edit for point in row for edit in point.edits),
+            {part.name: point.coordinate for part, point in zip(axes, row, strict=True)},
+        )
+        for number, row in enumerate(zip(*(part.points for part in axes), strict=True))
+    ]
+    return Axis("case", "1", "", points, all(part.is_load for part in axes), {part.name: part.unit for part in axes})
+
+
+def values_of(place: Place, table: Any, scale: str = "linear") -> list[Any]:
+    """Values of a list or range as a document writes them.
+
+    Raises
+    ------
+    InputError
+        If a range is not one of numbers, or a logarithmic one is not positive.
+    """
+    if table.values is not None:
+        return [_as_written(place, value) for value in table.values]
+    first, last = place.number(table.first), place.number(table.last)
+    if (table.scale or scale) == "log":
+        require.positive(first, f"first of a logarithmic range of {place.path}")
+        require.positive(last, f"last of a logarithmic range of {place.path}")
+        numbers = np.geomspace(first, last, table.count)
+    else:
+        numbers = np.linspace(first, last, table.count)
+    return list(dict.fromkeys(place.written(float(number)) for number in numbers))
+
+
+def coordinate(place: Place, value: Any) -> Coordinate:
+    """Where ``value``, as a document writes it, lies on an axis."""
+    found = value if place.quantity is None else place.content(value, Path())
+    if isinstance(found, list):
+        return float(found[0]) if found[0] == found[1] else str(value)
+    return float(found) if isinstance(found, int | float) and not isinstance(found, bool) else str(found)
+
+
+def numeric_edit(place: Place, number: float) -> Edit:
+    """Change of the scalar at ``place`` to the SI ``number``; not checked."""
+    written = place.written(number)
+    return Edit(place.keys, written, written if place.quantity is None else float(number))
+
+
+def default_name(path: str, taken: set[str]) -> str:
+    """Name of an axis: the last key of its path, or the whole path where that is ``taken``."""
+    words = path.split(".")
+    return words[-1] if words[-1] not in taken and not words[-1].isdigit() else "_".join(words)
+
+
+def _together(base: Base, changes: Sequence[tuple[Place, Any]]) -> tuple[Edit, ...]:
+    """Edits of all ``changes``, which are checked together: a hardness alone may have no modulus to go with."""
+    table = problem_table(base.document)
+    for place, value in changes:
+        table = replaced(table, place.keys, value)
+    shown = ", ".join(f"{place.path} = {value!r}" for place, value in changes)
+    checked(table, f"problem with {shown}")
+    return tuple(Edit(place.keys, value, place.content(value, base.folder)) for place, value in changes)
+
+
+def _as_written(place: Place, value: Any) -> Any:
+    if place.keys[-1] == "points":
+        return [value, value] if isinstance(value, int) else list(value) if isinstance(value, tuple) else value
+    if place.quantity not in (None, "size"):
+        found = place.content(value, Path()) if isinstance(value, str) else place.number(value)
+        return place.written(found) if isinstance(found, float) else value
+    return value
+
+
+def _following(other: Place, rule: Any, place: Place, value: Any, number: int, count: int) -> Any:
+    """Value of a scalar that follows another: from a list, or that many times the other."""
+    if isinstance(rule, tuple):
+        if len(rule) != count:
+            raise InputError(f"also.{other.path} must hold {count} values like {place.path}, but holds {len(rule)}.")
+        return _as_written(other, rule[number])
+    if other.unit != place.unit:
+        raise InputError(
+            f"also.{other.path} must be a list, because its unit {other.unit} is not the unit {place.unit} of {place.path}."
+        )
+    return other.written(rule * place.number(value))
+
+
+def _uniform(points: Sequence[Point]) -> tuple[Point, ...]:
+    """``points`` whose coordinates are all numbers, or else all words."""
+    if all(isinstance(point.coordinate, float) for point in points):
+        return tuple(points)
+    return tuple(Point(str(point.coordinate), point.edits, point.columns) for point in points)

@@ -1,0 +1,204 @@
+"""A study in its folder: run, looked at, collected. The names users see."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..core.errors import FileFormatError, OutputError
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..io.study_documents import LoadedStudy
+    from .failures import Cause
+    from .plan import Plan
+    from .run import RunSummary, Watch
+
+STUDY, RECORDS = "study.toml", "records.log"
+"""Files in the folder of a study."""
+
+
+@dataclass(frozen=True)
+class CampaignState:
+    """How far a study is: cases ``done``, ``failed`` and ``missing``; ``samples`` that were enough, None if not so far."""
+
+    done: int
+    failed: int
+    missing: int
+    samples: int | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left to be computed."""
+        return self.missing == 0
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A ``study`` whose results lie in ``folder``.
+
+    Made by ``run_study`` or ``open_study``.
+    """
+
+    folder: Path
+    study: LoadedStudy
+
+    @cached_property
+    def plan(self) -> Plan:
+        """Axes and cases."""
+        from .plan import make_plan
+
+        return make_plan(self.study)
+
+    @property
+    def records(self) -> Path:
+        """File of the finished cases."""
+        return self.folder / RECORDS
+
+    @property
+    def title(self) -> str:
+        """Title of the study, or the name of its folder."""
+        return self.study.document.title or self.folder.name
+
+    def run(
+        self, *, workers: int | None = None, dask: str | None = None, retry: bool = False, watch: Watch | None = None
+    ) -> RunSummary:
+        """Compute what is missing; see ``run_study``."""
+        from .cluster import DaskCluster
+        from .local import LocalProcesses, available_cores
+        from .run import NoWatch, carry_out
+
+        threads = self.study.problem.solver.threads or 1
+        local = LocalProcesses(max(1, available_cores() // threads) if workers is None else workers, threads)
+        executor = local if dask is None else DaskCluster(dask)
+        return carry_out(self.plan, self.records, executor, watch=watch or NoWatch(), retry=retry)
+
+    def state(self) -> CampaignState:
+        """How many cases are done, have failed, are missing."""
+        import numpy as np
+
+        from .collect import FAILED, MISSING, Collected, stopped_at
+
+        outcome = np.full(self.plan.n_cases, MISSING)
+        for place, record in Collected(self.plan, self.records).records():
+            outcome[place] = 0 if record["error"] is None else FAILED
+        end = stopped_at(self.plan, self.records)
+        if end is not None:
+            outcome = outcome[: end * (self.plan.n_cases // self.plan.shape[0])]
+        counts = np.bincount(outcome, minlength=3)
+        done, failed, missing = (int(count) for count in counts)
+        return CampaignState(done, failed, missing, end)
+
+    def dataset(self) -> xarray.Dataset:
+        """Results on the axes of the study, labelled, SI; NaN where a case failed or is missing."""
+        from ..io.study_documents import study_text
+        from .collect import dataset
+
+        return dataset(self.plan, self.records, study=study_text(self.study, self.folder))
+
+    def analysis(self) -> xarray.Dataset | None:
+        """What the kind of the study asks for: means, orders, critical thicknesses, sensitivities; None for a sweep."""
+        from .analysis import analysis
+
+        return analysis(self.dataset(), self.study.document)
+
+    def causes(self) -> tuple[Cause, ...]:
+        """Failed cases grouped by cause."""
+        from .collect import failures
+        from .failures import causes
+
+        return causes(failures(self.plan, self.records))
+
+
+def run_study(
+    study: str | Path | Mapping[str, Any],
+    folder: str | Path | None = None,
+    *,
+    workers: int | None = None,
+    dask: str | None = None,
+    retry: bool = False,
+    watch: Watch | None = None,
+) -> Campaign:
+    """Run a study, or go on with it: only cases that its folder does not hold are computed.
+
+    Parameters
+    ----------
+    study
+        Study document (TOML or JSON file), or its content as nested dictionaries.
+    folder
+        Where results go; by default beside the document, named after it.
+    workers
+        Number of worker processes on this machine, each with one thread; as many as there are cores by default.
+    dask
+        Address of a Dask scheduler whose workers are used instead.
+    retry
+        Whether cases that failed are tried again.
+    watch
+        Is told how it goes on.
+
+    Raises
+    ------
+    InputError
+        If the document has problems; the message has one line for each.
+    FileFormatError
+        If a file is missing or unreadable.
+    OutputError
+        If the folder cannot be written.
+    """
+    campaign = prepare_study(study, folder)
+    campaign.run(workers=workers, dask=dask, retry=retry, watch=watch)
+    return campaign
+
+
+def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | None = None) -> Campaign:
+    """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``."""
+    from ..io.study_documents import load_study, study_from_table, study_text
+
+    if isinstance(study, Mapping):
+        loaded, target = study_from_table(study, Path()), Path("study" if folder is None else folder)
+    else:
+        loaded, target = load_study(study), default_folder(Path(study)) if folder is None else Path(folder)
+    campaign = Campaign(target, loaded)
+    _ = campaign.plan  # all mistakes are found before anything is written
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"folder {target} cannot be made: {error.strerror}; choose another.") from error
+    _write(target / STUDY, study_text(loaded, target))
+    return campaign
+
+
+def open_study(folder: str | Path) -> Campaign:
+    """The study whose results lie in ``folder``, or beside the study document ``folder``; nothing is computed.
+
+    Raises
+    ------
+    FileFormatError
+        If there is none.
+    """
+    from ..io.study_documents import load_study
+
+    place = Path(folder)
+    if place.is_file():
+        place = default_folder(place)
+    if not (place / STUDY).is_file():
+        raise FileFormatError(
+            f"results of a study must lie in a folder with {STUDY}, but {place} has none; run it first: asperity run."
+        )
+    return Campaign(place, load_study(place / STUDY))
+
+
+def default_folder(document: Path) -> Path:
+    """Folder of the results of the study ``document``: beside it, with its name."""
+    return document.with_name(f"{document.stem}-results")
+
+
+def _write(path: Path, text: str) -> None:
+    from ..io.atomic import atomic_file
+
+    with atomic_file(path, overwrite=True) as partial:
+        partial.write_text(text, encoding="utf-8", newline="\n")

@@ -1,0 +1,63 @@
+"""Workers of a Dask cluster."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from ..core.errors import InputError
+from .executors import Lost, Task, call
+
+
+@dataclass(frozen=True)
+class DaskCluster:
+    """Workers of the Dask scheduler at ``address``, such as ``"tcp://10.0.0.1:8786"``.
+
+    They need the same version of asperity and the files of the study under the same path. A worker that dies loses
+    nothing: Dask gives its tasks to others.
+    """
+
+    address: str
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
+        """Every task with its answer, as they are done; two tasks for each thread are under way."""
+        try:
+            distributed: Any = importlib.import_module("distributed")
+        except ImportError:
+            raise InputError(
+                'a Dask cluster needs the package distributed, which is missing: pip install "asperity[dask]".'
+            ) from None
+        try:
+            client = distributed.Client(self.address, set_as_default=False, timeout=10)
+        except (OSError, ValueError, TimeoutError) as error:
+            raise InputError(
+                f"Dask scheduler must answer at {self.address!r}, but does not ({error}); check address and firewall."
+            ) from None
+        with client:
+            under_way: dict[Any, Task] = {}
+
+            def submitted() -> Iterator[Any]:
+                for task in tasks:
+                    future = client.submit(call, function, task, pure=False)
+                    under_way[future] = task
+                    yield future
+
+            stream = submitted()
+            ahead = 2 * max(1, sum(client.nthreads().values()))
+            completed = distributed.as_completed(islice(stream, ahead))
+            try:
+                for future in completed:
+                    yield under_way.pop(future), _answer(future, distributed.KilledWorker)
+                    completed.update(islice(stream, 1))
+            finally:
+                client.cancel(list(under_way))
+
+
+def _answer(future: Any, killed: type[Exception]) -> Any | Lost:
+    try:
+        return future.result()
+    except killed as error:
+        return Lost(" ".join(str(error).split()))

@@ -1,0 +1,181 @@
+"""From plan and store to one labelled dataset."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.certificate import Certificate
+from ..io.labels import CERTIFICATE
+from ..io.provenance import software
+from .axes import Axis
+from .evaluate import CHECKS
+from .failures import Failure
+from .monte_carlo import Stop
+from .plan import Plan
+from .quantities import measure
+from .run import stop_quantity, stopping
+from .store import Record, records
+
+if TYPE_CHECKING:
+    import xarray
+
+DONE, FAILED, MISSING = 0, 1, 2
+"""Values of the variable ``outcome``."""
+
+KEPT_CHECKS = ("duality_gap", "iterations", "wall_time")
+"""Entries of the certificates in the dataset."""
+
+
+class Collected:
+    """The finished cases of a plan by their place on the axes."""
+
+    def __init__(self, plan: Plan, path: Path) -> None:
+        self.plan = plan
+        keys = np.fromiter((int(case.key[:16], 16) for item in plan.paths() for case in item), np.uint64)
+        places = np.fromiter((self._flat(case.index) for item in plan.paths() for case in item), np.int64)
+        order = np.argsort(keys, kind="stable")
+        self._keys, self._places = keys[order], places[order]
+        self._records = path
+
+    def _flat(self, index: tuple[int, ...]) -> int:
+        return int(np.ravel_multi_index(index, self.plan.shape))
+
+    def records(self) -> Iterator[tuple[int, Record]]:
+        """Number of a case on the flattened axes, and its record; of a case that was done again also the older ones, first."""
+        for record in records(self._records):
+            key = np.uint64(int(record["key"][:16], 16))
+            low, high = np.searchsorted(self._keys, key, "left"), np.searchsorted(self._keys, key, "right")
+            for place in self._places[low:high]:
+                yield int(place), record
+
+
+def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
+    """Results of ``plan`` from the store at ``path``: quantities on the axes, units and labels, NaN where there are none.
+
+    ``outcome`` says what became of each case, ``error`` why it failed. Attributes: the text of the ``study``, software,
+    citation keys. Samples beyond those that were enough are left out.
+    """
+    import xarray
+
+    wanted = tuple(dict.fromkeys((*plan.document.quantities, *(q for q in [stop_quantity(plan)] if q))))
+    found = _gathered(Collected(plan, path), wanted)
+    dims = tuple(item.name for item in plan.axes)
+
+    def on_axes(flat: Any, labels: dict[str, Any]) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
+        return dims, flat.reshape(plan.shape), labels
+
+    variables = {name: on_axes(array, _labels(name)) for name, array in found.values.items()}
+    codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
+    variables["outcome"] = on_axes(found.outcome, {"long_name": "what became of the case", **codes})
+    if found.errors:
+        texts = np.full(plan.n_cases, "", object)
+        texts[list(found.errors)] = list(found.errors.values())
+        variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
+    made = xarray.Dataset(variables, _coordinates(plan), _attributes(plan, found.citation_keys, study))
+    end = stopped_at(plan, path)
+    return made if end is None else made.isel(sample=slice(end))
+
+
+@dataclass(frozen=True, eq=False)
+class _Gathered:
+    """Numbers, outcome and errors of all cases by their number, and the keys of the papers behind them."""
+
+    values: dict[str, Any]
+    outcome: Any
+    errors: dict[int, str]
+    citation_keys: list[str]
+
+
+def _gathered(collected: Collected, wanted: tuple[str, ...]) -> _Gathered:
+    n = collected.plan.n_cases
+    values = {name: np.full(n, np.nan) for name in (*wanted, *KEPT_CHECKS)}
+    outcome, errors, cited = np.full(n, MISSING, np.int8), dict[int, str](), dict[str, None]()
+    for place, record in collected.records():
+        error = record["error"]
+        outcome[place] = DONE if error is None else FAILED
+        for name in wanted:
+            values[name][place] = record["values"].get(name, np.nan)
+        for name in KEPT_CHECKS:
+            values[name][place] = record["work"].get(name, np.nan)
+        errors.pop(place, None)
+        if error is not None:
+            errors[place] = f"{error['type']}: {error['message']}"
+        cited |= dict.fromkeys(record["citations"])
+    return _Gathered(values, outcome, errors, list(cited))
+
+
+def _attributes(plan: Plan, citation_keys: list[str], study: str) -> dict[str, str]:
+    return {
+        "title": plan.document.title,
+        "kind": plan.document.kind,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "software": json.dumps(software()),
+        "citation_keys": " ".join(citation_keys),
+        "study": study,
+    }
+
+
+def stopped_at(plan: Plan, path: Path) -> int | None:
+    """Number of samples after which the rule of ``plan`` ended them; None if it has none or did not."""
+    stop = stopping(plan)
+    if stop is None:
+        return None
+    found: dict[int, float] = {}
+    quantity = str(stop_quantity(plan))
+    for place, record in Collected(plan, path).records():
+        found[place] = record["values"].get(quantity, np.nan)
+    _feed(stop, found, plan)
+    return stop.end
+
+
+def failures(plan: Plan, path: Path) -> list[Failure]:
+    """Cases of ``plan`` that failed, and have not been done again with success."""
+    found: dict[int, Failure | None] = {}
+    for place, record in Collected(plan, path).records():
+        error = record["error"]
+        if error is None:
+            found.pop(place, None)
+        else:
+            index = tuple(int(number) for number in np.unravel_index(place, plan.shape))
+            found[place] = Failure(plan.coordinates(index), error["type"], error["message"])
+    return [failure for failure in found.values() if failure is not None]
+
+
+def _feed(stop: Stop, found: dict[int, float], plan: Plan) -> None:
+    points = max(1, plan.n_cases // plan.shape[0])
+    for place in sorted(found):
+        stop.take(place // points, place % points, found[place])
+
+
+def _coordinates(plan: Plan) -> dict[str, Any]:
+    made: dict[str, Any] = {}
+    for item in plan.axes:
+        made[item.name] = (item.name, _column([point.coordinate for point in item.points]), _axis_labels(item))
+        for name, unit in item.columns.items():
+            column = _column([point.columns[name] for point in item.points])
+            made[name] = (item.name, column, {"units": unit} if unit else {})
+    return made
+
+
+def _column(values: list[Any]) -> Any:
+    numbers = all(isinstance(value, float) for value in values)
+    return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
+
+
+def _axis_labels(item: Axis) -> dict[str, str]:
+    return {"units": item.unit, "long_name": item.path or item.name}
+
+
+def _labels(name: str) -> dict[str, str]:
+    if name in CHECKS and name in Certificate.__dataclass_fields__:
+        check = next(entry for entry in CERTIFICATE if entry.attribute == name)
+        return {"units": check.unit, "long_name": check.label}
+    quantity = measure(name)
+    return {"units": quantity.unit, "long_name": quantity.label}

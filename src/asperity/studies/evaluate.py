@@ -1,0 +1,113 @@
+"""From the cases of one load path to records: built, solved, measured. This is what workers do."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..contact.operators import Operator, prepare_operator
+from ..contact.path import predicted
+from ..contact.result import ContactResult
+from ..contact.sliding import solve_sliding
+from ..contact.solve import Keep, solve
+from ..contact.state import InterfaceState
+from ..core.engine import CpuEngine, Engine
+from ..io.build import Case, build, build_control
+from ..io.documents import checked
+from ..io.stress_survey import survey
+from .places import replaced
+from .quantities import STIFFNESS, Solved, measure
+from .store import Record
+
+CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterations", "fft_pairs", "wall_time")
+"""Entries of the certificate that are kept."""
+
+
+def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
+    """Records of the cases of ``task``, which differ in the load alone, in its order.
+
+    Each case starts from the virgin surfaces. The operator is prepared once, and the pressures of the cases before are the
+    first guess. A case that fails is a record with its exception.
+
+    Parameters
+    ----------
+    task
+        ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``, and ``cases`` with
+        ``key`` and ``edits``: plain values, so that it can be sent to another machine.
+    """
+    path = _LoadPath(task)
+    return [path.record(case) for case in task["cases"]]
+
+
+class _LoadPath:
+    """What the cases of a path share, kept from one to the next."""
+
+    def __init__(self, task: Mapping[str, Any]) -> None:
+        self._table, self._folder = task["table"], Path(task["folder"])
+        self._quantities = tuple(task["quantities"])
+        self._keep = Keep(stiffness=STIFFNESS in self._quantities)
+        self._built: Case | None = None
+        self._operator: Operator | None = None
+        self._last: list[ContactResult] = []
+
+    def record(self, case: Mapping[str, Any]) -> Record:
+        """Record of one ``case``."""
+        try:
+            with warnings.catch_warnings(), np.errstate(all="ignore"):
+                warnings.simplefilter("ignore")  # what a case has to say is in its record
+                return {"key": case["key"], **self._answer(self._case(case["edits"])), "error": None}
+        except Exception as error:
+            said = {"type": type(error).__name__, "message": " ".join(str(error).split())}
+            return {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": said}
+
+    def _case(self, edits: list[Any]) -> Case:
+        table = self._table
+        for keys, value in edits:
+            table = replaced(table, tuple(keys), value)
+        document = checked(table, "problem of this case")
+        if self._built is None:
+            self._built = build(document, self._folder)
+        return replace(self._built, control=build_control(document.control))
+
+    def _answer(self, case: Case) -> dict[str, Any]:
+        result = self._solved(case)
+        stress = None
+        if case.stress is not None:
+            stress = survey(case.stress, result, lines=False, threads=case.threads or 1)
+        solved = Solved(case, result, stress)
+        return {
+            "values": {name: measure(name).of(solved) for name in self._quantities},
+            "work": {name: getattr(result.certificate, name) for name in CHECKS},
+            "citations": list(
+                dict.fromkeys((*result.citation_keys, *(() if stress is None else stress.citation_keys)))
+            ),
+        }
+
+    def _solved(self, case: Case) -> ContactResult:
+        stress = case.stress
+        if stress is not None and stress.coupled and stress.friction:
+            return solve_sliding(case.problem, case.control, stress.friction, direction=stress.direction).contact
+        problem, engine = case.problem, self._engine(case)
+        if self._operator is None:
+            self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        result = solve(
+            problem, case.control, solver=case.solver, state=self._guess(case), keep=self._keep, operator=self._operator
+        )
+        self._last = [*self._last[-1:], result]
+        return result
+
+    def _guess(self, case: Case) -> InterfaceState | None:
+        """Virgin interface with the pressures that the cases before suggest."""
+        if not self._last:
+            return None
+        state = predicted(case.problem, case.control, self._last)
+        return replace(state, permanent_indentation=np.zeros(case.problem.grid.shape))
+
+    @staticmethod
+    def _engine(case: Case) -> Engine:
+        return CpuEngine(case.threads or 1)

@@ -1,0 +1,165 @@
+"""Worker processes on this machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import islice
+from queue import SimpleQueue
+from typing import IO, Any
+
+from ..core import require
+from .executors import Lost, Task
+
+ATTEMPTS = 2
+"""How often a task is tried that ends its worker, before it is given up."""
+
+
+THREAD_VARIABLES = (
+    "ASPERITY_THREADS",
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "NUMBA_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+)
+"""Environment variables that set the number of threads of the libraries a worker uses."""
+
+
+def available_cores() -> int:
+    """Cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class LocalProcesses:
+    """Worker processes on this machine, by default one for each core, each with so many ``threads``.
+
+    A worker that dies is replaced and its task tried once more. All workers end with this process, however it ends.
+    """
+
+    workers: int = field(default_factory=available_cores)
+    threads: int = 1
+
+    def __post_init__(self) -> None:
+        require.integer(self.workers, 1, "number of workers", "Give 1 or more.")
+        require.integer(self.threads, 1, "number of threads of a worker", "Give 1 or more.")
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any | Lost]]:
+        """Every task with its answer, as they are done."""
+        done: SimpleQueue[tuple[_Lane, Task, Any]] = SimpleQueue()
+        lanes = [_Lane(function, task, done, self.threads) for task in islice(tasks, self.workers)]
+        try:
+            busy = len(lanes)
+            while busy:
+                lane, task, answer = done.get()
+                following = next(tasks, None)
+                if following is None:
+                    busy -= 1
+                    lane.end()
+                else:
+                    lane.orders.put(following)
+                if isinstance(answer, BaseException):
+                    raise answer
+                yield task, answer
+        finally:
+            for lane in lanes:
+                lane.end()
+            for lane in lanes:
+                lane.join()
+
+
+class _Lane:
+    """One worker process and the thread that talks to it."""
+
+    def __init__(self, function: str, first: Task, done: SimpleQueue[Any], threads: int) -> None:
+        self.orders: SimpleQueue[Task | None] = SimpleQueue()
+        self.orders.put(first)
+        self._function, self._done, self._ended = function, done, False
+        self._lock, self._environment = threading.Lock(), _environment(threads)
+        self._process: subprocess.Popen[str] | None = None
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def end(self) -> None:
+        """Stop at once, whatever the worker is doing."""
+        with self._lock:
+            self._ended = True
+            if self._process is not None:
+                self._process.kill()
+        self.orders.put(None)
+
+    def join(self) -> None:
+        """Wait until the process that was stopped is gone."""
+        self._thread.join(timeout=10.0)
+
+    def _serve(self) -> None:
+        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:
+            try:
+                while (task := self.orders.get()) is not None and not self._ended:
+                    self._done.put((self, task, self._answer(task, said)))
+            except BaseException as error:  # of this thread: for the one who waits
+                self._done.put((self, {}, error))
+            finally:
+                if self._process is not None:
+                    self._process.communicate()
+
+    def _answer(self, task: Task, said: IO[str]) -> Any | Lost:
+        order = json.dumps({"function": self._function, "task": task}) + "\n"
+        reason = ""
+        for _ in range(ATTEMPTS):
+            process = self._started(said)
+            if process is None:
+                break
+            try:
+                assert process.stdin is not None
+                assert process.stdout is not None
+                process.stdin.write(order)
+                process.stdin.flush()
+                line = process.stdout.readline()
+            except OSError:
+                line = ""
+            if line.endswith("\n"):
+                return json.loads(line)
+            process.communicate()
+            reason = _reason(process.returncode, said)
+        return Lost(reason)
+
+    def _started(self, said: IO[str]) -> subprocess.Popen[str] | None:
+        """The worker, a new one if there is none or it has died; None when all is to end."""
+        with self._lock:
+            if self._ended:
+                return None
+            if self._process is None or self._process.poll() is not None:
+                said.truncate(0)
+                self._process = subprocess.Popen(
+                    [sys.executable, "-m", f"{__package__}.worker"],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=said,
+                    text=True,
+                    encoding="utf-8",
+                    env=self._environment,
+                    start_new_session=True,  # Ctrl-C at the terminal is for this process, which ends the workers
+                )
+            return self._process
+
+
+def _environment(threads: int) -> dict[str, str]:
+    """Variables of a worker: so many threads in every library, and the modules that this process finds."""
+    paths = os.pathsep.join(path for path in sys.path if path)
+    return {**os.environ, **dict.fromkeys(THREAD_VARIABLES, str(threads)), "PYTHONPATH": paths}
+
+
+def _reason(code: int, said: IO[str]) -> str:
+    said.seek(0)
+    last = " ".join(said.read().split())[-200:]
+    ended = f"signal {-code}" if code < 0 else f"exit code {code}"
+    return f"the worker ended with {ended}{': ' + last if last else ', perhaps for want of memory'}"

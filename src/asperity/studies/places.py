@@ -1,0 +1,201 @@
+"""Scalars of a problem document by dotted path, such as ``control.mean_pressure`` or ``body.layers.0.thickness``."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias, get_args
+
+from pydantic.fields import FieldInfo
+
+from ..core import units
+from ..core.digest import file_digest
+from ..core.errors import InputError
+from ..io.documents import tidy
+from ..io.quantities import quantity
+from ..io.schemas.problem import CONTROLS, ProblemDocument
+from ..io.schemas.values import Table
+
+Key: TypeAlias = str | int
+"""Key of a table, or number of an item of a list."""
+
+FILES = ("path", "materials_file")
+"""Keys that hold a path; the content of the file counts and not its name."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """One scalar of a problem document.
+
+    ``keys`` lead to it from the root; ``quantity`` is the kind of quantity that its text holds, None for plain numbers and
+    words; ``whole`` for whole numbers.
+    """
+
+    path: str
+    keys: tuple[Key, ...]
+    quantity: str | None
+    whole: bool = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the scalar; "1" for plain numbers and words."""
+        if self.quantity in (None, "number"):
+            return "1"
+        return "m" if self.quantity == "size" else units.DIMENSIONS[str(self.quantity)]
+
+    @property
+    def is_load(self) -> bool:
+        """Whether it is a load: cases that differ in nothing else share surfaces and operators."""
+        return self.keys[0] == "control"
+
+    def number(self, value: object) -> float:
+        """SI value of ``value``, text with a unit where the scalar has one.
+
+        Raises
+        ------
+        InputError
+            If it is none.
+        """
+        if self.quantity is not None and self.quantity != "size":
+            if not isinstance(value, str):
+                raise InputError(f"{self.path} must be text with a number and a unit, but is {value!r}.")
+            return units.parse(value, self.quantity, self.path)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise InputError(f"{self.path} must be a number, but is {value!r}.")
+        return float(value)
+
+    def written(self, number: float) -> Any:
+        """What a document holds for the SI ``number``."""
+        if self.whole or self.keys[-1] == "points":
+            return round(number)
+        return float(number) if self.quantity is None else f"{float(number)!r} {self.unit}"
+
+    def content(self, value: Any, folder: Path) -> Any:
+        """``value`` freed of its wording, for comparison: SI numbers, and digests of files in ``folder``."""
+        if self.quantity is None:
+            return _file_content(self.keys[-1], value, folder)
+        return _si(value, self.quantity, self.path)
+
+
+def locate(document: ProblemDocument, path: str) -> Place:
+    """The scalar of ``document`` at the dotted ``path``.
+
+    Raises
+    ------
+    InputError
+        If there is none; the message names the nearest ones that there are.
+    """
+    known = {place.path: place for place in scalars(document)}
+    if path not in known:
+        near = difflib.get_close_matches(path, known, n=3, cutoff=0.5)
+        near += [other for other in known if other.rpartition(".")[2] == path.rpartition(".")[2] and other not in near]
+        hint = f"did you mean {' or '.join(near[:3])}?" if near else f"there are {', '.join(sorted(known)[:12])} …"
+        raise InputError(f"path must lead to a scalar of the problem, but {path!r} does not; {hint}")
+    return known[path]
+
+
+def scalars(document: ProblemDocument) -> Iterator[Place]:
+    """Every scalar of ``document``, also those that it leaves to their defaults."""
+    for key in type(document).model_fields:
+        if key not in ("version", "title"):
+            yield from _below(getattr(document, key), type(document).model_fields[key], (key,))
+
+
+def content(document: ProblemDocument, folder: Path) -> dict[str, Any]:
+    """Content of ``document`` as nested dictionaries: quantities in SI, files by digest, without title and threads."""
+    table: dict[str, Any] = _content(document, folder)
+    table.pop("title", None)
+    table["solver"].pop("threads", None)
+    return table
+
+
+def replaced(table: dict[str, Any], keys: tuple[Key, ...], value: Any) -> dict[str, Any]:
+    """``table`` with ``value`` at ``keys``; only the tables on the way are copied. One control replaces another."""
+    changed: Any = dict(table)
+    root, node = changed, changed
+    for key in keys[:-1]:
+        child = node.get(key, {}) if isinstance(node, dict) else node[key]
+        node[key] = list(child) if isinstance(child, list) else dict(child)
+        node = node[key]
+    if keys[0] == "control":
+        for other in CONTROLS:
+            node.pop(other, None)
+    node[keys[-1]] = value
+    return dict(root)
+
+
+def problem_table(document: ProblemDocument) -> dict[str, Any]:
+    """``document`` as nested dictionaries and lists, as it is checked."""
+    return tidy(document.model_dump(mode="json", exclude_none=True))
+
+
+def _below(value: Any, field: FieldInfo, keys: tuple[Key, ...]) -> Iterator[Place]:
+    if isinstance(value, Table):
+        for key in type(value).model_fields:
+            yield from _below(getattr(value, key), type(value).model_fields[key], (*keys, key))
+    elif isinstance(value, tuple):
+        if keys[-1] == "points":
+            yield _place(field, keys)
+        for number, item in enumerate(value):
+            yield from _below(item, field, (*keys, number))
+    elif value is not None or not _holds_tables(field.annotation):
+        yield _place(field, keys)
+
+
+def _place(field: FieldInfo, keys: tuple[Key, ...]) -> Place:
+    whole = keys[-1] != "points" and _is_whole(field.annotation)
+    return Place(".".join(map(str, keys)), keys, quantity(field), whole)
+
+
+def _holds_tables(annotation: Any) -> bool:
+    if isinstance(annotation, type):
+        return issubclass(annotation, Table)
+    return any(_holds_tables(part) for part in get_args(annotation))
+
+
+def _is_whole(annotation: Any) -> bool:
+    kinds = {part for part in _kinds(annotation) if part in (int, float, str, bool)}
+    return kinds == {int}
+
+
+def _kinds(annotation: Any) -> Iterator[Any]:
+    parts = get_args(annotation)
+    if not parts:
+        yield annotation
+    for part in parts:
+        yield from _kinds(part)
+
+
+def _content(value: Any, folder: Path) -> Any:
+    if isinstance(value, tuple):
+        return [_content(item, folder) for item in value]
+    if not isinstance(value, Table):
+        return value
+    found: dict[str, Any] = {}
+    for key, field in type(value).model_fields.items():
+        entry = getattr(value, key)
+        if entry is None:
+            continue
+        kind = quantity(field)
+        found[key] = _content(entry, folder) if kind is None else _si(entry, kind, key)
+        if kind is None:
+            found[key] = _file_content(key, found[key], folder)
+    return found
+
+
+def _file_content(key: Key, value: Any, folder: Path) -> Any:
+    """The digest of the file that ``value`` names; the name where there is none, which the case will report."""
+    if key not in FILES or not isinstance(value, str) or not (folder / value).is_file():
+        return value
+    return file_digest(folder / value)
+
+
+def _si(value: Any, kind: str, what: str) -> Any:
+    """SI values of text or a tuple of texts; words such as "from body" as they are."""
+    if isinstance(value, tuple | list):
+        return [_si(item, kind, what) for item in value]
+    if not isinstance(value, str) or not any(letter.isdigit() for letter in value):
+        return value
+    return list(units.parse_size(value, what)) if kind == "size" else units.parse(value, kind, what)

@@ -1,0 +1,178 @@
+"""From a study document to its cases: axes, their combinations, and what identifies each case by content."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import prod
+from typing import Any
+
+from ..core.digest import content_digest
+from ..core.errors import InputError
+from ..io.provenance import software
+from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
+from ..io.study_documents import LoadedStudy
+from .axes import Axis, Base, Coordinate, Edit, default_name, listed, make_axis
+from .convergence import level_axis
+from .critical_thickness import thickness_axis
+from .places import content, problem_table, replaced
+from .quantities import MEASURES, computed
+from .sampling import sample_axis
+from .sensitivity import parameter_axis
+
+
+@dataclass(frozen=True)
+class StudyCase:
+    """One case: its place on the axes, its changes of the base problem, and the ``key`` that its content gives it."""
+
+    index: tuple[int, ...]
+    edits: tuple[Edit, ...]
+    key: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Everything that a study is going to compute.
+
+    Parameters
+    ----------
+    document
+        The study.
+    base
+        The problem it starts from.
+    axes
+        Dimensions, the slowest first.
+    quantities
+        What is computed of each case.
+    """
+
+    document: StudyDocument
+    base: Base
+    axes: tuple[Axis, ...]
+    quantities: tuple[str, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of points of each axis."""
+        return tuple(len(item) for item in self.axes)
+
+    @property
+    def n_cases(self) -> int:
+        """Number of cases; of a study that stops by itself the largest."""
+        return prod(self.shape)
+
+    @cached_property
+    def table(self) -> dict[str, Any]:
+        """The base problem as nested dictionaries."""
+        return problem_table(self.base.document)
+
+    @cached_property
+    def _content(self) -> dict[str, Any]:
+        return content(self.base.document, self.base.folder)
+
+    @cached_property
+    def _made_by(self) -> list[Any]:
+        """What else the numbers of a case depend on: version and quantities."""
+        return [software()["asperity"], list(self.quantities)]
+
+    def paths(self) -> Iterator[tuple[StudyCase, ...]]:
+        """Cases that differ in the load alone, together: the unit of work, in the order of the axes, made on the way.
+
+        Loads rise along a path whatever their order on the axis.
+        """
+        outer = [number for number, item in enumerate(self.axes) if not item.is_load]
+        inner = [number for number, item in enumerate(self.axes) if item.is_load]
+        loads = list(itertools.product(*(range(len(self.axes[i])) for i in inner)))
+        loads.sort(key=lambda at: self._load(inner, at))
+        for fixed in itertools.product(*(range(len(self.axes[i])) for i in outer)):
+            points = {i: self.axes[i].points[at] for i, at in zip(outer, fixed, strict=True)}
+            path = []
+            for load in loads:
+                at = dict(zip(outer, fixed, strict=True)) | dict(zip(inner, load, strict=True))
+                here = points | {i: self.axes[i].points[at[i]] for i in inner}
+                order = range(len(self.axes))
+                edits = tuple(edit for i in order for edit in here[i].edits)
+                path.append(StudyCase(tuple(at[i] for i in order), edits, self.key(edits)))
+            yield tuple(path)
+
+    def key(self, edits: Sequence[Edit]) -> str:
+        """Digest of the content of a case: its problem, the quantities and the version of the program."""
+        table = self._content
+        for edit in edits:
+            table = replaced(table, edit.keys, edit.content)
+        return content_digest([table, self._made_by])
+
+    def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
+        """Where the case at ``index`` lies, by name of axis and column."""
+        found: dict[str, Coordinate] = {}
+        for item, number in zip(self.axes, index, strict=True):
+            point = item.points[number]
+            found |= {item.name: point.coordinate, **point.columns}
+        return found
+
+    def _load(self, inner: Sequence[int], at: Sequence[int]) -> tuple[Any, ...]:
+        points = [self.axes[i].points[number] for i, number in zip(inner, at, strict=True)]
+        return tuple((edit.keys[-1], edit.content) for point in points for edit in point.edits)
+
+
+def make_plan(study: LoadedStudy) -> Plan:
+    """Plan of ``study``; all values are checked, one at a time with the others as in the base problem.
+
+    Raises
+    ------
+    InputError
+        If a path leads nowhere, a value cannot be used, a quantity is unknown, or names clash.
+    """
+    document, base = study.document, Base(study.problem, study.folder)
+    names = _names(document)
+    axes = [make_axis(base, table, name) for table, name in zip(document.axes, names, strict=False)]
+    if document.combine == "list" and axes:
+        axes = [listed(axes)]
+    if document.monte_carlo is not None:
+        axes.insert(0, sample_axis(base, document.monte_carlo, names[len(document.axes) :]))
+    if document.convergence is not None:
+        axes.append(level_axis(base, document.convergence))
+    if document.critical_thickness is not None:
+        axes.append(thickness_axis(base, document.critical_thickness))
+    if document.sensitivity is not None:
+        axes.append(parameter_axis(base, document.sensitivity))
+    _require_distinct_scalars(axes)
+    stop = None if document.monte_carlo is None else document.monte_carlo.stop
+    asked = (*document.quantities, *(() if stop is None else (stop.quantity,)))
+    return Plan(document, base, tuple(axes), computed(study.problem, asked))
+
+
+def _names(document: StudyDocument) -> list[str]:
+    """Names of the axes and then of the random scalars."""
+    tables: list[AxisTable | RandomTable] = [*document.axes]
+    own = {"sample", "case", "level", "parameter", "value", "outcome", "error", "work"}
+    if document.monte_carlo is not None:
+        tables += document.monte_carlo.random
+    if document.critical_thickness is not None:
+        own.add("thickness")
+    reserved = {item.name for item in MEASURES} | own
+    names: list[str] = []
+    for table in tables:
+        name = table.name or default_name(table.path, reserved | set(names))
+        if name in names or name in reserved:
+            raise InputError(
+                f"name of the axis {table.path} must differ from other axes and from quantities, but is {name!r}; "
+                "give it another name."
+            )
+        names.append(name)
+    return names
+
+
+def _require_distinct_scalars(axes: Sequence[Axis]) -> None:
+    seen: dict[tuple[Any, ...], str] = {}
+    for item in axes:
+        for edit in (edit for point in item.points[:3] for edit in point.edits):
+            keys = ("control",) if edit.keys[0] == "control" else edit.keys
+            for known, name in seen.items():
+                shared = min(len(known), len(keys))
+                if known[:shared] == keys[:shared] and name != item.name:
+                    shown = ".".join(map(str, edit.keys))
+                    raise InputError(f"axes must vary different scalars, but {name} and {item.name} both set {shown}.")
+            seen[keys] = item.name

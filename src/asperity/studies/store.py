@@ -1,0 +1,153 @@
+"""Append-only store of finished cases: one line each, found again by content digest, whole even after a kill."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+import os
+import time
+import zlib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, TypeAlias
+
+import numpy as np
+
+from ..core.errors import OutputError
+
+Record: TypeAlias = dict[str, Any]
+"""One finished case: ``key``, ``values``, ``work``, ``citations``, and ``error`` (None, or its type and message)."""
+
+DONE, FAILED = b"done", b"fail"
+"""Second word of a line."""
+
+BETWEEN_SYNCS = 1.0
+"""Seconds after which appended lines are forced to the disk; a kill of the process loses none, a power cut these."""
+
+
+def records(path: Path) -> Iterator[Record]:
+    """Whole records in the file at ``path``, in the order of writing; of a case that was done again all of them."""
+    for *_, payload in _lines(path):
+        yield json.loads(payload)
+
+
+class Finished:
+    """Which cases a store holds, in 8 bytes for each; failed ones too unless they are to be done again (``retry``).
+
+    With the name of a ``quantity`` its values are held, too.
+    """
+
+    def __init__(self, path: Path, *, retry: bool = False, quantity: str | None = None) -> None:
+        kinds = np.dtype([("key", np.uint64), ("value", float)])
+        found = np.fromiter(
+            (
+                (_short(key.decode()), math.nan if quantity is None else _value(payload, quantity))
+                for _, key, state, payload in _lines(path)
+                if not (retry and state == FAILED)
+            ),
+            kinds,
+        )
+        _, last = np.unique(found["key"][::-1], return_index=True)  # of a case that was done again the last record
+        chosen = found[::-1][last]
+        self._keys, self._values = chosen["key"].copy(), None if quantity is None else chosen["value"].copy()
+
+    def __len__(self) -> int:
+        return int(self._keys.size)
+
+    def __contains__(self, key: str) -> bool:
+        return self._at(key) is not None
+
+    def value(self, key: str) -> float:
+        """Value of the quantity in the case ``key``; NaN where it failed or is not there."""
+        at = self._at(key)
+        return math.nan if at is None or self._values is None else float(self._values[at])
+
+    def _at(self, key: str) -> int | None:
+        short = np.uint64(_short(key))
+        at = int(np.searchsorted(self._keys, short))
+        return at if at < self._keys.size and self._keys[at] == short else None
+
+
+class Store:
+    """The file at ``path``, open for appending by one process; what a kill has left half-written at its end is dropped.
+
+    Raises
+    ------
+    OutputError
+        If another process has it open, or it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._synced = time.monotonic()
+        try:
+            self._file: IO[bytes] = path.open("ab")
+            _lock(self._file, path)
+            self._file.truncate(max((end for end, *_ in _lines(path)), default=0))
+        except OSError as error:
+            if isinstance(error, OutputError):
+                raise
+            raise OutputError(f"results {path} cannot be written: {error.strerror}; check rights and space.") from error
+
+    def append(self, finished: Iterable[Record]) -> None:
+        """Write all records at once."""
+        text = b"".join(_line(record) for record in finished)
+        try:
+            self._file.write(text)
+            self._file.flush()
+            if time.monotonic() - self._synced > BETWEEN_SYNCS:
+                os.fsync(self._file.fileno())
+                self._synced = time.monotonic()
+        except OSError as error:
+            raise OutputError(f"results {self.path} cannot be written: {error.strerror}; free some space.") from error
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self._file.close()
+
+
+def _line(record: Record) -> bytes:
+    """``key state checksum json`` and the end of the line; the checksum is of the json."""
+    payload = json.dumps(record, separators=(",", ":")).encode()
+    state = DONE if record["error"] is None else FAILED
+    return b"%s %s %08x %s\n" % (record["key"].encode(), state, zlib.crc32(payload), payload)
+
+
+def _lines(path: Path) -> Iterator[tuple[int, bytes, bytes, bytes]]:
+    """End in the file, key, state and json of every whole line; any other is left out."""
+    if not path.exists():
+        return
+    end = 0
+    with path.open("rb") as file:
+        for line in file:
+            end += len(line)
+            parts = line.split(b" ", 3)
+            if line.endswith(b"\n") and len(parts) == 4 and b"%08x" % zlib.crc32(parts[3][:-1]) == parts[2]:
+                yield end, parts[0], parts[1], parts[3][:-1]
+
+
+def _value(payload: bytes, quantity: str) -> float:
+    return float(json.loads(payload)["values"].get(quantity, math.nan))
+
+
+def _short(key: str) -> int:
+    """First 8 bytes of a digest: two of 10⁶ cases share them with a probability of 3e-8."""
+    return int(key[:16], 16)
+
+
+def _lock(file: IO[bytes], path: Path) -> None:
+    """Refuse a second process; the lock ends with the process however it ends."""
+    if importlib.util.find_spec("fcntl") is None:  # Windows: opening is not exclusive there
+        return
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise OutputError(
+            f"results {path} are being written by another process; wait for it, or give another folder by --out."
+        ) from None
