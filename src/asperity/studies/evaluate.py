@@ -16,10 +16,10 @@ from ..contact.result import ContactResult
 from ..contact.sliding import solve_sliding
 from ..contact.solve import Keep, solve
 from ..contact.state import InterfaceState
-from ..core.engine import CpuEngine, Engine
+from ..core.engine import CpuEngine
 from ..io.build import Case, build, build_control
 from ..io.documents import checked
-from ..io.stress_survey import survey
+from ..stress.survey import survey
 from .places import replaced
 from .quantities import STIFFNESS, Solved, measure
 from .store import Record
@@ -91,8 +91,9 @@ class _LoadPath:
     def _solved(self, case: Case) -> ContactResult:
         stress = case.stress
         if stress is not None and stress.coupled and stress.friction:
-            return solve_sliding(case.problem, case.control, stress.friction, direction=stress.direction).contact
-        problem, engine = case.problem, self._engine(case)
+            options: dict[str, Any] = {"direction": stress.direction, "engine": CpuEngine(case.threads or 1)}
+            return solve_sliding(case.problem, case.control, stress.friction, **options).contact
+        problem, engine = case.problem, CpuEngine(case.threads or 1)
         if self._operator is None:
             self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
         result = solve(
@@ -107,7 +108,3 @@ class _LoadPath:
             return None
         state = predicted(case.problem, case.control, self._last)
         return replace(state, permanent_indentation=np.zeros(case.problem.grid.shape))
-
-    @staticmethod
-    def _engine(case: Case) -> Engine:
-        return CpuEngine(case.threads or 1)

@@ -12,7 +12,7 @@ from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..io.build import Case
 from ..io.documents import ProblemDocument
-from ..io.stress_survey import StressSurvey
+from ..stress.survey import StressSurvey
 
 
 @dataclass(frozen=True, eq=False)
