@@ -6,6 +6,7 @@ import math
 
 from ..core import require
 from ..core.errors import InputError
+from ..surfaces.characterise.autocorrelation import DROP_1E, autocovariance
 from ..surfaces.characterise.fractal import fractal_parameters
 from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import difference_moments, spectral_moments
@@ -58,6 +59,7 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         skewness=shape.Ssk,
         kurtosis=shape.Sku,
         fractal=_fractal(surface),
+        correlation_length=_correlation_length(surface),
     )
 
 
@@ -97,3 +99,9 @@ def _fractal(surface: Surface) -> Fractal | None:
         return None
     roughness = math.exp(0.5 * sum(math.log(fit.roughness) for fit in found))
     return Fractal(0.5 * sum(fit.dimension for fit in found), roughness)
+
+
+def _correlation_length(surface: Surface) -> float:
+    """Mean of the lags along x and y at which the autocorrelation has fallen to 1/e."""
+    covariance = autocovariance(surface)
+    return 0.5 * sum(covariance.correlation_length(DROP_1E, axis=axis) for axis in ("x", "y"))

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from ..core import require
 from .adhesive_sphere import DMT, JKR
+from .anisotropic_summits import AnisotropicSummits
 from .bisinusoid import CrossedWaves
+from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
 from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
 from .fuller_tabor import FullerTabor
+from .greenwood_tripp import GreenwoodTripp
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .hertz import HertzPoint
@@ -20,7 +23,9 @@ from .kotwal_bhushan import KotwalBhushan
 from .line_indenters import LineFlatPunch, LinePowerLawIndenter
 from .majumdar_bhushan import MajumdarBhushan
 from .maugis import MaugisDugdale
+from .mccool import McCool
 from .mindlin import MindlinLine, MindlinPoint
+from .onions_archard import OnionsArchard
 from .persson import Persson
 from .protocol import Described
 from .sinusoidal_asperity import SinusoidalAsperity
@@ -35,6 +40,12 @@ _CLASSES: tuple[type[Described], ...] = (
     JacksonGreen,
     FullerTabor,
     IdenticalAsperities,
+    GreenwoodTripp,
+    McCool,
+    OnionsArchard,
+    BushGibsonThomas,
+    GreenwoodElliptic,
+    AnisotropicSummits,
     MajumdarBhushan,
     Persson,
     HertzPoint,

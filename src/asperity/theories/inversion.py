@@ -15,6 +15,7 @@ PressureAndStiffness: TypeAlias = Callable[[RealArray], tuple[RealArray, RealArr
 
 _TABLE = 65  # separations at which the pressure is tabulated for a start
 _STEPS = 60  # bisections alone would find a double in these
+_SQUARED = 1e-8  # a Newton step so small leaves its square, which is rounding
 _ROUNDING = 4e-15
 
 
@@ -61,7 +62,7 @@ def separation_at(pressure: RealArray, law: PressureAndStiffness, low: float, hi
         inside = (step >= below) & (step <= above)
         new = np.where(inside, step, 0.5 * (below + above))
         change, h = np.abs(new - h), new
-        if np.all((change <= _ROUNDING * (unit + np.abs(h))) | (np.abs(excess) <= _ROUNDING)):
+        if np.all((inside & (change <= _SQUARED * unit)) | (change <= _ROUNDING * (unit + np.abs(h)))):
             break
     return h
 

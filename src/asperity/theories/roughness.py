@@ -158,6 +158,9 @@ class Roughness:
         Samples (n,) of the height above the mean plane in m.
     fractal
         Fractal dimension and roughness, where the profiles are self-affine.
+    correlation_length
+        Lag in m at which the autocorrelation has fallen to 1/e; NaN where it does not. The lag of 1/10 is longer, for an
+        exponential autocorrelation by ln 10.
     skewness, kurtosis
         Of the surface heights; 0 and 3 for a Gaussian surface.
 
@@ -178,6 +181,7 @@ class Roughness:
     skewness: float = 0.0
     kurtosis: float = 3.0
     fractal: Fractal | None = None
+    correlation_length: float = math.nan
 
     def __post_init__(self) -> None:
         fix = "A flat surface has no roughness theory."
