@@ -34,12 +34,14 @@ from .core.errors import (
 )
 from .core.grid import Grid
 from .io.export import export_csv, export_vtk
+from .io.path_files import export_path_csv, save_path
 from .io.results import load, open_dataset, save
 from .io.stress_files import save_stress
 from .io.stress_vtk import export_stress_vtk
 from .io.surface_files import save_surface
 from .io.tiles import save_endless
 from .plots.figures import save_plots, save_surface_plot
+from .plots.path_figures import save_path_plots
 from .plots.surface_figures import save_roughness_plots
 from .report.roughness import write_roughness_report
 from .report.write import write_report
@@ -158,6 +160,7 @@ __all__ = [
     "despiked",
     "energy_balance",
     "export_csv",
+    "export_path_csv",
     "export_stress_vtk",
     "export_vtk",
     "filled",
@@ -194,6 +197,8 @@ __all__ = [
     "run_study",
     "save",
     "save_endless",
+    "save_path",
+    "save_path_plots",
     "save_plots",
     "save_roughness_plots",
     "save_stress",

@@ -32,8 +32,8 @@ def posed(law: str = "constant", boundary: asp.Periodic | asp.Free = asp.Periodi
 @pytest.mark.parametrize("law", ["constant", "soft film", "hard film"])
 @BOUNDARIES
 def test_work_goes_into_elastic_energy_and_plastic_work(boundary, law):
-    """The residual is that of the trapezoidal rule for ∫ F dδ: of order 2 in the step where F(δ) is smooth, between 1 and
-    2 where pixels meet and the force starts like δ^3/2 or steeper."""
+    """The residual is that of the trapezoidal rule for ∫ F dδ, of second order: measured 1.7 to 2.4 from one halving to the
+    next, 2.0 on average, since pixels come into contact one by one."""
     problem = posed(law, boundary)
     errors = []
     for steps in (4, 8, 16):
@@ -43,13 +43,13 @@ def test_work_goes_into_elastic_energy_and_plastic_work(boundary, law):
         assert balance.elastic_energy[-1] == 0.0  # unloaded
         assert (np.diff(balance.plastic_work) >= 0.0).all()
         errors.append(balance.relative_error)
-    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
-    assert min(orders) > 1.1
-    assert errors[-1] < 0.04
+    assert min(math.log2(a / b) for a, b in itertools.pairwise(errors)) > 1.5
+    assert math.log2(errors[0] / errors[-1]) / 2.0 > 1.7
+    assert errors[-1] < 0.006
 
 
 def test_the_balance_is_of_second_order_in_the_step_of_the_approach():
-    """Steps of equal approach resolve the soft start. Measured 2.0 on average of three halvings."""
+    """Measured 2.1 on average of three halvings."""
     problem = posed("constant", asp.Free())
     errors = []
     for steps in (4, 8, 16, 32):

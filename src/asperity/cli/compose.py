@@ -7,13 +7,15 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ..core.errors import InputError
+from ..core import units
+from ..core.errors import InputError, UnitError
 from ..io.schemas.body_text import SYMBOLS, body_from_text
+from ..io.schemas.values import EFFECTIVE, FROM_BODY, NONE
 from .options import BodyOptions, ReadingOptions, SolveOptions
 from .preparing import PreparationOptions, steps
 
 CONTROLS = MappingProxyType(
-    {"mean_pressure": "pressure", "force": "load", "approach": "approach", "mean_gap": "mean_gap"}
+    {"mean_pressure": "pressure", "force": "load", "approach": "approach", "mean_gap": "mean_gap", "path": "path"}
 )
 """Option that gives each control of the document."""
 
@@ -25,6 +27,8 @@ NAMES = MappingProxyType(
             for table in ("surface", "counter_surface")
             for key in ("channel", "size", "height_unit", "z_scale", "mirror")
         },
+        **{f"control.path.{key}": "--path" for key in ("mean_pressure", "force", "approach")},
+        "control.path.steps": "--path-steps",
         "counter_surface.place.shift": "--shift",
         "counter_surface.place.angle": "--rotate",
         "boundary.kind": "--boundary",
@@ -41,6 +45,10 @@ NAMES = MappingProxyType(
 
 WORDS = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"))
 """What the user calls a key of a part of a body, and the key."""
+
+
+WORDS_OF_HARDNESS = MappingProxyType({"body": FROM_BODY, FROM_BODY: FROM_BODY, EFFECTIVE: EFFECTIVE})
+"""Words for a hardness on the command line, and in the document."""
 
 
 def composed(
@@ -72,17 +80,8 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions)
     if bodies.boundary is not None:
         result["boundary"] = {"kind": bodies.boundary}
     if bodies.hardness is not None:
-        from_body = bodies.hardness.strip().casefold() in {"body", "from body"}
-        result["law"] = {"kind": "hardness", "hardness": "from body" if from_body else bodies.hardness}
-    given = {key: getattr(solve, option) for key, option in CONTROLS.items() if getattr(solve, option) is not None}
-    if len(given) > 1 or (not given and "control" not in table):
-        options = [NAMES[f"control.{key}"] for key in given]
-        choices = ", ".join(NAMES[f"control.{key}"] for key in CONTROLS)
-        raise InputError(
-            f"load must be given by exactly one of {choices}, but is given by {' and '.join(options) or 'none'}."
-        )
-    if given:
-        result["control"] = given
+        result["law"] = {"kind": "hardness", "hardness": WORDS_OF_HARDNESS.get(_word(bodies.hardness), bodies.hardness)}
+    result["control"] = _control(table, solve)
     settings = {"method": solve.solver, "tolerance": solve.tolerance}
     settings |= {"max_iterations": solve.max_iterations, "precision": solve.precision, "threads": solve.threads}
     stated = {key: value for key, value in settings.items() if value is not None}
@@ -90,6 +89,60 @@ def overlaid(table: Mapping[str, Any], bodies: BodyOptions, solve: SolveOptions)
     if stated and isinstance(before, dict):
         result["solver"] = {**before, **stated}
     return result
+
+
+def _control(table: Mapping[str, Any], solve: SolveOptions) -> Any:
+    """The load that options give, or that of ``table``."""
+    given = {key: getattr(solve, option) for key, option in CONTROLS.items() if getattr(solve, option) is not None}
+    if len(given) > 1 or (not given and "control" not in table):
+        options = [NAMES[f"control.{key}"] for key in given]
+        choices = ", ".join(NAMES[f"control.{key}"] for key in CONTROLS)
+        raise InputError(
+            f"load must be given by exactly one of {choices}, but is given by {' and '.join(options) or 'none'}."
+        )
+    if "path" in given:
+        given["path"] = path_table(given["path"])
+    control = given or table["control"]
+    return control if solve.path_steps is None else with_steps(control, solve.path_steps)
+
+
+def _word(text: str) -> str:
+    return text.strip().casefold()
+
+
+def path_table(text: str) -> dict[str, Any]:
+    """Table of the load path in ``text``: the unit of its first value other than zero says what is prescribed."""
+    points = [part.strip() for part in text.split(",")]
+    loads = [point for point in points if point != NONE]
+    kinds = {"mean_pressure": "pressure", "force": "force", "approach": "length"}
+    for key, kind in kinds.items():
+        try:
+            units.parse(loads[0] if loads else "", kind, "")
+        except UnitError:
+            continue
+        return {key: points}
+    raise InputError(
+        '--path must be pressures, forces or lengths with units, separated by commas, such as "50MPa,0,80MPa", '
+        f"but is {text!r}."
+    )
+
+
+def path_names(table: Mapping[str, Any]) -> dict[str, str]:
+    """What the user calls the turning points of the load path in ``table``."""
+    path = table["control"].get("path", {})
+    return {
+        f"control.path.{key}[{number}]": f"turning point {number} of --path"
+        for key, points in path.items()
+        if isinstance(points, list)
+        for number in range(1, len(points) + 1)
+    }
+
+
+def with_steps(control: Any, steps: int) -> dict[str, Any]:
+    """Table ``control`` with other steps of its load path."""
+    if not isinstance(control, dict) or not isinstance(control.get("path"), dict):
+        raise InputError("--path-steps must be given together with a load path (--path) only, but is given without.")
+    return {**control, "path": {**control["path"], "steps": steps}}
 
 
 def body_table(text: str, option: str, materials_file: Path | None) -> dict[str, Any]:

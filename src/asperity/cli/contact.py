@@ -74,13 +74,13 @@ def _from_options(
 ) -> tuple[dict[str, Any], dict[str, str]]:
     """Document without its stresses, and what the user calls its keys."""
     from ..core.errors import InputError
-    from .compose import NAMES, body_names, composed, overlaid
+    from .compose import NAMES, body_names, composed, overlaid, path_names
     from .preparing import step_names
 
     if file is None:
         raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
     table = overlaid(composed(file, reading, preparation, bodies), bodies, solve)
-    return table, {**NAMES, **body_names(table), **step_names(table["surface"]["prepare"])}
+    return table, {**NAMES, **body_names(table), **path_names(table), **step_names(table["surface"]["prepare"])}
 
 
 def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:

@@ -92,7 +92,8 @@ class BodyOptions:
         str | None,
         _option(
             "--hardness",
-            'Limit of the pressure, or "body" for the lower known hardness of the materials at the surfaces.',
+            'Limit of the pressure, "body" for the lower known hardness of the materials at the surfaces, or "effective" for '
+            "that of the softer body with its layers, by depth.",
             BODIES,
             "PRESSURE",
         ),
@@ -111,6 +112,15 @@ class SolveOptions:
     load: Annotated[str | None, _option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
     approach: Annotated[str | None, _option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
     mean_gap: Annotated[str | None, _option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
+    path: Annotated[
+        str | None,
+        _option(
+            "--path", "Load path through turning points: 50MPa,0,80MPa (or forces, or approaches).", LOAD, "VALUE,…"
+        ),
+    ] = None
+    path_steps: Annotated[
+        int | None, _option("--path-steps", "Steps from one turning point to the next; 10 by default.", LOAD)
+    ] = None
     solver: Annotated[
         str | None, _option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
     ] = None

@@ -11,6 +11,7 @@ from .options import OutputOptions
 
 if TYPE_CHECKING:
     from ..contact.finding import Advice
+    from ..contact.path import LoadPath
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..io.build import Case
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 """What a run leaves in its folder."""
 
+PATH_NAMES = ("path.nc", "path.csv")
+"""What a load path leaves there as well: its steps, and their scalars and energies."""
+
 
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
@@ -28,33 +32,65 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.atomic import require_new_files
     from ..io.build import build
     from ..io.documents import relocated
-    from .show import print_advice, print_files, print_result
+    from .show import print_advice, print_files, print_path, print_result
     from .stress_run import output_folder, print_stress, surveyed, write_volume
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with output_folder(output) as folder:
-        result = _solved(case, chosen=_chooses_solver(document))
+        path = _ran(case) if case.path else None
+        result = path.results[-1] if path is not None else _solved(case, chosen=_chooses_solver(document))
         asked, lines = case.stress, folder is not None
         stress = None if asked is None else surveyed(asked, result, lines=lines, threads=case.threads)
         findings = (*before, *review(result))
         if folder is not None and output.out is not None:
             moved = relocated(document, base_folder, output.out)
-            _write_folder(Run(result, findings, moved, stress), folder)
+            _write_folder(Run(result, findings, moved, stress, path), folder)
     _write_files(result, document, base_folder, output)
     print_result(result, document.title)
+    if path is not None:
+        print_path(path)
     if stress is not None:
         write_volume(stress, output)
         print_stress(stress)
     print_advice(findings)
-    print_files(_written(output, stressed=stress is not None))
-    return OK if result.converged else NOT_CONVERGED
+    print_files(_written(output, stressed=stress is not None, along_path=path is not None))
+    return OK if (result if path is None else path).converged else NOT_CONVERGED
 
 
 def _chooses_solver(document: ProblemDocument) -> bool:
     """Whether the user has said anything of the method."""
     return any(value is not None for key, value in document.solver if key != "threads")
+
+
+def _ran(case: Case) -> LoadPath:
+    """The load path of ``case``; steps that do not converge are among its results.
+
+    Raises
+    ------
+    InputError
+        If shear traction is to change the pressure, too.
+    """
+    from ..contact.path import solve_path
+    from ..core.engine import CpuEngine
+    from ..core.errors import InputError
+    from .interrupt import interruptible
+    from .progress import shown
+
+    if case.stress is not None and case.stress.coupled:
+        raise InputError(
+            "stress.coupled (--coupled) must be left out with a load path: a coupled, sliding contact is solved for one load."
+        )
+    with shown(f"solving {len(case.path)} steps") as bar, interruptible(bar) as progress:
+        return solve_path(
+            case.problem,
+            case.path,
+            solver=case.solver,
+            engine=CpuEngine(case.threads),
+            progress=progress,
+            on_failure="return",
+        )
 
 
 def _solved(case: Case, *, chosen: bool) -> ContactResult:
@@ -101,20 +137,23 @@ def _slid(case: Case, stress: StressRequest, solver: Solver | None) -> ContactRe
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a run has found: result, findings, the document with paths from its folder, and the stresses if any."""
+    """What a run has found: result, findings, the document with paths from its folder, and stresses and load path if any."""
 
     result: ContactResult
     findings: tuple[Advice, ...]
     document: ProblemDocument
     stress: StressSurvey | None
+    path: LoadPath | None
 
 
 def _write_folder(run: Run, folder: Path) -> None:
     """Write everything into ``folder``."""
     from ..io.documents import dumps, save_document
     from ..io.export import export_csv
+    from ..io.path_files import export_path_csv, save_path
     from ..io.results import save
     from ..plots.figures import save_plots
+    from ..plots.path_figures import save_path_plots
     from ..report import write_report
     from .stress_run import write_stress
 
@@ -124,8 +163,12 @@ def _write_folder(run: Run, folder: Path) -> None:
     export_csv(result, folder / "scalars.csv")
     save_plots(result, folder / "plots")
     part = None if run.stress is None else write_stress(run.stress, folder)
+    if run.path is not None:
+        save_path(run.path, folder / PATH_NAMES[0], document=text)
+        export_path_csv(run.path, folder / PATH_NAMES[1])
+        save_path_plots(run.path, folder / "plots")
     page, title = folder / "report.html", run.document.title
-    write_report(result, page, advice=run.findings, document=text, title=title, stress=part)
+    write_report(result, page, advice=run.findings, document=text, title=title, stress=part, load_path=run.path)
 
 
 def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
@@ -146,9 +189,9 @@ def _single_files(output: OutputOptions) -> list[Path]:
     return [path for path in files if path is not None]
 
 
-def _written(output: OutputOptions, *, stressed: bool) -> list[Path]:
+def _written(output: OutputOptions, *, stressed: bool, along_path: bool) -> list[Path]:
     from .stress_run import FOLDER, TABLE
 
-    names = [*NAMES_IN_FOLDER, *((FOLDER, TABLE) if stressed else ())]
+    names = [*NAMES_IN_FOLDER, *((FOLDER, TABLE) if stressed else ()), *(PATH_NAMES if along_path else ())]
     inside = [] if output.out is None else [output.out / name for name in names]
     return [*inside, *_single_files(output)]

@@ -16,7 +16,9 @@ def plot(
     kind: Annotated[
         str,
         typer.Option(
-            "--kind", help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram."
+            "--kind",
+            help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram; of an indented surface "
+            "also indentation and residual.",
         ),
     ] = "all",
     out: Annotated[Path, typer.Option("--out", help="Folder of the pictures, made if missing.")] = Path(),
@@ -26,10 +28,11 @@ def plot(
     from ..core import require
     from ..io.atomic import atomic_file
     from ..io.results import load
-    from ..plots.figures import PLOTS, render, save_plots
+    from ..plots.figures import PLASTIC_PLOTS, PLOTS, render, save_plots
     from .show import print_files
 
-    require.one_of(kind, ("all", *(item.name for item in PLOTS)), "--kind")
+    every = (*PLOTS, *PLASTIC_PLOTS)
+    require.one_of(kind, ("all", *(item.name for item in every)), "--kind")
     result = load(file)
     if kind == "all":
         print_files(save_plots(result, out, overwrite=force))
@@ -37,7 +40,7 @@ def plot(
     _make(out)
     path = out / f"{kind}.png"
     with atomic_file(path, overwrite=force) as partial:
-        partial.write_bytes(render(next(item for item in PLOTS if item.name == kind), result))
+        partial.write_bytes(render(next(item for item in every if item.name == kind), result))
     print_files([path])
 
 

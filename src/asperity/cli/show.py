@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ..contact.finding import Advice
+    from ..contact.path import LoadPath
     from ..contact.result import ContactResult
     from ..surfaces.surface import Surface
 
@@ -116,6 +117,16 @@ def print_result(result: ContactResult, title: str) -> None:
     say(result.status.message, "green" if result.converged else "bold red")
     if result.status.remedy:
         say(result.status.remedy, "red")
+
+
+def print_path(path: LoadPath) -> None:
+    """Print where the load of ``path`` turns, and where its work went."""
+    from ..report.plasticity import energy_table, path_sentence, turn_table
+
+    out = console()
+    for title, made in (("Load path", turn_table(path)), ("Energies", energy_table(path))):
+        out.print(table(title, made.cells, made.headings))
+    say(path_sentence(path), "" if path.converged else "bold red")
 
 
 def print_advice(findings: Iterable[Advice]) -> None:

@@ -79,6 +79,12 @@ class LoadPath:
         return self._scalars("plastic_work")
 
     @property
+    def turns(self) -> tuple[int, ...]:
+        """Index of every step after which the load changes direction, and of the last step."""
+        rises = np.diff(self.mean_pressure) > 0.0
+        return (*(int(step) + 1 for step in np.flatnonzero(np.diff(rises.astype(int)))), len(self.results) - 1)
+
+    @property
     def converged(self) -> bool:
         """Whether every step reached its tolerance."""
         return all(result.converged for result in self.results)

@@ -1,4 +1,4 @@
-"""Courses of a load or position from turning point to turning point, in equal steps."""
+"""Courses of a load or position from turning point to turning point, step by step."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core import require
+from ..core.arrays import RealArray
 from ..core.errors import InputError
 from .control import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 
@@ -27,7 +28,8 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
         Values in SI units, >= 0, in order; for example ``[50e6, 0, 80e6]`` to load, unload and load again. Zero is no
         load (``Unloaded``). A path starts at zero, except of ``MeanGap``, which starts at its first value.
     steps
-        Number of equal steps from each turning point to the next.
+        Number of steps from each turning point to the next. They are equal, but where a load begins or ends at zero they
+        grow with the distance from it, load = (k/steps)² of the other end: a light contact changes fastest.
 
     Raises
     ------
@@ -44,6 +46,19 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
         raise InputError("turning points of a load path must hold at least one value greater than zero, but hold none.")
     if any(low == high for low, high in itertools.pairwise(points)):
         raise InputError(f"neighbouring turning points of a load path must differ, but are {values}.")
-    legs = [np.linspace(start, end, steps + 1)[1:] for start, end in itertools.pairwise(points)]
+    graded = kind in (MeanPressure, Force)
+    legs = [_leg(start, end, steps, graded=graded) for start, end in itertools.pairwise(points)]
     course = [*(points[:1] if kind is MeanGap else []), *(float(value) for leg in legs for value in leg)]
     return tuple(kind(value) if value > 0.0 or kind is MeanGap else Unloaded() for value in course)
+
+
+def _leg(start: float, end: float, steps: int, *, graded: bool) -> RealArray:
+    """Values after each of the ``steps`` from ``start`` to ``end``; ``graded`` ones are denser towards a zero."""
+    share = np.arange(1, steps + 1) / steps
+    if graded and start == 0.0:
+        share = share**2
+    elif graded and end == 0.0:
+        share = 1.0 - (1.0 - share) ** 2
+    values: RealArray = start + share * (end - start)
+    values[-1] = end
+    return values

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
-from ..contact.laws import Hardness, HardWall, InterfaceLaw
+from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
 from ..contact.problem import ContactProblem, Flat
+from ..contact.ramps import Ramped, ramps
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
@@ -22,19 +23,31 @@ from ..stress.request import Planned, StressRequest
 from .build_body import build_body
 from .build_stress import build_stress, check_stress
 from .build_surface import build_surfaces
-from .schemas.problem import BoundaryTable, ControlTable, HardnessTable, LawTable, ProblemDocument, SolverTable
-from .schemas.values import FROM_BODY
+from .schemas.problem import (
+    BoundaryTable,
+    ControlTable,
+    HardnessTable,
+    LawTable,
+    PathTable,
+    ProblemDocument,
+    SolverTable,
+)
+from .schemas.values import EFFECTIVE, FROM_BODY, NONE
 
 
 @dataclass(frozen=True)
 class Case:
-    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any the ``stress``."""
+    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any the ``stress``.
+
+    A load path is the sequence of controls in ``path``, the last of which is ``control``; it is empty for a single load.
+    """
 
     problem: ContactProblem
     control: Control
     solver: Solver
     threads: int | None = None
     stress: StressRequest | None = None
+    path: tuple[Control, ...] = ()
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -67,7 +80,9 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     stress = None if document.stress is None else build_stress(document.stress)
     if stress is not None:
         check_stress(stress, problem)
-    return Case(problem, build_control(document.control), solver, document.solver.threads, stress)
+    path = () if document.control.path is None else build_path(document.control.path)
+    control = path[-1] if path else build_control(document.control)
+    return Case(problem, control, solver, document.solver.threads, stress, path)
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:
@@ -78,24 +93,55 @@ def build_boundary(table: BoundaryTable) -> Boundary:
 
 
 def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
-    """Law that ``table`` names; a hardness from the body is the lower known one, of its top layer where it is coated."""
+    """Law that ``table`` names; a hardness from the body is the lower known one, of its top layer where it is coated.
+
+    An effective hardness is that of the body with the lower hardness at its surface, which takes the indentation.
+    """
     if not isinstance(table, HardnessTable):
         return HardWall()
-    if table.hardness != FROM_BODY:
+    if table.hardness not in (FROM_BODY, EFFECTIVE):
         return Hardness(_pressure(table.hardness))
-    surfaces = [solid for solid in map(surface_material, bodies) if solid is not None]
-    known = [solid.strength.hardness for solid in surfaces if not math.isnan(solid.strength.hardness)]
+    tops = [(solid.strength.hardness, body) for body in bodies if (solid := surface_material(body)) is not None]
+    known = [(hardness, body) for hardness, body in tops if not math.isnan(hardness)]
     if not known:
         coated = " (of a coated body the top layer counts)" if any(isinstance(b, Layered) for b in bodies) else ""
         raise InputError(
             f"hardness must be known for at least one body to be taken from it, but neither states one{coated}. "
             'Give law.hardness (--hardness) as a pressure, such as "5 GPa".'
         )
-    return Hardness(min(known))
+    hardness, softer = min(known, key=lambda item: item[0])
+    coated_softer = table.hardness == EFFECTIVE and isinstance(softer, Layered) and softer.reduced.layers
+    return LayeredHardness(softer) if coated_softer and isinstance(softer, Layered) else Hardness(hardness)
+
+
+def build_path(table: PathTable) -> tuple[Control, ...]:
+    """The controls of the load path that ``table`` describes."""
+    kinds: dict[str, tuple[Ramped, str]] = {
+        "mean_pressure": (MeanPressure, "pressure"),
+        "force": (Force, "force"),
+        "approach": (Approach, "length"),
+        "mean_gap": (MeanGap, "length"),
+    }
+    name = next(key for key in kinds if getattr(table, key) is not None)
+    kind, quantity = kinds[name]
+    texts: tuple[str, ...] = getattr(table, name)
+    points = [0.0 if text == NONE else units.parse(text, quantity, f"control.path.{name}") for text in texts]
+    return ramps(kind, points, steps=table.steps)
 
 
 def build_control(table: ControlTable) -> Control:
-    """The one control that ``table`` gives."""
+    """The one control that ``table`` gives.
+
+    Raises
+    ------
+    InputError
+        If it gives a load path.
+    """
+    if table.path is not None:
+        raise InputError(
+            "control must be one load or position here, but is a load path. Give control.mean_pressure, force, approach or "
+            "mean_gap."
+        )
     if table.mean_pressure is not None:
         return MeanPressure(_pressure(table.mean_pressure))
     if table.force is not None:

@@ -1,8 +1,10 @@
 """Layer 4: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
 
-from .figures import PLOTS, Plot, render, save_plots, save_surface_plot
+from .figures import PLASTIC_PLOTS, PLOTS, Plot, render, save_plots, save_surface_plot
 from .histogram import plot_gap_histogram, plot_pressure_histogram
-from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
+from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
+from .path_curves import plot_area_loop, plot_energies, plot_load_loop
+from .path_figures import PATH_PLOTS, PathPlot, render_path_plot, save_path_plots
 from .section import plot_section
 from .spectrum import plot_scale_dependence, plot_spectrum
 from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
@@ -12,19 +14,27 @@ from .surface_figures import SURFACE_PLOTS, SurfacePlot, render_surface_plot, sa
 from .surface_view import plot_summits, plot_surface_view
 
 __all__ = [
+    "PATH_PLOTS",
+    "PLASTIC_PLOTS",
     "PLOTS",
     "SURFACE_PLOTS",
+    "PathPlot",
     "Plot",
     "SurfacePlot",
+    "plot_area_loop",
     "plot_autocorrelation",
     "plot_contact",
+    "plot_energies",
     "plot_gap",
     "plot_gap_histogram",
     "plot_height_distribution",
     "plot_heights",
+    "plot_indentation",
+    "plot_load_loop",
     "plot_material_ratio",
     "plot_pressure",
     "plot_pressure_histogram",
+    "plot_residual",
     "plot_scale_dependence",
     "plot_section",
     "plot_spectrum",
@@ -34,7 +44,9 @@ __all__ = [
     "plot_summits",
     "plot_surface_view",
     "render",
+    "render_path_plot",
     "render_surface_plot",
+    "save_path_plots",
     "save_plots",
     "save_roughness_plots",
     "save_surface_plot",

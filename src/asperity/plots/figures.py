@@ -12,7 +12,7 @@ from ..contact.result import ContactResult
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .histogram import plot_gap_histogram, plot_pressure_histogram
-from .maps import plot_contact, plot_gap, plot_heights, plot_pressure
+from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
 from .picture import CURVE_SIZE, map_size, png, save_pictures
 from .section import plot_section
 
@@ -74,6 +74,27 @@ PLOTS = (
 )
 """The standard figures of a result in the order of a report."""
 
+PLASTIC_PLOTS = (
+    Plot(
+        "indentation",
+        "Plastic zone",
+        "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
+        plot_indentation,
+    ),
+    Plot(
+        "residual",
+        "Residual surface",
+        "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
+        plot_residual,
+    ),
+)
+"""The figures of a result that is permanently indented."""
+
+
+def plots_of(result: ContactResult) -> tuple[Plot, ...]:
+    """Figures that say something of ``result``: the standard ones, and those of its plastic zone if it has any."""
+    return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
+
 
 def render(plot: Plot, result: ContactResult) -> bytes:
     """PNG of ``plot`` for ``result``."""
@@ -89,7 +110,9 @@ def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = F
     OutputError
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    return save_pictures({plot.name: partial(render, plot, result) for plot in PLOTS}, folder, overwrite=overwrite)
+    return save_pictures(
+        {plot.name: partial(render, plot, result) for plot in plots_of(result)}, folder, overwrite=overwrite
+    )
 
 
 def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:

@@ -49,6 +49,17 @@ def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes
     return plot_field(pressure, result.problem.grid, ax, look)
 
 
+def plot_indentation(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the permanent indentation of ``result`` on ``ax``: the plastic zone; grey where the surface never yielded."""
+    dents = np.where(result.indented, result.permanent_indentation, np.nan)
+    return plot_field(dents, result.problem.grid, ax, Look("m", "permanent indentation", PRESSURE_MAP))
+
+
+def plot_residual(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the heights of the composite surface that is left of ``result`` when the load is taken away on ``ax``."""
+    return plot_heights(result.residual_surface(), ax)
+
+
 def plot_contact(result: ContactResult, ax: Axes) -> Axes:
     """Draw where the bodies of ``result`` touch on ``ax``: not, elastically, or at the hardness."""
     from matplotlib.colors import ListedColormap

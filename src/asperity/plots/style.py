@@ -50,7 +50,7 @@ SETTINGS: Any = {
 }
 """Settings of figures that this package makes; axes handed in by a caller keep the caller's."""
 
-KINDS = {"m": "length", "Pa": "pressure"}
+KINDS = {"m": "length", "Pa": "pressure", "J": "energy"}
 """Kind of quantity by SI unit."""
 
 
@@ -67,7 +67,7 @@ class Scale:
 
 
 def scale(values: RealArray | float, unit: str) -> Scale:
-    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``, m or Pa) lies between 1 and 1000."""
+    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``, m, Pa or J) lies between 1 and 1000."""
     magnitude = np.abs(np.asarray(values, dtype=float))
     largest = float(magnitude.max(initial=0.0, where=np.isfinite(magnitude)))
     symbol = units.show(largest, unit).split(" ")[1]

@@ -17,6 +17,7 @@ from ..stress.regions import Region
 from ..stress.survey import StressSurvey
 from ..stress.yielding import RegionYield
 from .inputs import Rows
+from .tables import Table
 
 Part = TypeVar("Part", RegionMaxima, RegionYield)
 
@@ -27,14 +28,6 @@ class StressPart:
 
     survey: StressSurvey
     figures: tuple[Figure, ...] = ()
-
-
-@dataclass(frozen=True)
-class Table:
-    """Headings and cells of a table of text."""
-
-    headings: tuple[str, ...]
-    cells: tuple[tuple[str, ...], ...]
 
 
 def setting_rows(survey: StressSurvey) -> Rows:

@@ -8,16 +8,19 @@ from pathlib import Path
 from typing import Any
 
 from ..contact.finding import Advice
+from ..contact.path import LoadPath
 from ..contact.result import ContactResult
 from ..core.citations import REFERENCES
 from ..core.errors import InputError
 from ..io.atomic import atomic_file
 from ..io.provenance import provenance
-from ..plots.figures import PLOTS, render
+from ..plots.figures import PLASTIC_PLOTS, PLOTS, render
+from ..plots.path_figures import PATH_PLOTS, render_path_plot
 from .bodies import body_rows
 from .inputs import Rows, surface_rows
 from .outputs import certificate_rows, headline_rows, result_rows, summary
 from .page import rendered
+from .plasticity import energy_table, path_sentence, plastic_rows, turn_table
 from .settings import setting_rows
 from .stress import (
     StressPart,
@@ -42,6 +45,7 @@ def write_report(
     document: str | None = None,
     title: str = "",
     stress: StressPart | None = None,
+    load_path: LoadPath | None = None,
     overwrite: bool = False,
 ) -> None:
     """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
@@ -60,6 +64,8 @@ def write_report(
         Heading; made from the source of the surface if empty.
     stress
         Stresses inside a body and their figures, as of ``asperity contact``.
+    load_path
+        The path whose last step is ``result``.
     overwrite
         Whether an existing file is replaced.
 
@@ -74,11 +80,16 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(result, advice, document, title or _title(result), stress), encoding="utf-8")
+        file.write_text(_html(result, advice, document, title or _title(result), stress, load_path), encoding="utf-8")
 
 
 def _html(
-    result: ContactResult, advice: Sequence[Advice], document: str | None, title: str, stress: StressPart | None
+    result: ContactResult,
+    advice: Sequence[Advice],
+    document: str | None,
+    title: str,
+    stress: StressPart | None,
+    load_path: LoadPath | None,
 ) -> str:
     warnings = [item for item in advice if item.level == "warning"]
     return rendered(
@@ -91,6 +102,8 @@ def _html(
         certificate=certificate_rows(result),
         results=result_rows(result),
         figures=[_shown(plot.title, plot.caption, render(plot, result)) for plot in PLOTS],
+        plastic=_plastic(result),
+        path=None if load_path is None else _path(load_path),
         stress=None if stress is None else _stress(stress),
         warnings=warnings,
         notes=[item for item in advice if item.level != "warning"],
@@ -119,6 +132,21 @@ def _inputs(result: ContactResult) -> list[tuple[str, Rows]]:
 def _shown(title: str, caption: str, picture: bytes) -> dict[str, str]:
     """A figure for the template: the picture as base64."""
     return {"title": title, "caption": caption, "picture": base64.b64encode(picture).decode("ascii")}
+
+
+def _plastic(result: ContactResult) -> dict[str, Any] | None:
+    """The part on plastic deformation for the template; None where nothing has yielded."""
+    if not result.indented.any():
+        return None
+    figures = [_shown(plot.title, plot.caption, render(plot, result)) for plot in PLASTIC_PLOTS]
+    return {"rows": plastic_rows(result), "figures": figures}
+
+
+def _path(path: LoadPath) -> dict[str, Any]:
+    """The part on the load path for the template."""
+    tables = [("Where the load turns", turn_table(path)), ("Energies from the start of the path", energy_table(path))]
+    figures = [_shown(plot.title, plot.caption, render_path_plot(plot, path)) for plot in PATH_PLOTS]
+    return {"summary": path_sentence(path), "tables": tables, "figures": figures}
 
 
 def _stress(part: StressPart) -> dict[str, Any]:

@@ -217,9 +217,21 @@ CONTROLS = st.one_of(
     st.fixed_dictionaries({"force": quantities("N", "mN")}),
     st.fixed_dictionaries({"approach": LENGTHS}),
     st.fixed_dictionaries({"mean_gap": LENGTHS}),
+    st.fixed_dictionaries(
+        {
+            "path": st.one_of(
+                st.fixed_dictionaries({key: st.lists(values, min_size=1, max_size=4)}, optional={"steps": COUNTS})
+                for key, values in (
+                    ("mean_pressure", PRESSURES | st.just("0")),
+                    ("force", st.just("0 N")),
+                    ("approach", LENGTHS),
+                )
+            )
+        }
+    ),
 )
 LAWS = st.just({"kind": "hard_wall"}) | st.fixed_dictionaries(
-    {"kind": st.just("hardness"), "hardness": PRESSURES | st.just("from body")}
+    {"kind": st.just("hardness"), "hardness": PRESSURES | st.sampled_from(["from body", "effective"])}
 )
 SOLVERS = st.fixed_dictionaries(
     {},
@@ -327,8 +339,25 @@ def test_documents_do_not_change() -> None:
         ({"control": {"mean_pressure": "50 kPq"}}, "control.mean_pressure has the unknown unit 'kPq'"),
         ({"control": {"force": "0 N"}}, "control.force must be greater than zero, but is '0 N'."),
         ({"control": {"approach": "-1 nm"}}, "control.approach must be greater than zero, but is '-1 nm'."),
-        ({"control": {}}, "control must give exactly one of mean_pressure, force, approach, mean_gap, but gives none."),
+        (
+            {"control": {}},
+            "control must give exactly one of mean_pressure, force, approach, mean_gap, path, but gives none.",
+        ),
         ({"control": {"force": "1 N", "approach": "1 nm"}}, "but gives force and approach."),
+        (
+            {"control": {"path": {}}},
+            "control.path must give exactly one of mean_pressure, force, approach, mean_gap, but",
+        ),
+        ({"control": {"path": {"force": []}}}, "control.path.force must hold at least one turning point"),
+        (
+            {"control": {"path": {"force": ["1 N", "-1 N"]}}},
+            "control.path.force[2] must be zero or greater, but is '-1 N'.",
+        ),
+        ({"control": {"path": {"force": ["1 nm"]}}}, "control.path.force[1] must be a force"),
+        (
+            {"control": {"path": {"force": ["1 N"], "steps": 0}}},
+            "control.path.steps must be a whole number of at least 1",
+        ),
         ({"control": None}, "control must be given, but is missing."),
         ({"control": "50 kPa"}, "control must be a table, but is '50 kPa'."),
         ({"bondary": {}}, "bondary is not a known key; did you mean boundary?"),

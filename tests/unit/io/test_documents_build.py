@@ -23,6 +23,7 @@ from asperity import (
     InputError,
     Layer,
     Layered,
+    LayeredHardness,
     LinearGrading,
     MeanGap,
     MeanPressure,
@@ -33,12 +34,13 @@ from asperity import (
     Strength,
     Surface,
     Tresca,
+    Unloaded,
     graded,
     material,
 )
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
-from asperity.io.build import build
+from asperity.io.build import build, build_control
 from asperity.io.build_generated import FUNCTIONS, build_spectrum
 from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
@@ -360,6 +362,38 @@ def test_hardness_of_a_coated_body_is_that_of_its_top_layer() -> None:
     unknown = "E=100GPa,nu=0.3:5nm/E=100GPa,nu=0.3,H=2GPa"
     with pytest.raises(InputError, match="of a coated body the top layer counts"):
         build(checked(table(law=law, body=unknown)))
+
+
+def test_effective_hardness_is_that_of_the_softer_body_with_its_layers() -> None:
+    law = {"kind": "hardness", "hardness": "effective"}
+    coated = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3,H=2GPa"
+    found = build(checked(table(law=law, body=coated))).problem
+    assert isinstance(found.law, LayeredHardness)
+    assert found.law.body == found.body
+    assert build(checked(table(law=law))).problem.law.pressure_cap() == pytest.approx(5e9)  # one material
+    softer = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.3, "hardness": "1 GPa"}
+    assert isinstance(build(checked(table(law=law, body=coated, counter_body=softer))).problem.law, Hardness)
+    bare = "E=100GPa,nu=0.3,H=9GPa:0nm/E=100GPa,nu=0.3,H=2GPa"
+    assert build(checked(table(law=law, body=bare))).problem.law.pressure_cap() == pytest.approx(2e9)
+    unknown = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3"
+    with pytest.raises(InputError, match="in the base must be known"):
+        build(checked(table(law=law, body=unknown)))
+
+
+def test_load_path() -> None:
+    path = {"mean_pressure": ["2 MPa", "0", "3 MPa"], "steps": 2}
+    case = build(checked(table(control={"path": path})))
+    assert [control.value for control in case.path] == pytest.approx([0.5e6, 2e6, 0.5e6, 0.0, 0.75e6, 3e6])
+    assert case.path[3] == Unloaded()
+    assert case.control == case.path[-1] == MeanPressure(3e6)
+    assert build(checked(table())).path == ()
+    for key, value, kind in (("force", "1 mN", Force), ("approach", "2 nm", Approach), ("mean_gap", "3 nm", MeanGap)):
+        case = build(
+            checked(table(control={"path": {key: [value, value.replace("2", "1")][: 1 + (key == "approach")]}}))
+        )
+        assert isinstance(case.control, kind)
+    with pytest.raises(InputError, match="must be one load or position here, but is a load path"):
+        build_control(checked(table(control={"path": path})).control)
 
 
 def test_line_contact() -> None:

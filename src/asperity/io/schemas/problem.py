@@ -10,13 +10,31 @@ from ...core.errors import InputError
 from .bodies import BodyTable
 from .stress import StressTable
 from .surfaces import FileSurface, SurfaceTable
-from .values import Count, Force, Fraction, Length, Method, Pressure, PressureOrBody, Table
+from .values import (
+    Count,
+    Force,
+    Fraction,
+    Length,
+    Method,
+    PathForces,
+    PathLengths,
+    PathPressures,
+    Pressure,
+    PressureOrBody,
+    Table,
+)
 
 VERSION = 1
 """Version of the document that this package reads and writes."""
 
-CONTROLS = ("mean_pressure", "force", "approach", "mean_gap")
+LOADS = ("mean_pressure", "force", "approach", "mean_gap")
+"""What can be prescribed."""
+
+CONTROLS = (*LOADS, "path")
 """Keys of the table [control], of which exactly one is given."""
+
+STEPS = 10
+"""Steps from one turning point of a load path to the next, if not said otherwise."""
 
 
 class BoundaryTable(Table):
@@ -52,6 +70,24 @@ LawTable: TypeAlias = Annotated[HardWallTable | HardnessTable, Field(discriminat
 """One interface law, told apart by the key ``kind``."""
 
 
+class PathTable(Table):
+    """A load or position that runs from zero through turning points: exactly one list of them, and ``steps`` from one to the next.
+
+    Zero, with or without a unit, takes the load away. A mean gap starts at its first value and is never zero.
+    """
+
+    mean_pressure: PathPressures | None = None
+    force: PathForces | None = None
+    approach: PathLengths | None = None
+    mean_gap: PathLengths | None = None
+    steps: Count = STEPS
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> PathTable:
+        _require_one(self, LOADS)
+        return self
+
+
 class ControlTable(Table):
     """What is prescribed: exactly one of these."""
 
@@ -59,15 +95,18 @@ class ControlTable(Table):
     force: Force | None = None
     approach: Length | None = None
     mean_gap: Length | None = None
+    path: PathTable | None = None
 
     @model_validator(mode="after")
     def _exactly_one(self) -> ControlTable:
-        given = [key for key in CONTROLS if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise InputError(
-                f" must give exactly one of {', '.join(CONTROLS)}, but gives {' and '.join(given) or 'none'}."
-            )
+        _require_one(self, CONTROLS)
         return self
+
+
+def _require_one(table: Table, keys: tuple[str, ...]) -> None:
+    given = [key for key in keys if getattr(table, key) is not None]
+    if len(given) != 1:
+        raise InputError(f" must give exactly one of {', '.join(keys)}, but gives {' and '.join(given) or 'none'}.")
 
 
 class SolverTable(Table):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -14,6 +14,12 @@ from ...solids.elastic import INCOMPRESSIBLE
 
 FROM_BODY = "from body"
 """Hardness that stands for the lowest known hardness of the two bodies."""
+
+EFFECTIVE = "effective"
+"""Hardness that stands for that of the softer body with all its layers, by the depth of the indentation."""
+
+NONE = "0"
+"""Turning point of a load path without load."""
 
 
 class Table(BaseModel):
@@ -173,11 +179,36 @@ Psd: TypeAlias = Annotated[str, _quantity("power spectrum"), _as_quantity("power
 Pressure: TypeAlias = Annotated[str, _quantity("pressure"), _as_quantity("pressure", "50 kPa")]
 """Text of a pressure > 0."""
 
-PressureOrBody: TypeAlias = Annotated[str, _quantity("pressure", FROM_BODY), _as_quantity("pressure", "5 GPa")]
-"""Text of a pressure > 0, or the words that stand for the hardness of the softer body."""
+PressureOrBody: TypeAlias = Annotated[
+    str, _quantity("pressure", FROM_BODY, EFFECTIVE), _as_quantity("pressure", "5 GPa")
+]
+"""Text of a pressure > 0, or the words that stand for the hardness of the softer body, at its surface or by depth."""
 
 Force: TypeAlias = Annotated[str, _quantity("force"), _as_quantity("force", "1 mN")]
 """Text of a force > 0."""
+
+
+def _points_of_path(value: object) -> object:
+    """A list of at least one as a tuple."""
+    if value in ([], ()):
+        raise InputError(' must hold at least one turning point, such as ["50 MPa", "0", "80 MPa"], but is empty.')
+    return _ordered(value)
+
+
+def _turning_points(kind: str, example: str) -> Any:
+    """List of at least one text of a quantity >= 0; zero may stand without a unit."""
+    one = Annotated[str, _quantity(kind, NONE, check=lambda value: _not_negative(value)), _as_quantity(kind, example)]
+    return Annotated[tuple[one, ...], BeforeValidator(_points_of_path)]
+
+
+if TYPE_CHECKING:
+    PathPressures: TypeAlias = tuple[str, ...]
+    PathForces: TypeAlias = tuple[str, ...]
+    PathLengths: TypeAlias = tuple[str, ...]
+else:
+    PathPressures = _turning_points("pressure", "50 MPa")
+    PathForces = _turning_points("force", "1 mN")
+    PathLengths = _turning_points("length", "5 nm")
 
 Size: TypeAlias = Annotated[str, AfterValidator(_size), _as_quantity("size", "20 um x 20 um")]
 """Text of one or two lengths."""

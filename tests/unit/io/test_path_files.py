@@ -1,0 +1,70 @@
+"""Files of a load path: every step, labelled, with units; energies; a table."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity as asp
+from asperity.contact.result import SCALARS
+from asperity.core.errors import OutputError
+from asperity.io.description import rebuild
+from asperity.io.labels import FIELDS
+
+
+@pytest.fixture(scope="module")
+def path() -> asp.LoadPath:
+    noise = np.random.default_rng(7).standard_normal((16, 12))
+    heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
+    surface = asp.Surface(heights, 2e-8, 1e-8, periodic=True)
+    strong, soft = (asp.Elastic(1e11, 0.3, asp.Strength(hardness=h)) for h in (6e9, 3e9))
+    body = asp.Layered([asp.Layer(strong, 2e-9)], soft)
+    problem = asp.ContactProblem(surface, body, law=asp.LayeredHardness(body))
+    return asp.solve_path(problem, asp.ramps(asp.MeanPressure, [8e8, 0.0], steps=3))
+
+
+def test_every_step_is_in_the_file(path: asp.LoadPath, tmp_path: Path) -> None:
+    asp.save_path(path, tmp_path / "path.nc", document="version = 1")
+    data = asp.open_dataset(tmp_path / "path.nc")
+    assert dict(data.sizes) == {"step": 6, "x": 16, "y": 12}
+    assert data.attrs["document"] == "version = 1"
+    for item in FIELDS:
+        assert data[item.attribute].attrs["units"] == item.unit
+        for step, result in enumerate(path.results):
+            np.testing.assert_array_equal(data[item.attribute][step], getattr(result, item.attribute))
+    for item in SCALARS:
+        np.testing.assert_array_equal(data[item.attribute], [getattr(r, item.attribute) for r in path.results])
+    balance = asp.energy_balance(path)
+    np.testing.assert_array_equal(data["path_external_work"], balance.external_work)
+    np.testing.assert_array_equal(data["path_residual"], balance.residual)
+    assert data["converged"].all()
+    controls = [rebuild(json.loads(text)) for text in json.loads(data.attrs["controls"])]
+    assert controls == [result.control for result in path.results]
+    assert all("units" in data[name].attrs for name in data.data_vars)
+    with pytest.raises(OutputError):
+        asp.save_path(path, tmp_path / "path.nc")
+
+
+def test_the_table_has_a_row_for_each_step(path: asp.LoadPath, tmp_path: Path) -> None:
+    asp.export_path_csv(path, tmp_path / "path.csv")
+    with (tmp_path / "path.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["step"] for row in rows] == ["1", "2", "3", "4", "5", "6"]
+    assert [float(row["plastic_volume (m**3)"]) for row in rows] == [r.plastic_volume for r in path.results]
+    assert [float(row["path_plastic_work (J)"]) for row in rows] == list(np.cumsum(path.plastic_work))
+    assert {row["converged"] for row in rows} == {"True"}
+
+
+def test_a_result_of_a_path_is_read_back(path: asp.LoadPath, tmp_path: Path) -> None:
+    for number, result in enumerate((path.results[2], path.results[-1])):
+        asp.save(result, tmp_path / f"{number}.nc")
+        again = asp.load(tmp_path / f"{number}.nc")
+        assert again.control == result.control
+        assert repr(again.problem.law) == repr(result.problem.law)  # nan is not nan
+        np.testing.assert_array_equal(again.plastic, result.plastic)
+        np.testing.assert_array_equal(again.state.permanent_indentation, result.permanent_indentation)
+        assert again.state.plastic_work == result.total_plastic_work > 0.0
