@@ -114,6 +114,17 @@ def test_the_examples_of_scaling_theories(capsys):
     assert len(capsys.readouterr().out.splitlines()) == 2
 
 
+def test_the_examples_of_single_contacts(capsys):
+    names = {}
+    for number, code in enumerate(blocks(ROOT / "docs/theory/single-contacts.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert "Hertz" in capsys.readouterr().out
+    assert names["answer"].max_pressure[0] == pytest.approx(names["answer"].max_pressure[2] / 100 ** (1 / 3))
+    assert names["onset"].at_surface
+    assert np.all(names["curve"].area_fraction >= names["elastic"].area_fraction)
+    assert names["pressure"] < 0.0 < names["sticky"].reach
+
+
 def commands(path: Path) -> list[str]:
     """Commands `asperity contact` on a scan, without their comments."""
     lines = [line.strip() for block in blocks(path, "console") for line in block.splitlines()]

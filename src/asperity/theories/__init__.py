@@ -11,6 +11,7 @@ from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .hertz import HertzPoint
 from .hertz_ellipse import HertzEllipse
+from .hertz_ellipse_stress import hertz_ellipse_normal
 from .hertz_fields import hertz_normal, hertz_shear
 from .hertz_line import HertzLine
 from .hertz_line_fields import hertz_line_normal, hertz_line_shear
@@ -91,6 +92,7 @@ __all__ = [
     "flamant_normal",
     "flamant_tangential",
     "hardness_coefficient",
+    "hertz_ellipse_normal",
     "hertz_line_normal",
     "hertz_line_shear",
     "hertz_normal",
