@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import Row, reference
+from summit_maps import MAPS, summit_map
 
 import asperity as asp
 from asperity import roughness as r
@@ -160,17 +161,7 @@ def test_developed_area_of_gaussian_slopes(row):
     assert r.developed_area_ratio(scaled) == pytest.approx(row["continuum_value"], rel=2e-3 + 0.02 * slope2)
 
 
-def summit_map(number: float) -> asp.Surface:
-    modes = [row for row in reference("summit_map_modes") if row["map"] == number]
-    n = int(modes[0]["N"])
-    i, j = np.arange(n)[:, None], np.arange(n)[None, :]
-    waves = [
-        row["amplitude_m"] * np.cos(2.0 * np.pi * (row["m"] * i + row["n"] * j) / n + row["phase_rad"]) for row in modes
-    ]
-    return asp.Surface(sum(waves), modes[0]["dx_m"], periodic=True)
-
-
-@pytest.mark.parametrize("number", sorted({row["map"] for row in reference("summit_map_modes")}))
+@pytest.mark.parametrize("number", MAPS)
 def test_summits_of_sums_of_waves(number):
     surface = summit_map(number)
     expected = {(int(row["i"]), int(row["j"])): row for row in reference("summit_map_summits") if row["map"] == number}

@@ -8,6 +8,7 @@ from .anisotropic_summits import AnisotropicSummits
 from .bisinusoid import CrossedWaves
 from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
 from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
+from .discrete_summits import DiscreteSummits
 from .fuller_tabor import FullerTabor
 from .greenwood_tripp import GreenwoodTripp
 from .greenwood_williamson import GreenwoodWilliamson
@@ -17,6 +18,7 @@ from .hertz_ellipse import HertzEllipse
 from .hertz_line import HertzLine
 from .identical_asperities import IdenticalAsperities
 from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
+from .interacting_crests import InteractingCrests
 from .jackson_green import JacksonGreen, JacksonGreenSphere
 from .kogut_etsion import KogutEtsion, KogutEtsionSphere
 from .kotwal_bhushan import KotwalBhushan
@@ -40,6 +42,8 @@ _CLASSES: tuple[type[Described], ...] = (
     JacksonGreen,
     FullerTabor,
     IdenticalAsperities,
+    DiscreteSummits,
+    InteractingCrests,
     GreenwoodTripp,
     McCool,
     OnionsArchard,

@@ -96,16 +96,16 @@ class SinusoidalAsperity:
         return (small_slope("slope of the profile at the edge", np.asarray(steepest)),)
 
 
-def two_term_load(contact_radius: ArrayLike, E_star: float, A1: float, A2: float) -> RealArray:
+def two_term_load(contact_radius: ArrayLike, E_star: float, A1: ArrayLike, A2: ArrayLike) -> RealArray:
     """P in N for the profile A1 r² + A2 r⁴: (8/3) A1 E* a³ + (64/15) A2 E* a⁵; ``contact_radius`` a in m, any shape."""
     a = np.asarray(contact_radius, dtype=float)
-    return np.asarray(E_star * a**3 * (8.0 / 3.0 * A1 + 64.0 / 15.0 * A2 * a**2))
+    return np.asarray(E_star * a**3 * (8.0 / 3.0 * np.asarray(A1) + 64.0 / 15.0 * np.asarray(A2) * a**2))
 
 
-def two_term_approach(contact_radius: ArrayLike, A1: float, A2: float) -> RealArray:
+def two_term_approach(contact_radius: ArrayLike, A1: ArrayLike, A2: ArrayLike) -> RealArray:
     """δ in m for the profile A1 r² + A2 r⁴: 2A1 a² + (8/3) A2 a⁴; ``contact_radius`` a in m, any shape."""
     a = np.asarray(contact_radius, dtype=float)
-    return np.asarray(a**2 * (2.0 * A1 + 8.0 / 3.0 * A2 * a**2))
+    return np.asarray(a**2 * (2.0 * np.asarray(A1) + 8.0 / 3.0 * np.asarray(A2) * a**2))
 
 
 def two_terms(height: float, wavelength: float) -> tuple[float, float]:
