@@ -10,7 +10,10 @@ import pytest
 from cli.conftest import Runner
 from heavy_imports import HEAVY
 
-COMMANDS = ("contact", "demo", "info", "materials", "liquids", "plot", "export", "cite", "generate")
+COMMANDS = (
+    *("contact", "demo", "info", "materials", "liquids", "plot", "export", "cite", "generate"),
+    *("run", "status", "collect"),
+)
 
 
 def test_help_imports_nothing_heavy() -> None:

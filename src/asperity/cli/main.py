@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from . import contact, generate, info, materials, results, stress
+from . import campaigns, contact, generate, info, materials, results, stress
 from .failures import Reporting
 from .groups import grouped
 
@@ -17,7 +17,7 @@ app = typer.Typer(
     name="asperity",
     cls=Reporting,
     help="Contact mechanics of layered rough surfaces.",
-    epilog="Exit codes: 0 done, 1 not converged, 2 bad input, 3 internal error, 130 interrupted.",
+    epilog="Exit codes: 0 done, 1 not converged or failed cases, 2 bad input, 3 internal error, 130 interrupted.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -27,6 +27,9 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     contact.contact,
     contact.demo,
     stress.stress,
+    campaigns.run,
+    campaigns.status,
+    campaigns.collect,
     info.info,
     materials.materials,
     materials.liquids,

@@ -1,5 +1,13 @@
 """Layer 4: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
 
+from .campaign import (
+    plot_convergence,
+    plot_curves,
+    plot_running_mean,
+    plot_samples,
+    plot_sensitivities,
+    plot_transitions,
+)
 from .figures import PLASTIC_PLOTS, PLOTS, Plot, render, save_plots, save_surface_plot
 from .histogram import plot_gap_histogram, plot_pressure_histogram
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
@@ -24,6 +32,8 @@ __all__ = [
     "plot_area_loop",
     "plot_autocorrelation",
     "plot_contact",
+    "plot_convergence",
+    "plot_curves",
     "plot_energies",
     "plot_gap",
     "plot_gap_histogram",
@@ -35,14 +45,18 @@ __all__ = [
     "plot_pressure",
     "plot_pressure_histogram",
     "plot_residual",
+    "plot_running_mean",
+    "plot_samples",
     "plot_scale_dependence",
     "plot_section",
+    "plot_sensitivities",
     "plot_spectrum",
     "plot_stress_map",
     "plot_stress_profile",
     "plot_stress_section",
     "plot_summits",
     "plot_surface_view",
+    "plot_transitions",
     "render",
     "render_path_plot",
     "render_surface_plot",

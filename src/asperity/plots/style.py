@@ -50,8 +50,12 @@ SETTINGS: Any = {
 }
 """Settings of figures that this package makes; axes handed in by a caller keep the caller's."""
 
-KINDS = {"m": "length", "Pa": "pressure", "J": "energy"}
-"""Kind of quantity by SI unit."""
+KINDS = {
+    unit: kind
+    for kind, unit in units.DIMENSIONS.items()
+    if kind in ("length", "pressure", "force", "energy", "time", "area")
+} | {"Pa/m": "stiffness", "N/m": "surface tension"}
+"""Kind of quantity by SI unit, of those that are drawn with prefixes."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,12 @@ class Scale:
 
 
 def scale(values: RealArray | float, unit: str) -> Scale:
-    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``, m, Pa or J) lies between 1 and 1000."""
+    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``) lies between 1 and 1000.
+
+    A unit that takes no prefixes stays, and that of plain numbers ("1") is empty.
+    """
+    if unit not in KINDS:
+        return Scale("" if unit == "1" else unit, 1.0)
     magnitude = np.abs(np.asarray(values, dtype=float))
     largest = float(magnitude.max(initial=0.0, where=np.isfinite(magnitude)))
     symbol = units.show(largest, unit).split(" ")[1]

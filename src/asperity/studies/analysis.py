@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 Found = Mapping[str, Any]
 """Numbers by name of what they are."""
 
-UNITS = {"order": "1", "error": "1", "count": "1", "floor": "m", "ceiling": "m", "elasticity": "1"}
+UNITS = {"order": "1", "remark": "", "error": "1", "count": "1", "floor": "m", "ceiling": "m", "elasticity": "1"}
 """Units of derived numbers that are not those of the quantity."""
 
 
 def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | None:
     """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a sweep.
 
-    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``, ``error``;
+    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``, ``error``, ``remark``;
     critical_thickness: ``floor``, ``ceiling``, ``at_zero``, ``at_infinity``; sensitivity, along ``scalar``: ``low``, ``high``,
     ``elasticity``, ``slope``.
     """
@@ -37,7 +37,7 @@ def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | 
         return _reduced(data, document.quantities, "sample", lambda values: vars(estimate(values, confidence)))
     if document.convergence is not None:
         steps = step_sizes(document.convergence.of, [float(level) for level in data["level"]])
-        return _reduced(data, document.quantities, "level", lambda values: _numbers(convergence(steps, list(values))))
+        return _reduced(data, document.quantities, "level", lambda values: _scalars(convergence(steps, list(values))))
     if document.critical_thickness is not None:
         inside, share = np.asarray(data["thickness"])[1:-1], document.critical_thickness.share
 
@@ -48,8 +48,13 @@ def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | 
     return None if document.sensitivity is None else _sensitivities(data, document.quantities)
 
 
-def _numbers(found: object) -> Found:
-    return {name: value for name, value in vars(found).items() if isinstance(value, float)}
+def _scalars(found: object) -> Found:
+    return {name: value for name, value in vars(found).items() if isinstance(value, float | str)}
+
+
+def _column(values: Sequence[Any], shape: tuple[int, ...]) -> Any:
+    """Array of numbers or texts."""
+    return np.array(values, object if isinstance(values[0], str) else float).reshape(shape)
 
 
 def _reduced(
@@ -64,7 +69,7 @@ def _reduced(
         shape, dims = array.shape[:-1], array.dims[:-1]
         rows = [derive(row) for row in np.asarray(array).reshape(-1, array.shape[-1])]
         for key in rows[0]:
-            column = np.array([float(row[key]) for row in rows]).reshape(shape)
+            column = _column([row[key] for row in rows], shape)
             made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
     kept = {str(key): value for key, value in data.coords.items() if dim not in value.dims}
     return xarray.Dataset(made, kept, {"kind": data.attrs["kind"], "title": data.attrs["title"]})
@@ -87,7 +92,7 @@ def _sensitivities(data: xarray.Dataset, quantities: Sequence[str]) -> xarray.Da
             for at in np.ndindex(y[0].shape)
         ]
         for key in rows[0]:
-            column = np.array([row[key] for row in rows]).reshape(y[0].shape)
+            column = _column([row[key] for row in rows], y[0].shape)
             made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
     kept = {str(key): value for key, value in data.coords.items() if "parameter" not in value.dims}
     attributes = {"kind": data.attrs["kind"], "title": data.attrs["title"]}

@@ -96,7 +96,7 @@ def carry_out(
                 work.take(task, found)
                 done += len(found)
                 failed += sum(record["error"] is not None for record in found)
-                watch.update(done, failed, work.found, plan.n_cases)
+                watch.update(done, failed, work.known, plan.n_cases)
         finally:
             close = getattr(stream, "close", None)
             if close is not None:
@@ -111,6 +111,7 @@ class _Work:
         self._plan, self._finished, self._stop = plan, finished, stopping(plan)
         self._quantity = stop_quantity(plan)
         self.found = 0
+        self.known = min(len(finished), plan.n_cases)
 
     def tasks(self) -> Iterator[Task]:
         """One task for each path with missing cases; of finished ones the samples are counted on the way."""

@@ -1,0 +1,180 @@
+"""Figures of campaigns: curves on axes, samples, convergence, critical thicknesses, sensitivities."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from .style import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+"""Colours of curves in turn."""
+
+LOGARITHMIC = 30.0
+"""Ratio of largest and smallest value beyond which an axis is logarithmic."""
+
+
+MOST_TICKS = 8
+"""Levels up to which each gets its tick."""
+
+LINE = 34
+"""Letters of the longest line of a label."""
+
+
+@dataclass(frozen=True, eq=False)
+class Labelled:
+    """Numbers with their SI ``unit`` and what they are."""
+
+    values: RealArray
+    unit: str
+    label: str
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Values (SI) of one curve; ``band`` is the half width of a band around it, of the same shape."""
+
+    label: str
+    values: RealArray
+    band: RealArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Transition:
+    """A quantity between two limits, and the thicknesses (m, NaN where there is none) at which it leaves and reaches them."""
+
+    label: str
+    values: RealArray
+    at_zero: float
+    at_infinity: float
+    floor: float
+    ceiling: float
+
+
+def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> Axes:
+    """Draw ``curves`` of the quantity that ``y`` names against ``x`` on ``ax``; ``y.values`` set the scale."""
+    along, up = scale(x.values, x.unit), scale(y.values, y.unit)
+    order = np.argsort(x.values)
+    for number, curve in enumerate(curves):
+        colour = COLOURS[number % len(COLOURS)]
+        values, places = up(curve.values)[order], along(x.values)[order]
+        if curve.band is not None:
+            half = up(curve.band)[order]
+            ax.fill_between(places, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
+        ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=curve.label or None)
+    _set_scales(ax, x.values, np.concatenate([curve.values for curve in curves]))
+    return _labelled(ax, (x.label, along), (y.label, up), legend=any(curve.label for curve in curves))
+
+
+def plot_samples(y: Labelled, mean: float, half_width: float, ax: Axes) -> Axes:
+    """Draw the distribution of the samples ``y`` on ``ax``, with their ``mean`` and its confidence interval."""
+    along = scale(y.values, y.unit)
+    good = along(y.values)[np.isfinite(y.values)]
+    if good.size:
+        ax.hist(
+            good, bins=int(np.clip(2.0 * good.size ** (1.0 / 3.0), 5, 40)), color=SKY, edgecolor="white", linewidth=0.4
+        )
+    middle = float(along(mean))
+    if math.isfinite(half_width):
+        half = float(along(half_width))
+        ax.axvspan(
+            middle - half, middle + half, color=VERMILLION, alpha=0.25, linewidth=0.0, label="confidence of the mean"
+        )
+    ax.axvline(middle, color=BLACK, linestyle="--", label=f"mean {middle:.4g} {along.symbol}".rstrip())
+    return _labelled(ax, (y.label, along), ("samples", Scale("", 1.0)), legend=True)
+
+
+def plot_running_mean(y: Labelled, half_widths: RealArray, means: RealArray, ax: Axes) -> Axes:
+    """Draw the mean of the quantity that ``y`` names against the number of samples on ``ax``, with its confidence."""
+    counts, up = np.arange(1, means.size + 1), scale(means, y.unit)
+    ax.fill_between(counts, up(means - half_widths), up(means + half_widths), color=SKY, alpha=0.4, linewidth=0.0)
+    ax.plot(counts, up(means), color=BLUE)
+    return _labelled(ax, ("samples", Scale("", 1.0)), (f"mean of {y.label}", up), legend=False)
+
+
+def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axes) -> Axes:
+    """Draw the quantity ``y`` from the coarsest to the finest of the ``levels`` on ``ax``, and its extrapolation."""
+    along, up = scale(levels.values, levels.unit), scale(y.values, y.unit)
+    ax.plot(along(levels.values), up(y.values), color=BLUE, marker="o", markersize=3.5)
+    if math.isfinite(extrapolated):
+        limit = float(up(extrapolated))
+        ax.axhline(limit, color=BLACK, linestyle="--", label=f"extrapolated {limit:.5g} {up.symbol}".rstrip())
+    ax.set_xscale("log")
+    if levels.values.size <= MOST_TICKS:
+        ax.set_xticks(along(levels.values), [f"{level:g}" for level in along(levels.values)])
+        ax.minorticks_off()
+    if levels.values[0] > levels.values[-1]:
+        ax.invert_xaxis()
+    return _labelled(ax, (levels.label, along), (y.label, up), legend=math.isfinite(extrapolated))
+
+
+def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Transition], ax: Axes) -> Axes:
+    """Draw a quantity against the ``thickness`` of a layer on ``ax``: limits as lines, floor and ceiling as triangles."""
+    along, up = scale(thickness.values, thickness.unit), scale(y.values, y.unit)
+    marks = set()
+    for number, item in enumerate(transitions):
+        colour = COLOURS[number % len(COLOURS)]
+        ax.plot(
+            along(thickness.values), up(item.values), color=colour, marker="o", markersize=3.0, label=item.label or None
+        )
+        for limit in (item.at_zero, item.at_infinity):
+            ax.axhline(float(up(limit)), color=colour, linestyle=":", linewidth=0.8)
+        for name, place, marker in (("floor", item.floor, "^"), ("ceiling", item.ceiling, "v")):
+            if math.isfinite(place):
+                height = np.interp(math.log(place), np.log(thickness.values), item.values)
+                label = name if name not in marks else None
+                marks.add(name)
+                ax.plot(along(place), up(height), color=BLACK, marker=marker, markersize=7.0, linestyle="", label=label)
+    ax.set_xscale("log")
+    return _labelled(ax, (thickness.label, along), (y.label, up), legend=bool(marks) or len(transitions) > 1)
+
+
+def plot_sensitivities(
+    names: Sequence[str], low: RealArray, high: RealArray, y: Labelled, base: float, ax: Axes
+) -> Axes:
+    """Draw how far low and high values of each scalar in ``names`` move a quantity from its ``base``, largest on top."""
+    along = scale(np.concatenate([low, high, [base]]), y.unit)
+    order = np.argsort(np.abs(high - low))
+    rows = np.arange(order.size)
+    middle = float(along(base))
+    for values, colour, label in ((low, SKY, "low"), (high, ORANGE, "high")):
+        ax.barh(rows, along(values)[order] - middle, left=middle, height=0.6, color=colour, label=label)
+    ax.axvline(middle, color=BLACK, linewidth=0.8)
+    ax.set_yticks(rows, [names[number] for number in order])
+    ax.set_xlabel(_text(y.label, along))
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3)
+    return ax
+
+
+def _set_scales(ax: Axes, x: RealArray, y: RealArray) -> None:
+    if _spans_decades(x):
+        ax.set_xscale("log")
+    if _spans_decades(y):
+        ax.set_yscale("log")
+
+
+def _spans_decades(values: RealArray) -> bool:
+    good = values[np.isfinite(values)]
+    return bool(good.size and good.min() > 0.0 and good.max() / good.min() > LOGARITHMIC)
+
+
+def _labelled(ax: Axes, x: tuple[str, Scale], y: tuple[str, Scale], *, legend: bool) -> Axes:
+    ax.set(xlabel=_text(*x), ylabel=_text(*y))
+    ax.grid(visible=True, color=NO_CONTACT, linewidth=0.6)
+    ax.set_axisbelow(True)
+    if legend:
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
+def _text(label: str, unit: Scale) -> str:
+    return "\n".join(wrap(f"{label} ({unit.symbol})" if unit.symbol else label, LINE))

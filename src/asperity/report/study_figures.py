@@ -1,0 +1,190 @@
+"""Which figures a study gets, and what they show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from ..core.units import show
+from ..plots.campaign import (
+    Curve,
+    Labelled,
+    Transition,
+    plot_convergence,
+    plot_curves,
+    plot_running_mean,
+    plot_samples,
+    plot_sensitivities,
+    plot_transitions,
+)
+from ..plots.picture import CURVE_SIZE, png
+from ..studies.campaign import Campaign
+from ..studies.monte_carlo import estimate
+
+if TYPE_CHECKING:
+    import xarray
+
+Draw: TypeAlias = "Callable[[Campaign, Any, Any, str], Iterator[StudyFigure]]"
+"""Draws the figures of one quantity from results and derived numbers."""
+
+MOST_CURVES = 7
+"""Curves in one figure."""
+
+
+@dataclass(frozen=True)
+class StudyFigure:
+    """One picture: ``name`` of its file, ``title``, ``caption``, and the PNG."""
+
+    name: str
+    title: str
+    caption: str
+    picture: bytes
+
+
+def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[StudyFigure]:
+    """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more for each quantity."""
+    draw: Draw = _DRAWN.get(campaign.study.document.kind, _sweep)
+    return [figure for name in campaign.study.document.quantities for figure in draw(campaign, data, derived, name)]
+
+
+def labelled(variable: xarray.DataArray) -> Labelled:
+    """Values, unit and label of ``variable``."""
+    attributes = variable.attrs
+    label = str(attributes.get("long_name", variable.name)).rpartition(".")[2].replace("_", " ")
+    return Labelled(np.asarray(variable, dtype=float), str(attributes.get("units", "1")), label)
+
+
+def point_text(coordinate: xarray.DataArray) -> str:
+    """Name and value of one point of an axis."""
+    value = coordinate.item()
+    unit = str(coordinate.attrs.get("units", "1"))
+    return f"{str(coordinate.name).replace('_', ' ')} {value if isinstance(value, str) else show(float(value), unit)}"
+
+
+def curves_axis(data: xarray.DataArray) -> str | None:
+    """The axis of numbers with the most points, of which there must be two; None without."""
+    numeric = {str(dim): size for dim, size in data.sizes.items() if size > 1 and data[dim].dtype.kind == "f"}
+    return max(numeric, key=lambda dim: numeric[dim]) if numeric else None
+
+
+def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    array = data[name]
+    along = curves_axis(array)
+    if along is None:
+        return
+    rows, more = _rows(array, along)
+    y = labelled(array)
+    x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
+    picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
+    yield StudyFigure(name, _title(y.label), f"{y.label} against {x.label}{more}.", picture)
+
+
+def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    array, y = data[name], labelled(data[name])
+    means = derived[f"{name}_mean"]
+    along = curves_axis(means)
+    first, more = _first(array, "sample")
+    if along is not None:
+        rows, where = _rows(means, along)
+        bands, _ = _rows(derived[f"{name}_deviation"], along)
+        curves = [
+            Curve(text, np.asarray(row), np.asarray(band)) for (text, row), (_, band) in zip(rows, bands, strict=True)
+        ]
+        picture = _picture(lambda ax: plot_curves(labelled(data[along]), y, curves, ax))
+        caption = f"Mean of {y.label} over the samples; the band is one standard deviation on either side{where}."
+        yield StudyFigure(f"{name}_mean", f"{_title(y.label)}, mean and scatter", caption, picture)
+    whole = estimate(np.asarray(first))
+    samples = Labelled(np.asarray(first, dtype=float), y.unit, y.label)
+    picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
+    yield StudyFigure(
+        f"{name}_samples", f"{_title(y.label)}, distribution", f"Distribution over the samples{more}.", picture
+    )
+    running = [estimate(samples.values[: n + 1]) for n in range(samples.values.size)]
+    halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
+    picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
+    caption = f"Mean of the first samples and its 95 % confidence{more}."
+    yield StudyFigure(f"{name}_running", f"{_title(y.label)}, running mean", caption, picture)
+
+
+def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    table = campaign.study.document.convergence
+    assert table is not None
+    array, more = _first(data[name], "level")
+    limit, _ = _first(derived[f"{name}_extrapolated"], "")
+    label = {"grid": "points along x", "domain": "factor on the size"}.get(table.of, "tolerance")
+    levels = Labelled(np.asarray(data["level"], dtype=float), "1", label)
+    y = labelled(array)
+    picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
+    caption = f"{y.label} from coarse to fine, and its Richardson extrapolation{more}."
+    yield StudyFigure(name, _title(y.label), caption, picture)
+
+
+def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    rows, more = _rows(data[name], "thickness")
+    found = {key: _rows(derived[f"{name}_{key}"], "")[0] for key in ("at_zero", "at_infinity", "floor", "ceiling")}
+    transitions = [
+        Transition(text, np.asarray(row)[1:-1], **{key: float(found[key][number][1]) for key in found})
+        for number, (text, row) in enumerate(rows)
+    ]
+    y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
+    picture = _picture(lambda ax: plot_transitions(thickness, y, transitions, ax))
+    caption = (
+        f"{y.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
+        f"layer does not matter, above the ceiling what lies under it does not{more}."
+    )
+    yield StudyFigure(name, _title(y.label), caption, picture)
+
+
+def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    low, more = _first(derived[f"{name}_low"], "scalar")
+    high, _ = _first(derived[f"{name}_high"], "scalar")
+    base, _ = _first(data[name].isel(parameter=0), "")
+    names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
+    size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
+    picture = png(lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size)
+    yield StudyFigure(name, _title(y.label), f"{y.label} at the low and the high value of each scalar{more}.", picture)
+
+
+_DRAWN: dict[str, Draw] = {
+    "monte_carlo": _monte_carlo,
+    "convergence": _convergence,
+    "critical_thickness": _critical,
+    "sensitivity": _sensitivity,
+}
+"""What draws the figures of each kind of study."""
+
+
+def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.DataArray]], str]:
+    """Rows of ``array`` along one axis with the points of the longest other axis as text; and where the rest stands."""
+    others = sorted((str(dim) for dim in array.dims if dim != along), key=lambda dim: -array.sizes[dim])
+    fixed, more = _first(array, along, *others[:1])
+    if not others:
+        return [("", fixed)], more
+    points = _spread(array.sizes[others[0]])
+    rows = [(point_text(array[others[0]][number]), fixed.isel({others[0]: number})) for number in points]
+    return rows, more
+
+
+def _first(array: xarray.DataArray, *kept: str) -> tuple[xarray.DataArray, str]:
+    """``array`` at the first point of all axes that are not ``kept``, and the words that say so."""
+    dims = [str(dim) for dim in array.dims if dim not in kept]
+    texts = [point_text(array[dim][0]) for dim in dims]
+    return array.isel(dict.fromkeys(dims, 0)), f", at {', '.join(texts)}" if texts else ""
+
+
+def _spread(count: int) -> Sequence[int]:
+    """Numbers of at most ``MOST_CURVES`` of ``count`` points, first and last among them."""
+    if count <= MOST_CURVES:
+        return range(count)
+    return [int(number) for number in np.linspace(0, count - 1, MOST_CURVES).round()]
+
+
+def _picture(draw: Callable[[Any], Any]) -> bytes:
+    return png(draw, CURVE_SIZE)
+
+
+def _title(label: str) -> str:
+    return label[:1].upper() + label[1:]
