@@ -159,9 +159,10 @@ def numeric_edit(place: Place, number: float) -> Edit:
 
 
 def default_name(path: str, taken: set[str]) -> str:
-    """Name of an axis: the last key of its path, or the whole path where that is ``taken``."""
+    """Name of an axis: as many of the last keys of its path as are needed to be none of those ``taken``."""
     words = path.split(".")
-    return words[-1] if words[-1] not in taken and not words[-1].isdigit() else "_".join(words)
+    names = ("_".join(words[-count:]) for count in range(1, len(words) + 1))
+    return next((name for name in names if name not in taken and not name[0].isdigit()), "_".join(words))
 
 
 def _together(base: Base, changes: Sequence[tuple[Place, Any]]) -> tuple[Edit, ...]:

@@ -47,7 +47,7 @@ class DaskCluster:
 
             stream = submitted()
             ahead = 2 * max(1, sum(client.nthreads().values()))
-            completed = distributed.as_completed(islice(stream, ahead))
+            completed = distributed.as_completed(islice(stream, ahead), loop=client.loop)
             try:
                 for future in completed:
                     yield under_way.pop(future), _answer(future, distributed.KilledWorker)

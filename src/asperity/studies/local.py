@@ -138,7 +138,8 @@ class _Lane:
             if self._ended:
                 return None
             if self._process is None or self._process.poll() is not None:
-                said.truncate(0)
+                said.seek(0)
+                said.truncate()
                 self._process = subprocess.Popen(
                     [sys.executable, "-m", f"{__package__}.worker"],
                     stdin=subprocess.PIPE,

@@ -84,12 +84,14 @@ class Store:
         self._synced = time.monotonic()
         try:
             self._file: IO[bytes] = path.open("ab")
+        except OSError as error:
+            raise OutputError(f"results {path} cannot be written: {error.strerror}; check rights and space.") from error
+        try:
             _lock(self._file, path)
             self._file.truncate(max((end for end, *_ in _lines(path)), default=0))
-        except OSError as error:
-            if isinstance(error, OutputError):
-                raise
-            raise OutputError(f"results {path} cannot be written: {error.strerror}; check rights and space.") from error
+        except BaseException:
+            self._file.close()
+            raise
 
     def append(self, finished: Iterable[Record]) -> None:
         """Write all records at once."""

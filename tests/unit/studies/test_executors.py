@@ -1,0 +1,163 @@
+"""Worker processes and a Dask cluster: nothing is lost when a worker dies, and nothing is left behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from study_cases import CRASHING, LOADS, QUICK, SLOW, InProcess, plan, workers_of
+
+from asperity.core.errors import InputError
+from asperity.studies.cluster import DaskCluster
+from asperity.studies.collect import dataset, failures
+from asperity.studies.failures import causes
+from asperity.studies.local import LocalProcesses
+from asperity.studies.run import carry_out
+from asperity.studies.store import records
+
+LONG = {"path": "surface.seed", "first": 1, "last": 40, "count": 40}
+
+
+linux = pytest.mark.skipif(
+    not Path("/proc/self/stat").exists(), reason="processes are counted in /proc, which is Linux"
+)
+
+
+def by_key(path: Path) -> dict:
+    return {record["key"]: record["values"] for record in records(path)}
+
+
+@linux
+def test_a_worker_that_is_killed_loses_nothing(tmp_path):
+    made = plan(axes=[LONG])
+    carry_out(made, tmp_path / "straight.log", InProcess(), function=QUICK)
+    killed = []
+
+    class Killer:
+        def update(self, done: int, failed: int, found: int, total: int) -> None:
+            if done in (2, 9):
+                killed.append(min(workers_of(os.getpid())))
+                os.kill(killed[-1], signal.SIGKILL)
+
+    summary = carry_out(made, tmp_path / "killed.log", LocalProcesses(2), function=SLOW, watch=Killer())
+    assert len(killed) == 2
+    assert (summary.done, summary.failed) == (40, 0)
+    assert by_key(tmp_path / "killed.log") == by_key(tmp_path / "straight.log")
+    assert workers_of(os.getpid()) == set(), "no worker is left"
+
+
+@linux
+def test_closing_stops_the_workers_at_once():
+    tasks = ({"cases": [], "quantities": [], "number": number} for number in range(100))
+    stream = LocalProcesses(2).run(SLOW, tasks)
+    next(stream)
+    started = time.monotonic()
+    stream.close()
+    assert time.monotonic() - started < 5.0
+    assert workers_of(os.getpid()) == set()
+    assert next(tasks)["number"] < 6, "tasks are taken one by one"
+
+
+def test_cases_that_end_their_worker_are_failed_records_grouped_by_cause(tmp_path):
+    made = plan(axes=[{**LONG, "count": 6, "last": 6}])
+    summary = carry_out(made, tmp_path / "r.log", LocalProcesses(2), function=CRASHING)
+    doomed = [case.key for path in made.paths() for case in path if int(case.key[1], 16) < 8]
+    assert 0 < len(doomed) < 6, "the test needs both kinds"
+    assert (summary.done, summary.failed) == (6, len(doomed))
+    (cause,) = causes(failures(made, tmp_path / "r.log"))
+    assert (cause.kind, cause.count) == ("WorkerLost", len(doomed))
+    assert cause.first.message == "the worker ended with exit code 7: out of luck"
+    data = dataset(made, tmp_path / "r.log")
+    assert int((data["outcome"] == 1).sum()) == int(data["approach"].isnull().sum()) == len(doomed)
+
+
+def test_an_error_of_the_executor_itself_reaches_the_caller():
+    tasks = iter([{"not json": object()}])
+    with pytest.raises(TypeError, match="not JSON serializable"):
+        list(LocalProcesses(1).run(QUICK, tasks))
+
+
+def test_no_workers_are_refused():
+    with pytest.raises(InputError, match="number of workers must be a whole number of at least 1"):
+        LocalProcesses(0)
+
+
+class Cluster:
+    """A scheduler and workers of their own on this machine, as a user would start them."""
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        self._folder, self._scheduler_file = folder, folder / "scheduler.json"
+        self._processes: list[subprocess.Popen[bytes]] = []
+        self.scheduler = self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--no-show")
+        self.workers = [
+            self._start("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1")
+            for _ in range(workers)
+        ]
+
+    def _start(self, *words: str) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-m", "distributed.cli.dask_" + words[0], *words[1:]]
+        command += ["--scheduler-file", str(self._scheduler_file)]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        with (self._folder / "dask.txt").open("ab") as said:
+            process = subprocess.Popen(command, stdout=said, stderr=said, env=environment, cwd=self._folder)
+        self._processes.append(process)
+        return process
+
+    @property
+    def address(self) -> str:
+        import json
+
+        while not self._scheduler_file.exists() or not self._scheduler_file.read_text().strip():
+            assert self.scheduler.poll() is None, (self._folder / "dask.txt").read_text()
+            time.sleep(0.05)
+        return str(json.loads(self._scheduler_file.read_text())["address"])
+
+    def stop(self) -> None:
+        for process in reversed(self._processes):
+            process.kill()
+        for process in self._processes:
+            process.wait()
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_the_same_bits_also_when_a_worker_is_killed(tmp_path):
+    """A real scheduler with two workers on loopback, one of which is killed amid the study; and worker processes here."""
+    pytest.importorskip("distributed", reason="the extra dask is not installed")
+    made = plan(axes=[{**LONG, "count": 8, "last": 8}, LOADS])
+    cluster = Cluster(tmp_path, 2)
+    killed = []
+
+    class Killer:
+        def update(self, done: int, failed: int, found: int, total: int) -> None:
+            if done >= 6 and not killed:
+                killed.append(cluster.workers[0])
+                cluster.workers[0].kill()
+
+    try:
+        summary = carry_out(made, tmp_path / "dask.log", DaskCluster(cluster.address), watch=Killer())
+    finally:
+        cluster.stop()
+    assert killed
+    assert (summary.done, summary.failed) == (24, 0)
+    carry_out(made, tmp_path / "local.log", LocalProcesses(2))
+    assert by_key(tmp_path / "dask.log") == by_key(tmp_path / "local.log")
+    for name, value in dataset(made, tmp_path / "local.log").data_vars.items():
+        if name not in ("wall_time", "outcome"):
+            assert value.notnull().all()
+
+
+def test_a_scheduler_that_does_not_answer_is_said(monkeypatch):
+    distributed = pytest.importorskip("distributed", reason="the extra dask is not installed")
+
+    class Silent:
+        def __init__(self, *arguments: object, **options: object) -> None:
+            raise OSError("Timed out trying to connect")
+
+    monkeypatch.setattr(distributed, "Client", Silent)
+    with pytest.raises(InputError, match=r"Dask scheduler must answer at 'tcp://127.0.0.1:1', but does not"):
+        next(DaskCluster("tcp://127.0.0.1:1").run(QUICK, iter([{}])))
