@@ -40,6 +40,7 @@ from .io.stress_files import save_stress
 from .io.stress_vtk import export_stress_vtk
 from .io.surface_files import save_surface
 from .io.tiles import save_endless
+from .io.wet_results import load_wet, save_wet
 from .plots.figures import save_plots, save_surface_plot
 from .plots.path_figures import save_path_plots
 from .plots.surface_figures import save_roughness_plots
@@ -175,6 +176,7 @@ __all__ = [
     "liquids",
     "load",
     "load_at_yield",
+    "load_wet",
     "material",
     "materials",
     "mean_absolute_height",
@@ -204,6 +206,7 @@ __all__ = [
     "save_stress",
     "save_surface",
     "save_surface_plot",
+    "save_wet",
     "sliced",
     "solve",
     "solve_path",

@@ -10,6 +10,7 @@ import typer
 from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions, SourceOptions
 from .preparing import PreparationOptions
 from .stressing import StressOptions
+from .wetting import FilmOptions
 
 
 def contact(
@@ -18,13 +19,15 @@ def contact(
     preparation: PreparationOptions,
     bodies: BodyOptions,
     solve: SolveOptions,
+    film: FilmOptions,
     stress: StressOptions,
     output: OutputOptions,
 ) -> None:
-    """Press a rough surface against another body: contact area, pressure and gap, and the stresses inside if asked for.
+    """Press a rough surface against another body: contact area, pressure and gap; menisci and stresses if asked for.
 
     Examples: asperity contact scan.di --body DLC --pressure 50kPa --hardness body --out run;
-    asperity contact scan.di --body DLC:5nm/steel --pressure 50MPa --friction 0.3 --section y=max --out run
+    asperity contact scan.di --body DLC:5nm/steel --pressure 50MPa --friction 0.3 --section y=max --out run;
+    asperity contact scan.di --body DLC --pressure 1MPa --liquid water --humidity 80% --friction 0.3
 
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
@@ -32,6 +35,7 @@ def contact(
     from ..io.documents import checked
     from .perform import perform
     from .stressing import stress_names, with_stress
+    from .wetting import film_names, with_film, without_shared_friction
 
     if source.from_ is None:
         table, names = _from_options(source.file, reading, preparation, bodies, solve)
@@ -40,8 +44,9 @@ def contact(
         _require_no_surface(source.file, reading, preparation, bodies)
         table, names = _from_document(source.from_, bodies, solve), {}
         where, base = f"problem document {source.from_}", source.from_.parent
-    table = with_stress(table, stress, wanted=output.wants_stress)
-    document = checked(table, where, names | (stress_names(table) if source.from_ is None else {}))
+    table = with_film(table, film, stress)
+    table = with_stress(table, without_shared_friction(stress, film), wanted=output.wants_stress)
+    document = checked(table, where, names | (stress_names(table) | film_names() if source.from_ is None else {}))
     raise typer.Exit(perform(document, base, output))
 
 

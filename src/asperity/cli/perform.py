@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ..contact.path import LoadPath
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
+    from ..contact.wet_result import WetContactResult
     from ..io.build import Case
     from ..io.documents import ProblemDocument
     from ..stress.request import StressRequest
@@ -34,29 +35,41 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.documents import relocated
     from .show import print_advice, print_files, print_path, print_result
     from .stress_run import output_folder, print_stress, surveyed, write_volume
+    from .wet_run import print_wet, wet_contact
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
     before = advise(case.problem, case.control)
     with output_folder(output) as folder:
-        path = _ran(case) if case.path else None
-        result = path.results[-1] if path is not None else _solved(case, chosen=_chooses_solver(document))
+        path, wet = (_ran(case) if case.path else None), wet_contact(case)
+        result = _result(case, path, wet, chosen=_chooses_solver(document))
         asked, lines = case.stress, folder is not None
         stress = None if asked is None else surveyed(asked, result, lines=lines, threads=case.threads)
         findings = (*before, *review(result))
         if folder is not None and output.out is not None:
             moved = relocated(document, base_folder, output.out)
-            _write_folder(Run(result, findings, moved, stress, path), folder)
-    _write_files(result, document, base_folder, output)
+            _write_folder(Run(result, findings, moved, stress, path, wet), folder)
+    _write_files(wet or result, document, base_folder, output)
     print_result(result, document.title)
     if path is not None:
         print_path(path)
+    if wet is not None:
+        print_wet(wet)
     if stress is not None:
         write_volume(stress, output)
         print_stress(stress)
     print_advice(findings)
     print_files(_written(output, stressed=stress is not None, along_path=path is not None))
-    return OK if (result if path is None else path).converged else NOT_CONVERGED
+    return OK if (path or wet or result).converged else NOT_CONVERGED
+
+
+def _result(
+    case: Case, path: LoadPath | None, wet: WetContactResult | None, *, chosen: bool
+) -> ContactResult:
+    """Contact at the end of ``path``, of the ``wet`` contact, or solved now."""
+    if path is not None:
+        return path.results[-1]
+    return _solved(case, chosen=chosen) if wet is None else wet.contact
 
 
 def _chooses_solver(document: ProblemDocument) -> bool:
@@ -137,13 +150,14 @@ def _slid(case: Case, stress: StressRequest, solver: Solver | None) -> ContactRe
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a run has found: result, findings, the document with paths from its folder, and stresses and load path if any."""
+    """What a run has found: result, findings, the document with paths from its folder; stresses, load path, menisci if any."""
 
     result: ContactResult
     findings: tuple[Advice, ...]
     document: ProblemDocument
     stress: StressSurvey | None
     path: LoadPath | None
+    wet: WetContactResult | None
 
 
 def _write_folder(run: Run, folder: Path) -> None:
@@ -156,22 +170,30 @@ def _write_folder(run: Run, folder: Path) -> None:
     from ..plots.path_figures import save_path_plots
     from ..report import write_report
     from .stress_run import write_stress
+    from .wet_run import write_wet
 
     result, text = run.result, dumps(run.document)
     save_document(run.document, folder / "problem.toml")
-    save(result, folder / "result.nc", document=text)
-    export_csv(result, folder / "scalars.csv")
     save_plots(result, folder / "plots")
+    if run.wet is None:
+        save(result, folder / "result.nc", document=text)
+    export_csv(run.wet or result, folder / "scalars.csv")
+    menisci = None if run.wet is None else write_wet(run.wet, folder, text)
     part = None if run.stress is None else write_stress(run.stress, folder)
     if run.path is not None:
         save_path(run.path, folder / PATH_NAMES[0], document=text)
         export_path_csv(run.path, folder / PATH_NAMES[1])
         save_path_plots(run.path, folder / "plots")
     page, title = folder / "report.html", run.document.title
-    write_report(result, page, advice=run.findings, document=text, title=title, stress=part, load_path=run.path)
+    write_report(
+        result, page, advice=run.findings, document=text, title=title, stress=part, load_path=run.path, wet=menisci
+    )
 
 
-def _write_files(result: ContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
+def _write_files(
+    result: ContactResult | WetContactResult, document: ProblemDocument, base_folder: Path, output: OutputOptions
+) -> None:
+    from ..contact.wet_result import WetContactResult
     from ..io.documents import relocated, save_document
     from ..io.export import export_csv, export_vtk
 
@@ -181,7 +203,8 @@ def _write_files(result: ContactResult, document: ProblemDocument, base_folder: 
     if output.csv is not None:
         export_csv(result, output.csv, overwrite=output.force)
     if output.vtk is not None:
-        export_vtk(result, output.vtk, overwrite=output.force)
+        contact = result.contact if isinstance(result, WetContactResult) else result
+        export_vtk(contact, output.vtk, overwrite=output.force)
 
 
 def _single_files(output: OutputOptions) -> list[Path]:

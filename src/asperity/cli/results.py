@@ -35,13 +35,25 @@ def plot(
     require.one_of(kind, ("all", *(item.name for item in every)), "--kind")
     result = load(file)
     if kind == "all":
-        print_files(save_plots(result, out, overwrite=force))
+        print_files([*save_plots(result, out, overwrite=force), *_menisci(file, out, force=force)])
         return
     _make(out)
     path = out / f"{kind}.png"
     with atomic_file(path, overwrite=force) as partial:
         partial.write_bytes(render(next(item for item in every if item.name == kind), result))
     print_files([path])
+
+
+def _menisci(file: Path, out: Path, *, force: bool) -> tuple[Path, ...]:
+    """Draw the menisci of the result in ``file`` into the folder ``out``, if it has any."""
+    from ..io.wet_results import is_wet, load_wet
+    from ..plots.menisci import wet_figures
+    from ..plots.picture import save_pictures
+
+    if not is_wet(file):
+        return ()
+    pictures = {figure.name: lambda picture=figure.picture: picture for figure in wet_figures(load_wet(file))}
+    return save_pictures(pictures, out, overwrite=force)
 
 
 def export(
@@ -55,6 +67,7 @@ def export(
     from ..io.atomic import require_new_files
     from ..io.export import export_csv, export_vtk
     from ..io.results import load
+    from ..io.wet_results import is_wet, load_wet
     from .show import print_files
 
     wanted = [path for path in (csv, vtk) if path is not None]
@@ -63,7 +76,7 @@ def export(
     require_new_files(wanted, overwrite=force)
     result = load(file)
     if csv is not None:
-        export_csv(result, csv, overwrite=force)
+        export_csv(load_wet(file) if is_wet(file) else result, csv, overwrite=force)
     if vtk is not None:
         export_vtk(result, vtk, overwrite=force)
     print_files(wanted)

@@ -11,7 +11,7 @@ from .options import OutputOptions
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
-    from ..plots.stress_figures import Figure
+    from ..plots.figure import Figure
     from ..report.stress import StressPart
     from ..stress.field import StressField
     from ..stress.request import StressRequest

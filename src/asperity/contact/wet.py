@@ -28,7 +28,7 @@ COLLAPSED = 0.5
 
 _PIXELS = 2  # that may change sides from one solve to the next by its error alone
 _FULL = (
-    "Liquid and contact fill the interface. Take a thinner film, a rougher surface, stiffer bodies or a liquid of less "
+    "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer bodies or a liquid of less "
     "surface tension; or prescribe the position, Approach(...) or MeanGap(...)."
 )
 _REMEDY = "Allow more rounds, or take a thinner film, a rougher surface or a larger load."
@@ -100,9 +100,10 @@ def solve_wet(
     ------
     NoSolutionError
         If the meniscus force runs away: an interface with liquid on less than half of its area under the external load
-        collapses until liquid or contact fills it, or load and menisci exceed the hardness.
+        collapses until liquid or contact nearly fills it, or load and menisci exceed the hardness.
     ConvergenceError
-        If the force is not steady after the rounds allowed, or a solve on the way does not converge.
+        If the force is not steady after the rounds allowed, or a solve on the way does not converge, and ``on_failure`` is
+        ``"raise"``.
     InputError
         As for ``solve``.
     """
@@ -112,6 +113,7 @@ def solve_wet(
     rounds = _Rounds(problem, film, operator, solver, state, progress)
     load, found = _balanced(rounds, control, steady)
     result = WetContactResult(
+        control=control,
         contact=found.contact,
         film=film,
         wetting=found.wetting,
@@ -158,7 +160,7 @@ class _Rounds:
             permanent = np.zeros(before.pressure.shape) if start is None else start.permanent_indentation
             start = InterfaceState(permanent, before.pressure)
         options = {"solver": self.solver, "state": start, "progress": self.progress, "operator": self.operator}
-        return solve(self.problem, control, **options)  # type: ignore[arg-type]
+        return solve(self.problem, control, on_failure="return", **options)  # type: ignore[arg-type]
 
     def wetted(self, contact: ContactResult) -> Wetting:
         """Menisci of ``contact``."""
@@ -192,7 +194,7 @@ def _settled(rounds: _Rounds, load: float, steady: Steady) -> _Settled:
     pull = start = rounds.force(found)
     was_open, change, count = found.share("kept") < COLLAPSED, pull / load, 1
     slack = rounds.slack(load, steady.tolerance)
-    while count < steady.max_rounds and change > slack:
+    while count < steady.max_rounds and change > slack and contact.converged:
         try:
             contact = rounds.solved(Force(load + pull), contact)
         except NoSolutionError as error:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..core.status import Status
+from .control import Control
 from .problem import ContactProblem
 from .result import ContactResult, Quantity
 from .wetting import LiquidFilm, Wetting
@@ -35,6 +36,8 @@ class WetContactResult:
 
     Attributes
     ----------
+    control
+        What was prescribed: external load or position.
     contact
         The solid contact, under the external force and that of the menisci.
     film, wetting
@@ -54,6 +57,7 @@ class WetContactResult:
         Whether the meniscus force is steady.
     """
 
+    control: Control
     contact: ContactResult
     film: LiquidFilm
     wetting: Wetting

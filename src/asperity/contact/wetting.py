@@ -15,7 +15,7 @@ from ..solids.liquids import Liquid
 from ..theories.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
 from .islands import Labels, labelled, spans
 
-FLOODED = 0.999
+FLOODED = 0.95
 """Share of the nominal area under liquid or in contact from which an interface counts as flooded."""
 
 
@@ -142,7 +142,7 @@ class Wetting:
         Number of islands of ``cut``, and of those kept.
     regime
         ``dry``: no meniscus; ``toe-dipping``: menisci around single summits; ``pillbox``: one of them reaches across the
-        map; ``flooded``: liquid or contact everywhere (Matthewson & Mamin 1988, in terms of islands).
+        map; ``flooded``: liquid or contact on more than 95 % of the area (Matthewson & Mamin 1988, in terms of islands).
     """
 
     wetted: BoolArray

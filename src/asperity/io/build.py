@@ -14,6 +14,8 @@ from ..contact.ramps import Ramped, ramps
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
+from ..contact.wet import Friction
+from ..contact.wetting import LiquidFilm
 from ..core import units
 from ..core.citations import citation_keys
 from ..core.errors import InputError
@@ -21,6 +23,7 @@ from ..solids.body import Body, surface_material
 from ..solids.layers import Layered
 from ..stress.request import Planned, StressRequest
 from .build_body import build_body
+from .build_film import build_film
 from .build_stress import build_stress, check_stress
 from .build_surface import build_surfaces
 from .schemas.problem import (
@@ -37,9 +40,10 @@ from .schemas.values import EFFECTIVE, FROM_BODY, NONE
 
 @dataclass(frozen=True)
 class Case:
-    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any the ``stress``.
+    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any ``stress`` and ``film``.
 
     A load path is the sequence of controls in ``path``, the last of which is ``control``; it is empty for a single load.
+    ``friction`` is that of the film.
     """
 
     problem: ContactProblem
@@ -48,6 +52,8 @@ class Case:
     threads: int | None = None
     stress: StressRequest | None = None
     path: tuple[Control, ...] = ()
+    film: LiquidFilm | None = None
+    friction: Friction = Friction()
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -82,7 +88,8 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         check_stress(stress, problem)
     path = () if document.control.path is None else build_path(document.control.path)
     control = path[-1] if path else build_control(document.control)
-    return Case(problem, control, solver, document.solver.threads, stress, path)
+    film, friction = (None, Friction()) if document.film is None else build_film(document.film, folder)
+    return Case(problem, control, solver, document.solver.threads, stress, path, film, friction)
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

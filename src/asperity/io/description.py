@@ -13,6 +13,7 @@ from ..contact.boundary import Boundary
 from ..contact.control import Control
 from ..contact.laws import Hardness, HardWall, LayeredHardness
 from ..contact.problem import Flat
+from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
 from ..solids.body import Body
@@ -30,6 +31,7 @@ TYPES: tuple[type, ...] = (
     HardWall,
     LayeredHardness,
     Layer,
+    LiquidFilm,
     RigidBase,
     Strength,
 )

@@ -180,7 +180,7 @@ def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
         value = getattr(table, key)
         if isinstance(value, Table):
             changed[key] = _with_paths(value, moved)
-        elif value is not None and key in ("path", "materials_file"):
+        elif value is not None and key in ("path", "materials_file", "liquids_file"):
             changed[key] = moved(value)
     return table.model_copy(update=changed) if changed else table
 

@@ -11,6 +11,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ..contact.result import SCALARS, ContactResult
+from ..contact.wet_result import WET_SCALARS, WetContactResult
 from .atomic import atomic_file
 from .labels import CERTIFICATE
 
@@ -18,7 +19,7 @@ VTK_TYPES = {"float64": "Float64", "float32": "Float32", "uint8": "UInt8"}
 """VTK's names of array types."""
 
 
-def export_csv(result: ContactResult, path: str | Path, *, overwrite: bool = False) -> None:
+def export_csv(result: ContactResult | WetContactResult, path: str | Path, *, overwrite: bool = False) -> None:
     """Write scalars, certificate and status of ``result`` to ``path``: columns name, value, unit, label; SI, exact.
 
     Raises
@@ -26,9 +27,12 @@ def export_csv(result: ContactResult, path: str | Path, *, overwrite: bool = Fal
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    rows = [(q.attribute, getattr(result, q.attribute), q.unit, q.label) for q in SCALARS]
+    contact = result.contact if isinstance(result, WetContactResult) else result
+    rows = [(q.attribute, getattr(contact, q.attribute), q.unit, q.label) for q in SCALARS]
+    if isinstance(result, WetContactResult):
+        rows += [(q.attribute, getattr(result, q.attribute), q.unit, q.label) for q in WET_SCALARS]
     for q in CERTIFICATE:
-        rows.append((f"certificate.{q.attribute}", getattr(result.certificate, q.attribute), q.unit, q.label))
+        rows.append((f"certificate.{q.attribute}", getattr(contact.certificate, q.attribute), q.unit, q.label))
     rows.append(("status.outcome", str(result.status.outcome), "", "how the solver ended"))
     with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)

@@ -60,14 +60,14 @@ def save(result: ContactResult, path: str | Path, *, document: str | None = None
     InputError
         If the problem holds a type that files do not know.
     """
-    data = dataset(result, document=document)
+    write(dataset(result, document=document), path, overwrite=overwrite)
+
+
+def write(data: xarray.Dataset, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write ``data`` as ``dataset`` or ``wet_dataset`` made it to ``path``; errors as for ``save``."""
     encoding: dict[str, dict[str, Any]] = {str(name): {"_FillValue": None} for name in data.variables}
-    for name in (
-        "pressure",
-        "permanent_indentation",
-        "contact",
-        "plastic",
-    ):  # mostly zero, so packing costs little and saves much
+    sparse = ("pressure", "permanent_indentation", "contact", "plastic", "menisci", "wetted")
+    for name in (name for name in sparse if name in data):  # mostly zero, so packing costs little and saves much
         encoding[name] |= {"zlib": True, "complevel": 1, "shuffle": True}
     with atomic_file(path, overwrite=overwrite) as partial:
         data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)

@@ -62,28 +62,32 @@ def plot_residual(result: ContactResult, ax: Axes) -> Axes:
 
 def plot_contact(result: ContactResult, ax: Axes) -> Axes:
     """Draw where the bodies of ``result`` touch on ``ax``: not, elastically, or at the hardness."""
-    from matplotlib.colors import ListedColormap
-
     kinds = result.contact.astype(float) + result.plastic
-    shares = [float(np.mean(kinds == kind)) for kind in range(3)]
-    names, colours = ("no contact", "elastic", "plastic"), (NO_CONTACT, BLUE, VERMILLION)
-    image = _image(kinds, result.problem.grid, ax, cmap=ListedColormap(colours), vmin=-0.5, vmax=2.5)
-    image.set_interpolation("nearest")
-    _contact_legend(ax, names, colours, shares)
-    return ax
+    classes = (("no contact", NO_CONTACT), ("elastic", BLUE), ("plastic", VERMILLION))
+    return plot_classes(kinds, result.problem.grid, ax, classes if result.plastic.any() else classes[:2])
 
 
-def _contact_legend(ax: Axes, names: tuple[str, ...], colours: tuple[str, ...], shares: list[float]) -> None:
-    """Legend above the map with the shares of the nominal area; plastic only where there is any."""
+def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[str, str], ...]) -> Axes:
+    """Draw the number of the class of each point, ``kinds`` (nx, ny), on ``ax``, with shares of the area above the map.
+
+    ``classes`` are name and colour of each.
+    """
+    from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
+    colours = [colour for _, colour in classes]
+    image = _image(kinds, grid, ax, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(classes) - 0.5)
+    image.set_interpolation("nearest")
     handles = [
-        Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=f"{name} {percent(share)}")
-        for name, colour, share in zip(names, colours, shares, strict=True)
-        if name != "plastic" or share > 0.0
+        Patch(
+            facecolor=colour, edgecolor="0.4", linewidth=0.5, label=f"{name} {percent(float(np.mean(kinds == kind)))}"
+        )
+        for kind, (name, colour) in enumerate(classes)
     ]
     spacing = {"handlelength": 1.0, "handletextpad": 0.5, "columnspacing": 1.2, "borderaxespad": 0.3, "borderpad": 0.2}
-    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(handles), **spacing)
+    columns = len(handles) if len(handles) < 4 else 2
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, **spacing)
+    return ax
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,6 +12,7 @@ from ..core.grid import Grid
 from ..core.units import show
 from ..stress.field import StressField
 from ..stress.survey import StressSurvey, SurveyedSection
+from .figure import Figure
 from .picture import CURVE_SIZE, map_size, png
 from .stress import QUANTITIES, plot_stress_map, plot_stress_profile, plot_stress_section
 
@@ -23,16 +24,6 @@ CLOSE_UP = 3.0
 
 PROFILE = ("von_mises", "max_principal", "normal_zz", "shear_xz", "shear_yz")
 """Stresses on a depth profile; shear that is everywhere less than a thousandth of the largest stress is left out."""
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A drawn figure: ``name`` of its file, ``title``, ``caption``, and the PNG."""
-
-    name: str
-    title: str
-    caption: str
-    picture: bytes
 
 
 def line_figures(survey: StressSurvey) -> Iterator[Figure]:

@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import Any, TypeVar
 
 from ..core.units import show
-from ..plots.stress_figures import Figure
+from ..plots.figure import Figure
 from ..stress.criteria import TABOR
 from ..stress.field import Peak
 from ..stress.maxima import RegionMaxima

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,7 @@ from .stress import (
     yield_table,
 )
 from .stress import setting_rows as stress_rows
+from .wet import REMARK, WetPart, film_rows, wet_rows, wet_sentence
 
 TEMPLATE = "report.html"
 """Template in the folder ``templates``."""
@@ -46,6 +48,7 @@ def write_report(
     title: str = "",
     stress: StressPart | None = None,
     load_path: LoadPath | None = None,
+    wet: WetPart | None = None,
     overwrite: bool = False,
 ) -> None:
     """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
@@ -66,6 +69,8 @@ def write_report(
         Stresses inside a body and their figures, as of ``asperity contact``.
     load_path
         The path whose last step is ``result``.
+    wet
+        Liquid film and menisci of a wet contact, whose contact is ``result``, and their figures.
     overwrite
         Whether an existing file is replaced.
 
@@ -80,21 +85,30 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(result, advice, document, title or _title(result), stress, load_path), encoding="utf-8")
+        page = _Page(result, advice, document, title or _title(result), stress, load_path, wet)
+        file.write_text(_html(page), encoding="utf-8")
 
 
-def _html(
-    result: ContactResult,
-    advice: Sequence[Advice],
-    document: str | None,
-    title: str,
-    stress: StressPart | None,
-    load_path: LoadPath | None,
-) -> str:
-    warnings = [item for item in advice if item.level == "warning"]
+@dataclass(frozen=True, eq=False)
+class _Page:
+    """What a report shows, see ``write_report``."""
+
+    result: ContactResult
+    advice: Sequence[Advice]
+    document: str | None
+    title: str
+    stress: StressPart | None
+    load_path: LoadPath | None
+    wet: WetPart | None
+
+
+def _html(page: _Page) -> str:
+    result, stress, load_path, wet = page.result, page.stress, page.load_path, page.wet
+    warnings = [item for item in page.advice if item.level == "warning"]
     return rendered(
         TEMPLATE,
-        title=title,
+        title=page.title,
+        status=result.status if wet is None else wet.result.status,
         result=result,
         summary=summary(result),
         headline=headline_rows(result),
@@ -105,11 +119,12 @@ def _html(
         plastic=_plastic(result),
         path=None if load_path is None else _path(load_path),
         stress=None if stress is None else _stress(stress),
+        wet=None if wet is None else _wet(wet),
         warnings=warnings,
-        notes=[item for item in advice if item.level != "warning"],
+        notes=[item for item in page.advice if item.level != "warning"],
         provenance=_provenance_rows(provenance(result)),
-        references=[(key, REFERENCES.get(key, "unknown reference")) for key in _citation_keys(result, stress)],
-        document=document,
+        references=[(key, REFERENCES.get(key, "unknown reference")) for key in _citation_keys(page)],
+        document=page.document,
     )
 
 
@@ -167,9 +182,21 @@ def _stress(part: StressPart) -> dict[str, Any]:
     }
 
 
-def _citation_keys(result: ContactResult, stress: StressPart | None) -> tuple[str, ...]:
-    more = () if stress is None else stress.survey.citation_keys
-    return tuple(dict.fromkeys((*result.citation_keys, *more)))
+def _wet(part: WetPart) -> dict[str, Any]:
+    """The part on the liquid for the template."""
+    return {
+        "summary": wet_sentence(part.result),
+        "film": film_rows(part.result),
+        "results": wet_rows(part.result),
+        "remark": REMARK,
+        "figures": [_shown(figure.title, figure.caption, figure.picture) for figure in part.figures],
+    }
+
+
+def _citation_keys(page: _Page) -> tuple[str, ...]:
+    stress = () if page.stress is None else page.stress.survey.citation_keys
+    wet = () if page.wet is None else page.wet.result.citation_keys
+    return tuple(dict.fromkeys((*page.result.citation_keys, *stress, *wet)))
 
 
 def _provenance_rows(described: dict[str, Any]) -> Rows:

@@ -1,4 +1,4 @@
-"""The whole problem document: two surfaces, two bodies, boundary, law, control, stress and solver."""
+"""The whole problem document: two surfaces, two bodies, boundary, law, control, film, stress and solver."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from ...core.errors import InputError
 from .bodies import BodyTable
+from .film import FilmTable
 from .stress import StressTable
 from .surfaces import FileSurface, SurfaceTable
 from .values import (
@@ -131,6 +132,7 @@ class ProblemDocument(Table):
     boundary: BoundaryTable = BoundaryTable()
     law: LawTable = HardWallTable(kind="hard_wall")
     control: ControlTable
+    film: FilmTable | None = None
     stress: StressTable | None = None
     solver: SolverTable = SolverTable()
 
@@ -144,6 +146,12 @@ class ProblemDocument(Table):
             raise InputError(
                 'counter_surface.mirror must be given: "x" or "y" for a map measured facing its own body (how it is '
                 'turned over to meet the other one), "none" for one already in the frame of the other surface.'
+            )
+        if self.film is not None and self.control.path is not None:
+            raise InputError("control must give one load with a film, not a path: menisci are solved for one load.")
+        if self.film is not None and self.stress is not None and self.stress.coupled:
+            raise InputError(
+                "stress.coupled must be false with a film: menisci and coupled friction are not solved together."
             )
         if self.body.rigid and self.counter_body.rigid:
             raise InputError("body and counter_body must not both be rigid: give one of them a material.")

@@ -210,6 +210,12 @@ else:
     PathForces = _turning_points("force", "1 mN")
     PathLengths = _turning_points("length", "5 nm")
 
+SurfaceTension: TypeAlias = Annotated[str, _quantity("surface tension"), _as_quantity("surface tension", "72 mN/m")]
+"""Text of a surface tension > 0."""
+
+Viscosity: TypeAlias = Annotated[str, _quantity("viscosity"), _as_quantity("viscosity", "1 mPa*s")]
+"""Text of a viscosity > 0."""
+
 Size: TypeAlias = Annotated[str, AfterValidator(_size), _as_quantity("size", "20 um x 20 um")]
 """Text of one or two lengths."""
 

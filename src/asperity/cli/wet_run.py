@@ -1,0 +1,57 @@
+"""The menisci of a run: solved, drawn, written and printed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..contact.wet_result import WetContactResult
+    from ..io.build import Case
+    from ..report.wet import WetPart
+
+
+def wet_contact(case: Case) -> WetContactResult | None:
+    """Contact of ``case`` with its film of liquid; None if it has none."""
+    from ..contact.wet import solve_wet
+    from ..core.engine import CpuEngine
+    from .interrupt import interruptible
+    from .progress import shown
+
+    if case.film is None:
+        return None
+    with shown("solving") as bar, interruptible(bar) as progress:
+        return solve_wet(
+            case.problem,
+            case.control,
+            case.film,
+            friction=case.friction,
+            solver=case.solver,
+            engine=CpuEngine(case.threads),
+            progress=progress,
+            on_failure="return",
+        )
+
+
+def write_wet(result: WetContactResult, folder: Path, document: str) -> WetPart:
+    """Write result file and figures of ``result`` into the ``folder`` of a run; what its report is to show."""
+    from ..io.wet_results import save_wet
+    from ..plots.menisci import wet_figures
+    from ..report.wet import WetPart
+
+    save_wet(result, folder / "result.nc", document=document)
+    figures = wet_figures(result)
+    for figure in figures:
+        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+    return WetPart(result, figures)
+
+
+def print_wet(result: WetContactResult) -> None:
+    """Print liquid, menisci, friction and whether the force is steady."""
+    from ..report.wet import film_rows, wet_rows
+    from .show import console, say, table
+
+    console().print(table("Liquid film and menisci", [*film_rows(result), *wet_rows(result)]))
+    say(result.status.message, "green" if result.converged else "bold red")
+    if result.status.remedy:
+        say(result.status.remedy, "red")

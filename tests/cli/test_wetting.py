@@ -1,0 +1,123 @@
+"""Liquid films on the command line and in documents: what is printed, drawn and written, and what is refused."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import Runner
+
+import asperity as asp
+from asperity.io.documents import load_document
+
+NM = 1e-9
+DLC = ("--body", "DLC", "--pressure", "2MPa")
+WATER = ("--liquid", "water", "--humidity", "80%", "--contact-angle", "60deg,60deg")
+
+
+@pytest.fixture
+def scan(tmp_path: Path) -> Path:
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(2.0 * NM), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=100 * NM
+    )
+    surface = asp.generate.gaussian(asp.Grid((48, 48), (40 * NM, 40 * NM)), spectrum, seed=5)
+    asp.save_surface(surface, tmp_path / "scan.nc")
+    return tmp_path / "scan.nc"
+
+
+def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    result = run("contact", scan, *DLC, *WATER, "--friction", 0.3, "--out", out)
+    assert result.exit_code == 0, result.stderr
+    for text in ("Liquid film and menisci", "60° and 60°", "2.414 nm", "toe-dipping", "static friction coefficient"):
+        assert text in result.stdout, text
+    assert "Largest stresses inside" not in result.stdout, "the friction coefficient is that of the film alone"
+    wet = asp.load_wet(out / "result.nc")
+    film = asp.LiquidFilm.at_humidity(asp.liquid("water"), 0.8, contact_angles=(np.pi / 3.0, np.pi / 3.0))
+    assert wet.film.meniscus_height == pytest.approx(film.meniscus_height, rel=1e-12)
+    direct = asp.solve_wet(asp.ContactProblem(wet.problem.surface, asp.material("DLC")), asp.MeanPressure(2e6), film)
+    assert wet.meniscus_force == pytest.approx(direct.meniscus_force, rel=1e-12)
+    assert wet.control == asp.MeanPressure(2e6)
+    assert (out / "plots" / "menisci.png").read_bytes().startswith(b"\x89PNG")
+    with (out / "scalars.csv").open(encoding="utf-8") as file:
+        rows = {row["name"]: row["value"] for row in csv.DictReader(file)}
+    assert float(rows["meniscus_force"]) == wet.meniscus_force
+    assert float(rows["force"]) == pytest.approx(wet.external_force + wet.meniscus_force, rel=1e-3)
+    html = (out / "report.html").read_text(encoding="utf-8")
+    for text in ("Liquid film and menisci", "The meniscus force is steady", "[TianBhushan1996]", "not redistributed"):
+        assert text in html, text
+
+    again = run("contact", "--from", out / "problem.toml", "--humidity", "70%", "--out", tmp_path / "again")
+    assert again.exit_code == 0, again.stderr
+    drier = asp.load_wet(tmp_path / "again" / "result.nc")
+    assert drier.meniscus_force < wet.meniscus_force
+    assert drier.dry_friction == 0.3
+
+
+def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    assert run("contact", scan, *DLC, "--liquid", "PFPE", "--film", "2nm", "--out", out).exit_code == 0
+    drawn = run("plot", out / "result.nc", "--out", tmp_path / "pictures")
+    assert drawn.exit_code == 0, drawn.stderr
+    assert (tmp_path / "pictures" / "menisci.png").exists()
+    assert run("export", out / "result.nc", "--csv", tmp_path / "a.csv", "--vtk", tmp_path / "a.vti").exit_code == 0
+    assert (tmp_path / "a.csv").read_text("utf-8") == (out / "scalars.csv").read_text("utf-8")
+    assert "TianBhushan1996" in run("cite", out / "result.nc").stdout
+
+
+def test_a_film_beside_stresses(run: Runner, scan: Path) -> None:
+    """Friction counts for both where stresses are asked for; the stresses are those under load and menisci."""
+    found = run("contact", scan, *DLC, "--liquid", "PFPE", "--film", "1nm", "--friction", 0.3, "--section", "y=max")
+    assert found.exit_code == 0, found.stderr
+    assert "Largest stresses inside" in found.stdout
+    assert "static friction force" in found.stdout
+
+
+def test_every_option_of_the_film_reaches_the_document(run: Runner, scan: Path, tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('[liquid."ours"]\nsurface_tension = "30 mN/m"\ntemperature = "300 K"\n', "utf-8")
+    options = ("--liquid", "ours", "--liquids-file", own, "--surface-tension", "20mN/m", "--film", "1nm")
+    more = ("--meniscus-height", "2nm", "--contact-angle", "10deg", "--viscosity", "10mPa*s", "--speed", "1mm/s")
+    document = tmp_path / "sub" / "p.toml"
+    document.parent.mkdir()
+    found = run("contact", scan, *DLC, *options, *more, "--friction", 0.2, "--save-document", document)
+    assert found.exit_code == 0, found.stderr
+    assert "20 mN/m" in found.stdout
+    assert "10 mPa·s" in found.stdout
+    film = load_document(document).film
+    assert film is not None
+    assert Path(film.liquids_file).name == "own.toml"
+    assert (film.thickness, film.meniscus_height, film.contact_angle, film.friction) == ("1nm", "2nm", ("10deg",), 0.2)
+    assert run("contact", "--from", document).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--film", "2nm"), "the film must give a liquid"),
+        (("--liquid", "water"), "the film must give the thickness"),
+        (("--liquid", "water", "--humidity", "120%"), "--humidity must be greater than 0 % and less than 100 %"),
+        (("--liquid", "watr", "--film", "1nm"), "did you mean water"),
+        (("--liquid", "water", "--film", "1"), "--film must have a unit"),
+        (("--liquid", "PFPE", "--humidity", "50%"), "molar volume of head-disk lubricant"),
+        (("--surface-tension", "30mN/m", "--humidity", "50%"), "must name its liquid"),
+        (("--liquid", "water", "--humidity", "50%", "--meniscus-height", "1nm"), "must not give both"),
+        (("--liquid", "water", "--film", "1nm", "--contact-angle", "1deg,2deg,3deg"), "one or two angles"),
+        (("--liquid", "water", "--film", "1nm", "--contact-angle", "120deg,80deg"), "no meniscus forms"),
+        (("--liquid", "PFPE", "--film", "1nm", "--speed", "1mm/s"), "viscosity of the liquid must be known"),
+        (("--liquid", "PFPE", "--film", "1nm", "--coupled", "--friction", "0.3"), "not solved together"),
+    ],
+)
+def test_films_that_cannot_be_used_are_refused(run: Runner, scan: Path, options: tuple[str, ...], message: str) -> None:
+    found = run("contact", scan, *DLC, *options)
+    assert found.exit_code == 2
+    assert message in " ".join(found.stderr.split()), found.stderr
+
+
+def test_a_force_that_runs_away_is_told(run: Runner, scan: Path) -> None:
+    found = run("contact", scan, "--body", "E=1GPa,nu=0.3", "--pressure", "10kPa", "--liquid", "PFPE", "--film", "2nm")
+    assert found.exit_code == 2
+    assert "meniscus force runs away" in found.stderr
+    assert "times the external force" in found.stderr
