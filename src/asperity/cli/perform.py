@@ -33,9 +33,9 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.atomic import require_new_files
     from ..io.build import build
     from ..io.documents import relocated
-    from .show import print_advice, print_files, print_path, print_result
-    from .stress_run import output_folder, print_stress, surveyed, write_volume
-    from .wet_run import print_wet, wet_contact
+    from .show import print_advice, print_files, print_result
+    from .stress_run import output_folder, surveyed, write_volume
+    from .wet_run import wet_contact
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
@@ -51,21 +51,29 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
             _write_folder(Run(result, findings, moved, stress, path, wet), folder)
     _write_files(wet or result, document, base_folder, output)
     print_result(result, document.title)
-    if path is not None:
-        print_path(path)
-    if wet is not None:
-        print_wet(wet)
+    _print_parts(path, wet, stress)
     if stress is not None:
         write_volume(stress, output)
-        print_stress(stress)
     print_advice(findings)
     print_files(_written(output, stressed=stress is not None, along_path=path is not None))
     return OK if (path or wet or result).converged else NOT_CONVERGED
 
 
-def _result(
-    case: Case, path: LoadPath | None, wet: WetContactResult | None, *, chosen: bool
-) -> ContactResult:
+def _print_parts(path: LoadPath | None, wet: WetContactResult | None, stress: StressSurvey | None) -> None:
+    """Print load path, menisci and stresses, each if there is any."""
+    from .show import print_path
+    from .stress_run import print_stress
+    from .wet_run import print_wet
+
+    if path is not None:
+        print_path(path)
+    if wet is not None:
+        print_wet(wet)
+    if stress is not None:
+        print_stress(stress)
+
+
+def _result(case: Case, path: LoadPath | None, wet: WetContactResult | None, *, chosen: bool) -> ContactResult:
     """Contact at the end of ``path``, of the ``wet`` contact, or solved now."""
     if path is not None:
         return path.results[-1]
