@@ -135,7 +135,11 @@ class FullerTabor:
         """
         wanted = curve(pressure, "pressures (Pa)", positive=True) / (self.density * self.sphere.pull_off)
         least = np.full_like(wanted, self._least()[0])
-        D = bisected(lambda d: wanted - self.load_per_summit(d), np.full_like(wanted, LOWEST), least)
+        D = bisected(lambda d: wanted - self.load_per_summit(d), np.full_like(wanted, LOWEST), least, halvings=20)
+        for _ in range(4):  # Newton's method from 1e-4 on
+            x, s, weight = self._summits_at(D)
+            load = load_ratio(x)
+            D = D + (np.sum(weight * load, axis=-1) - wanted) / np.sum(weight * load * s, axis=-1)
         return self.at_separation(self.mean_height + self.height_deviation * D)
 
     def pull_off(self) -> tuple[float, float]:

@@ -17,48 +17,66 @@ LENNARD_JONES = 1.157
 """λ/μ_T if the attraction is the largest of a Lennard-Jones surface, 16w/(9√3 z0)."""
 
 
+_WIDEST, _NARROWEST = 46.0, -46.0  # ln s between which any contact lies
+
+
 @dataclass(frozen=True, eq=False)
 class MaugisState:
-    """Contact in units of Maugis: radius (πwR²/K)^(1/3), load πwR, approach (π²w²R/K²)^(1/3), K = 4E*/3."""
+    """Contact in units of Maugis: radius (πwR²/K)^(1/3), load πwR, approach (π²w²R/K²)^(1/3), K = 4E*/3.
+
+    ``ring`` is s = sqrt(m² - 1) with the outer radius of the attraction over that of the contact, m = c/a.
+    """
 
     radius: RealArray
-    outer_over_inner: RealArray
+    ring: RealArray
     load: RealArray
     approach: RealArray
 
+    @property
+    def outer_over_inner(self) -> RealArray:
+        """m = c/a."""
+        return np.asarray(np.hypot(1.0, self.ring))
+
 
 def maugis_state(transition: float, contact_radius: ArrayLike) -> MaugisState:
-    """Outer radius c/a of the attracting ring, load and approach at the normalised ``contact_radius`` A > 0 (any shape).
+    """Attracting ring, load and approach at the normalised ``contact_radius`` A > 0 (any shape), λ = ``transition`` > 0.
 
-    With m = c/a, s = sqrt(m² - 1), ϑ = arctan s and λ = ``transition`` > 0
+    With m = c/a, s = sqrt(m² - 1), ϑ = arctan s
 
     (λA²/2)[s + (m² - 2)ϑ] + (4λ²A/3)[sϑ - m + 1] = 1,  P = A³ - λA²[s + m²ϑ],  δ = A² - (4/3)λAs.
     """
-    lam = require.positive(transition, "transition parameter")
+    require.positive(transition, "transition parameter")
     A = checked(contact_radius, "normalised contact radius", lowest=np.finfo(float).tiny)
-
-    def energy(log_s: RealArray) -> RealArray:
-        s = np.exp(log_s)
-        theta = np.arctan(s)
-        # sϑ - m + 1 with m - 1 = s²/(m + 1)
-        neck = s * theta - s**2 / (1.0 + np.hypot(1.0, s))
-        return np.asarray(0.5 * lam * A**2 * _ring(s, theta) + 4.0 / 3.0 * lam**2 * A * neck - 1.0)
-
-    s = np.exp(bisected(energy, np.full_like(A, -46.0), np.full_like(A, 46.0)))
-    m, theta = np.hypot(1.0, s), np.arctan(s)
-    load = A**3 - lam * A**2 * (s + m**2 * theta)
-    return MaugisState(A, m, load, A**2 - 4.0 / 3.0 * lam * A * s)
+    ends = np.full_like(A, _NARROWEST), np.full_like(A, _WIDEST)
+    return maugis_at_ring(transition, np.exp(bisected(lambda y: A - _radius(transition, np.exp(y)), *ends)))
 
 
-def maugis_pull_off(transition: float) -> tuple[float, float]:
-    """Least normalised load P and the contact radius A there, for λ = ``transition`` > 0: -1.5 for JKR, -2 for DMT."""
-    low, high = 1e-4, 4.0  # JKR has its least load at A = 1.145, DMT at 0
-    for _ in range(20):  # each a tenth of the one before
-        A = np.geomspace(low, high, 41)
-        state = maugis_state(transition, A)
-        best = int(np.argmin(state.load))
-        low, high = A[max(best - 2, 0)], A[min(best + 2, 40)]
-    return float(state.load[best]), float(A[best])
+def maugis_at_ring(transition: float, ring: RealArray) -> MaugisState:
+    """The same contact from s = ``ring`` > 0 of any shape, without a search."""
+    A, theta = _radius(transition, ring), np.arctan(ring)
+    load = A**3 - transition * A**2 * (ring + (1.0 + ring**2) * theta)
+    return MaugisState(A, ring, load, A**2 - 4.0 / 3.0 * transition * A * ring)
+
+
+def maugis_pull_off(transition: float) -> MaugisState:
+    """The contact of the least load, for λ = ``transition`` > 0: P = -1.5 for JKR, -2 for DMT."""
+    require.positive(transition, "transition parameter")
+    low, high = -30.0, 30.0
+    for _ in range(16):  # each a tenth of the one before
+        log_s = np.linspace(low, high, 41)
+        best = int(np.argmin(maugis_at_ring(transition, np.exp(log_s)).load))
+        low, high = log_s[max(best - 2, 0)], log_s[min(best + 2, 40)]
+    return maugis_at_ring(transition, np.exp(log_s[best]))
+
+
+def _radius(lam: float, s: RealArray) -> RealArray:
+    """A > 0 of the first equation, quadratic in A: uA² + 2vA = 1."""
+    theta = np.arctan(s)
+    u = 0.5 * lam * _ring(s, theta)
+    # sϑ - m + 1 with m - 1 = s²/(m + 1)
+    v = 2.0 / 3.0 * lam**2 * (s * theta - s**2 / (1.0 + np.hypot(1.0, s)))
+    radius: RealArray = 1.0 / (v + np.sqrt(v**2 + u))
+    return radius
 
 
 @dataclass(frozen=True)
@@ -105,7 +123,7 @@ class MaugisDugdale:
     @property
     def pull_off(self) -> float:
         """Force in N that separates the bodies under dead load."""
-        return -maugis_pull_off(self.transition)[0] * np.pi * self.work * self.radius
+        return -float(maugis_pull_off(self.transition).load) * np.pi * self.work * self.radius
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The stable contact under ``load`` in N, not below minus the pull-off force, of any shape.
@@ -115,24 +133,27 @@ class MaugisDugdale:
         InputError
             If a load is below the pull-off force.
         """
-        lowest, A_lowest = maugis_pull_off(self.transition)
+        least = maugis_pull_off(self.transition)
         unit = np.pi * self.work * self.radius
-        P = checked(load, "load (N)", lowest=lowest * unit) / unit
-        highest = 2.0 + np.cbrt(2.0 * np.maximum(P, 0.0) + 4.0)  # JKR, the largest contact of all, is smaller
-        A = bisected(lambda A: maugis_state(self.transition, A).load - P, np.full_like(P, A_lowest), highest)
-        return self.at_radius(A * self._unit_radius)
+        P = checked(load, "load (N)", lowest=float(least.load) * unit) / unit
+        ends = np.full_like(P, _NARROWEST), np.full_like(P, np.log(least.ring))
+        s = np.exp(bisected(lambda y: P - maugis_at_ring(self.transition, np.exp(y)).load, *ends))
+        return self._answer(maugis_at_ring(self.transition, s))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, > 0, of any shape."""
         a = checked(contact_radius, "contact radius (m)")
-        state = maugis_state(self.transition, a / self._unit_radius)
-        step = 1e-6
-        ends = [maugis_state(self.transition, a / self._unit_radius * (1.0 + s)) for s in (-step, step)]
+        return self._answer(maugis_state(self.transition, a / self._unit_radius))
+
+    def _answer(self, state: MaugisState) -> ContactAnswer:
+        step = 1e-5
+        ends = [maugis_at_ring(self.transition, state.ring * (1.0 + s)) for s in (-step, step)]
         rise = (ends[1].load - ends[0].load) / (ends[1].approach - ends[0].approach)
         unit_load = np.pi * self.work * self.radius
         unit_approach = self._unit_radius**2 / self.radius
+        a = state.radius * self._unit_radius
         # (2E*/πR) a of Hertz less the pull of the ring, 2σ0/π arctan s, at the centre
-        pull = 2.0 / np.pi * self.attraction * np.arctan(np.sqrt(state.outer_over_inner**2 - 1.0))
+        pull = 2.0 / np.pi * self.attraction * np.arctan(state.ring)
         return ContactAnswer(
             load=state.load * unit_load,
             approach=state.approach * unit_approach,

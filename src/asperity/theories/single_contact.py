@@ -84,13 +84,15 @@ def checked(values: ArrayLike, what: str, lowest: float = 0.0) -> RealArray:
     return array
 
 
-def bisected(function: Callable[[RealArray], RealArray], low: RealArray, high: RealArray) -> RealArray:
-    """Roots of an elementwise rising ``function`` between ``low`` and ``high``, to the last digits.
+def bisected(
+    function: Callable[[RealArray], RealArray], low: RealArray, high: RealArray, halvings: int = 64
+) -> RealArray:
+    """Roots of an elementwise rising ``function`` between ``low`` and ``high``, by default to the last digits.
 
     A jump across zero counts as a root.
     """
     low, high = (np.array(end, dtype=float) for end in np.broadcast_arrays(low, high))
-    for _ in range(64):  # more halvings than a double has digits
+    for _ in range(halvings):  # 64 are more than a double has digits
         middle = 0.5 * (low + high)
         above = function(middle) > 0.0
         high, low = np.where(above, middle, high), np.where(above, low, middle)

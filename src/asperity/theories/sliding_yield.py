@@ -95,11 +95,13 @@ def _onset(stress: Callable[[RealArray, RealArray], StressTensor], nu: float, fr
         root: RealArray = np.sqrt(second_invariant(stress(x, z)))
         return root
 
+    # without friction all is symmetric, and the place of a maximum is known to the root of the rounding only
+    side = 0.0 if friction == 0.0 else 1.0
     surface, x_surface, _ = _largest(root_J2, (-1.0, 1.0), (0.0, 0.0))
     inside, x, z = _largest(root_J2, (-1.0, 1.0), (0.05, 1.5))
     if surface >= inside:
         return YieldOnset(surface, x_surface, 0.0, surface)
-    return YieldOnset(inside, x, z, surface)
+    return YieldOnset(inside, side * x, z, surface)
 
 
 def _largest(
