@@ -191,6 +191,7 @@ def test_westergaard(row):
     expected = [row["p_x0"], row["p_x_a2"], row["p_x_09a"]]
     assert wave.pressure([0.0, 0.5 * a, 0.9 * a], p) == pytest.approx(expected, rel=DIGITS)
     assert wave.approach(p) / row["amplitude"] == pytest.approx(row["approach_over_amplitude"], rel=DIGITS)
+    assert wave.at_pressure(p).area_fraction[0] == pytest.approx(row["contact_fraction"], rel=DIGITS)
     assert wave.mean_gap(p) + wave.approach(p) == pytest.approx(row["amplitude"], rel=DIGITS)
 
 
@@ -222,8 +223,9 @@ def test_crossed_waves(row):
     assert waves.max_pressure_at_low_load(p) / full == pytest.approx(row["pmax_over_pstar_low_load"], rel=DIGITS)
     if row["area_fraction_numeric"] != "" and row["pbar_over_pstar"] > HIGH_LOAD:
         assert waves.area_fraction_at_high_load(p) == pytest.approx(row["area_fraction_numeric"], abs=3e-4)
-    between = waves.validity(p)[1]
-    assert bool(between.holds[0]) == (not LOW_LOAD < row["pbar_over_pstar"] < HIGH_LOAD)
+    found = waves.at_pressure(p)
+    outside = not LOW_LOAD < row["pbar_over_pstar"] < HIGH_LOAD
+    assert bool(waves.validity(found)[1].holds[0]) == outside == bool(np.isfinite(found.area_fraction[0]))
     assert waves.area_fraction_at_high_load(1.2 * full) == 1.0
     with pytest.raises(InputError, match="full contact"):
         waves.full_contact(0.0, 0.0, 0.9 * full)
@@ -306,7 +308,7 @@ def test_validity_is_about_slopes():
     punch = LineFlatPunch(1.0, 1.0)
     assert punch.validity(punch.at_load([0.1, 1.0]))[0].value == pytest.approx([0.05, 0.5])
     wave = Westergaard(1.0, 0.1, 1.0)
-    assert not wave.validity()[0].holds.any()
+    assert not wave.validity(wave.at_pressure([0.01, 0.1]))[0].holds.any()
 
 
 def test_unusable_values_are_refused():

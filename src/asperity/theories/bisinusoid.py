@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from .hertz import HertzPoint
-from .protocol import E_STAR, Input, Limit
+from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .single_contact import checked, small_slope
 
 LOW_LOAD, HIGH_LOAD = 0.02, 0.95
@@ -87,12 +87,19 @@ class CrossedWaves:
         q = 2.0 * np.pi / self.wavelength
         return np.asarray(p + 0.5 * full * (np.cos(q * np.asarray(x)) + np.cos(q * np.asarray(y))))
 
-    def validity(self, mean_pressure: ArrayLike) -> tuple[Limit, ...]:
+    def at_pressure(self, mean_pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive: the area, NaN where neither end of the load is near."""
+        p = curve(mean_pressure, "mean pressures (Pa)", positive=True)
+        share = p / self.full_contact_pressure
+        between = np.where(share >= HIGH_LOAD, self.area_fraction_at_high_load(p), np.nan)
+        return prediction(p, area_fraction=np.where(share <= LOW_LOAD, self.area_fraction_at_low_load(p), between))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
         """Slopes small, and every load near one of the ends: p̄/p* <= 0.02 or >= 0.95."""
-        share = checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
-        inside = np.atleast_1d(np.minimum(share - LOW_LOAD, HIGH_LOAD - share)).ravel()
+        share = prediction.pressure / self.full_contact_pressure
+        inside = np.minimum(share - LOW_LOAD, HIGH_LOAD - share)
         message = "There is no closed form between the asymptotes of low and of high load."
-        steepest = np.array(2.0 * math.sqrt(2.0) * math.pi * self.amplitude / self.wavelength)
+        steepest = np.full(len(prediction), 2.0 * math.sqrt(2.0) * math.pi * self.amplitude / self.wavelength)
         return (
             small_slope("largest slope of the waves", steepest),
             Limit("p/p* between 0.02 and 0.95, by", inside, -math.inf, 0.0, "JohnsonGreenwood1985", message),

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
-from .protocol import E_STAR, Input, Limit
+from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .single_contact import checked, small_slope
 
 
@@ -90,9 +90,18 @@ class Westergaard:
         open_ = np.maximum(p / full - np.sin(psi) ** 2, 0.0)
         return np.asarray(2.0 * full * np.abs(np.cos(psi)) * np.sqrt(open_))
 
-    def validity(self) -> tuple[Limit, ...]:
+    def at_pressure(self, mean_pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of the mean planes."""
+        p = curve(mean_pressure, "mean pressures (Pa)", positive=True)
+        gap = self.mean_gap(p)
+        return prediction(
+            p, area_fraction=self.area_fraction(p), separation=gap, mean_gap=gap, stiffness=self.stiffness(p)
+        )
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
         """Slopes of the wave must be small: 2πΔ/λ <= 0.3."""
-        return (small_slope("largest slope of the wave", np.array(2.0 * np.pi * self.amplitude / self.wavelength)),)
+        slope = 2.0 * np.pi * self.amplitude / self.wavelength
+        return (small_slope("largest slope of the wave", np.full(len(prediction), slope)),)
 
     def _share(self, mean_pressure: ArrayLike) -> RealArray:
         share: RealArray = checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
