@@ -33,6 +33,7 @@ from .core.errors import (
     UnitError,
 )
 from .core.grid import Grid
+from .io.disk_surface import save_gaussian
 from .io.export import export_csv, export_vtk
 from .io.path_files import export_path_csv, save_path
 from .io.results import load, open_dataset, save
@@ -199,6 +200,7 @@ __all__ = [
     "run_study",
     "save",
     "save_endless",
+    "save_gaussian",
     "save_path",
     "save_path_plots",
     "save_plots",

@@ -38,6 +38,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.contact.wet.solve_wet": "the choices of solve, with a film, friction and when to stop",
         "asperity.stress.compute.stress": "independent keyword-only choices of the user, each with a default",
         "asperity.stress.compute.stress_planes": "independent keyword-only choices of the user, each with a default",
+        "asperity.io.disk_surface.save_gaussian": "independent keyword-only choices of the user, most with a default",
         "asperity.io.tiles.save_endless": "independent keyword-only choices of the user, each with a default",
         "asperity.surfaces.generate.bimodal.bimodal": "two textures, their patches, and what joins them, each a keyword",
         "asperity.surfaces.generate.bimodal.particles": "independent keyword-only numbers of the particles, most with a default",

@@ -153,6 +153,14 @@ def test_tiles_within_a_memory(run: Runner, tmp_path: Path) -> None:
     np.testing.assert_allclose(np.load(tmp_path / "a.npy"), np.load(tmp_path / "b.npy"), atol=1e-20)
 
 
+def test_gaussian_surface_within_a_memory(run: Runner, tmp_path: Path) -> None:
+    big = ("--points", "300x200", "--size", "10um x 6um", *SEED, *SELF_AFFINE, "--rms-height", "5nm")
+    result = run("generate", "rough", *big, "--memory", "300kB", "--out", tmp_path / "a.npy")
+    assert result.exit_code == 0, result.stderr
+    assert run("generate", "rough", *big, "--out", tmp_path / "b.npy").exit_code == 0
+    np.testing.assert_allclose(np.load(tmp_path / "a.npy"), np.load(tmp_path / "b.npy"), atol=1e-20)
+
+
 @pytest.mark.parametrize(
     ("kind", "options", "words"),
     [
@@ -166,6 +174,8 @@ def test_tiles_within_a_memory(run: Runner, tmp_path: Path) -> None:
         ("sphere", ("--radius", "1um", "--exact"), "larger radius"),
         ("digital_filter", (*SEED, *EXPONENTIAL, "--kurtosis", "1"), "kurtosis of the heights"),
         ("digital_filter", (*SEED, *EXPONENTIAL, "--periodic", "--memory", "1GB"), "--memory must be left out"),
+        ("rough", (*SEED, *EXPONENTIAL, "--no-periodic", "--memory", "1GB"), "--memory must be left out"),
+        ("rough", (*SEED, *EXPONENTIAL, "--memory", "1GB"), "Use endless() for autocorrelations"),
         ("dimples", ("--pitch", "4um", "--radius", "1um", "--depth", "1nm"), "--pitch"),
         ("laser_bumps", (), "Missing option"),
     ],

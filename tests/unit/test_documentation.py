@@ -103,7 +103,7 @@ def test_the_examples_of_preparation(scan, capsys):
     (text,) = blocks(ROOT / "docs/how-to/prepare.md", "toml")
     table = 'version = 1\n[surface]\nkind = "file"\npath = "a.di"\n' + text
     rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
-    assert len(loads(table + rest).surface.prepare) == 6
+    assert len(loads(table + rest).surface.prepare) == 7
 
 
 def test_the_examples_of_scaling_theories(capsys):

@@ -55,7 +55,7 @@ HELP = MappingProxyType(
         "gamma": "Ratio of neighbouring frequencies.",
         "ridges": "Number of directions.",
         "length": "Longest wave; the size if left out.",
-        "memory": "Write tile by tile within this memory (2GB), to an .npy file of any size.",
+        "memory": "Write piece by piece within this memory (2GB), to an .npy file of any size.",
         # spectra and heights
         "table spectrum": "spectrum",
         "table heights": "distribution of heights",

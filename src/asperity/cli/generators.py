@@ -24,7 +24,7 @@ def command(kind: str) -> Any:
     def run(out: Path, force: bool, plot: Path | None, **values: Any) -> None:
         _run(kind, options, values, (out, plot, force))
 
-    streamed = kind == "digital_filter"
+    streamed = kind in ("digital_filter", "rough")
     parameters = [parameter(key) for key in options]
     if streamed:
         parameters.append(keyword("memory", str | None, typer.Option("--memory", help=HELP["memory"]), None))
@@ -85,26 +85,43 @@ def _generated(table: Any) -> Surface:
 
 
 def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
-    """Write an endless surface tile by tile."""
-    from ..core.errors import InputError
+    """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
     from ..core.units import parse
     from ..io.build_generated import build_spectrum, table_grid
     from ..io.build_surface import build_file_surface
+    from ..io.disk_surface import save_gaussian
     from ..io.tiles import save_endless
     from ..surfaces.generate import endless
     from .interrupt import interruptible
     from .progress import shown
     from .show import say
 
-    if table.periodic:
-        raise InputError("--memory must be left out with --periodic: a periodic surface is generated as a whole.")
+    _require_streamable(table)
     grid = table_grid(table)
     spectrum = build_spectrum(table.spectrum, Path(), build_file_surface)
-    made = endless(spectrum, grid.spacing, seed=table.seed, skewness=table.skewness, kurtosis=table.kurtosis)
+    if table.kind == "rough":
+        with shown("writing blocks") as bar, interruptible(bar) as progress:
+            limit = parse(memory, "memory", "--memory")
+            save_gaussian(grid, spectrum, out, seed=table.seed, memory=limit, overwrite=force, progress=progress)
+        return
+    moments = {"skewness": table.skewness, "kurtosis": table.kurtosis, "system": table.system}
+    made = endless(spectrum, grid.spacing, seed=table.seed, **moments)
     bytes_allowed = parse(memory, "memory", "--memory")
     with shown("writing tiles") as bar, interruptible(bar) as progress:
         save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)
     say(f"  {made.origin.history[0]}", "dim")
+
+
+def _require_streamable(table: Any) -> None:
+    from ..core.errors import InputError
+
+    if table.kind == "digital_filter" and table.periodic:
+        raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
+    if table.kind == "rough" and (table.variant != "random" or table.exact_rms or not table.periodic):
+        raise InputError(
+            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory Gaussian surfaces are "
+            "periodic, with random waves. Use digital_filter for a window without period."
+        )
 
 
 def _picture(surface: Surface, plot: Path | None, force: bool) -> None:

@@ -66,6 +66,28 @@ def line_transform(field: RealArray, axis: int, threads: int = 1) -> ComplexArra
     return spectrum
 
 
+def complex_lines(values: ComplexArray, axis: int, *, backward: bool = False, threads: int = 1) -> ComplexArray:
+    """Unnormalised, or if ``backward`` normalised inverse, transform of every line of ``values`` along ``axis``."""
+    ducc = _ducc_transforms()
+    lines: ComplexArray
+    if ducc is None:
+        lines = np.fft.ifft(values, axis=axis) if backward else np.fft.fft(values, axis=axis)
+    else:
+        lines = ducc.c2c(values, axes=(axis,), forward=not backward, inorm=2 if backward else 0, nthreads=threads)
+    return lines
+
+
+def real_lines(spectrum: ComplexArray, length: int, threads: int = 1) -> RealArray:
+    """Normalised inverse of :func:`line_transform` along the last axis, for lines of ``length`` points."""
+    ducc = _ducc_transforms()
+    lines: RealArray
+    if ducc is None:
+        lines = np.fft.irfft(spectrum, n=length, axis=-1)
+    else:
+        lines = ducc.c2r(spectrum, axes=(1,), lastsize=length, forward=False, inorm=2, nthreads=threads)
+    return lines
+
+
 @dataclass(frozen=True)
 class RealTransform:
     """Transform pair between real fields (nx, ny) and half spectra (nx, ny // 2 + 1).

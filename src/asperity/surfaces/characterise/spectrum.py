@@ -15,7 +15,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, line_transform, thread_count
-from ..generate.modes import mode_sum
+from ..generate.modes import mode_sum, multiplicity
 from ..prepare.steps import require_complete
 from ..surface import Surface
 from .differences import axis_index
@@ -150,7 +150,7 @@ def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, 
     bounds = default_edges(spectrum, per_decade) if edges is None else np.asarray(edges, dtype=float)
     ring = np.searchsorted(bounds, q.ravel(), side="left") - 1
     inside = (ring >= 0) & (ring < bounds.size - 1) & (q.ravel() > 0.0)
-    weight = np.broadcast_to(_multiplicity(spectrum.grid), q.shape).ravel()[inside]
+    weight = np.broadcast_to(multiplicity(spectrum.grid), q.shape).ravel()[inside]
     ring, count = ring[inside], bounds.size - 1
     modes = np.bincount(ring, weight, count).astype(np.float64)
     power = np.bincount(ring, weight * spectrum.psd.ravel()[inside], count)
@@ -173,15 +173,6 @@ def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: boo
     high = max(last, 2.0 * shortest)
     count = max(2, round(per_decade * np.log10(high / shortest)))
     return np.geomspace(shortest * (1.0 - _ROUNDING), high * (1.0 + _ROUNDING), count + 1)
-
-
-def _multiplicity(grid: Grid) -> RealArray:
-    """How many modes of the full plane each column (1, ny // 2 + 1) of a half spectrum stands for."""
-    weights = np.full((1, grid.shape[1] // 2 + 1), 2.0)
-    weights[0, 0] = 1.0
-    if grid.shape[1] % 2 == 0:
-        weights[0, -1] = 1.0
-    return weights
 
 
 def _require_parseval(spectral: float, direct: float) -> None:

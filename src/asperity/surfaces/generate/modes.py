@@ -14,12 +14,16 @@ def mode_sum(grid: Grid, half: RealArray) -> float:
 
     For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
     """
-    columns = half.sum(axis=0)
-    weights = np.full(columns.shape, 2.0)
+    return float(half.sum(axis=0) @ multiplicity(grid)) / grid.area
+
+
+def multiplicity(grid: Grid) -> RealArray:
+    """How many modes of the full plane each column (ny // 2 + 1,) of a half spectrum stands for."""
+    weights = np.full(grid.shape[1] // 2 + 1, 2.0)
     weights[0] = 1.0
     if grid.shape[1] % 2 == 0:
         weights[-1] = 1.0
-    return float(columns @ weights) / grid.area
+    return weights
 
 
 def mean_square(grid: Grid, psd: RealArray) -> float:

@@ -6,6 +6,8 @@ normal numbers by ``Generator.standard_normal``; a test holds their first values
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
@@ -22,6 +24,13 @@ def sub_seeds(seed: int, count: int) -> tuple[int, ...]:
 def node_noise(shape: tuple[int, int], seed: int) -> RealArray:
     """White noise at the nodes (nx, ny): PCG64 of ``seed``, drawn in the order of the array."""
     return np.random.Generator(np.random.PCG64(seed)).standard_normal(shape)
+
+
+def noise_rows(shape: tuple[int, int], seed: int, rows: int) -> Iterator[RealArray]:
+    """:func:`node_noise`, ``rows`` rows (the last time fewer) at a time."""
+    draw = np.random.Generator(np.random.PCG64(seed))
+    for start in range(0, shape[0], rows):
+        yield draw.standard_normal((min(rows, shape[0] - start), shape[1]))
 
 
 def block_noise(first: tuple[int, int], shape: tuple[int, int], seed: int) -> RealArray:

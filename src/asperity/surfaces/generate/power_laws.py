@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +11,8 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
-from .amplitude import Amplitude, PlateauPSD, RmsHeight
-from .modes import mode_sum
+from .amplitude import Amplitude, PlateauPSD, RmsHeight, RmsSlope
+from .modes import multiplicity
 
 _ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exactly on it is kept
 
@@ -62,27 +63,38 @@ def lattice_psd(law: PowerLaws, amplitude: Amplitude, grid: Grid) -> RealArray:
     InputError
         If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
     """
-    finest = 2.0 * max(grid.spacing)
-    shortest = 2.0 * np.pi / law.high
+    relative = law.relative(grid.wavenumber())
+    relative *= lattice_level(law, amplitude, grid, [(slice(None), relative)])
+    return relative
+
+
+def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Iterable[tuple[slice, RealArray]]) -> float:
+    """C0 in m⁴ at which ``law`` meets the ``amplitude`` on ``grid``.
+
+    ``parts`` are C/C0 on all modes, in pieces for consecutive columns of the half spectrum.
+
+    Raises
+    ------
+    InputError
+        If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    """
+    finest, shortest = 2.0 * max(grid.spacing), 2.0 * np.pi / law.high
     if 0.0 < shortest < finest * (1.0 - _ROUNDING):
         raise InputError(
             f"shortest wavelength must be at least two pixels ({finest:g} m), or 0 for all that the grid holds, "
             f"but is {shortest:g} m. Refine the grid or raise the shortest wavelength."
         )
-    q = grid.wavenumber()
-    relative = law.relative(q)
-    if not relative.any():
+    (qx, qy), weights, moment = grid.wavevector(), multiplicity(grid), 0.0
+    for columns, relative in parts:
+        squares = qx**2 + qy[:, columns] ** 2 if isinstance(amplitude, RmsSlope) else 1.0
+        moment += float((relative * squares).sum(axis=0) @ weights[columns]) / grid.area
+    if moment == 0.0:
         longest = math.inf if law.low == 0.0 else 2.0 * np.pi / law.low
         raise InputError(
             f"grid must hold waves between {shortest:g} and {longest:g} m, "
             f"but has the size {grid.size[0]:g} x {grid.size[1]:g} m. Enlarge the grid."
         )
-    if isinstance(amplitude, PlateauPSD):
-        relative *= amplitude.value
-        return relative
-    moment = mode_sum(grid, relative if isinstance(amplitude, RmsHeight) else q**2 * relative)
-    relative *= amplitude.value**2 / moment
-    return relative
+    return amplitude.value if isinstance(amplitude, PlateauPSD) else amplitude.value**2 / moment
 
 
 def continuous_level(law: PowerLaws, amplitude: Amplitude) -> float:
