@@ -38,6 +38,16 @@ def test_info_as_json_is_si(run: Runner, tmp_path: Path) -> None:
     assert found["rms_slope"] == pytest.approx(2e-9 * np.sqrt(2.0) / 1e-6, rel=0.02)
 
 
+def test_info_keeps_a_periodic_surface_periodic(run: Runner, tmp_path: Path) -> None:
+    made = ("generate", "rough", "--points", "64", "--size", "2um", "--seed", "1", "--spectrum", "exponential")
+    assert run(*made, "--rms", "1nm", "--correlation-length", "200nm", "--out", tmp_path / "rough.nc").exit_code == 0
+    found = json.loads(run("info", tmp_path / "rough.nc", "--full", "--json").stdout)
+    assert found["levelled"] == "mean"
+    tilted = json.loads(run("info", tmp_path / "rough.nc", "--level", "plane", "--json").stdout)
+    assert tilted["levelled"] == "plane"
+    assert tilted["Sq"] < found["Sq"]
+
+
 def test_info_plot(run: Runner, matrix: Path, tmp_path: Path) -> None:
     command = ("info", matrix, *SCALE, "--plot", tmp_path / "map.png")
     assert run(*command).exit_code == 0

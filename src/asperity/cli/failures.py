@@ -26,9 +26,9 @@ class Reporting(TyperGroup):
             _say("Interrupted: the work was stopped and nothing is half-written.")
             raise typer.Exit(INTERRUPTED) from None
         except Exception as error:
-            if isinstance(error, typer.Exit | typer.Abort) or (
+            if isinstance(error, typer.Exit | typer.Abort | BrokenPipeError) or (
                 not str(error) and hasattr(error, "ctx")
-            ):  # help and exits
+            ):  # help, exits, and a reader such as head that has seen enough
                 raise
             if hasattr(error, "format_message"):
                 usage = getattr(error, "ctx", None)

@@ -22,7 +22,13 @@ class AnswerOptions:
     """What is told of a file, and where it is written."""
 
     full: Annotated[bool, typer.Option("--full", help="All roughness quantities, not only the first four.")] = False
-    level: Annotated[str, typer.Option("--level", help="Removed before: mean, plane or quadratic.")] = "plane"
+    level: Annotated[
+        str,
+        typer.Option(
+            "--level",
+            help="Removed before: mean, plane or quadratic; by default the mean of a periodic surface, the plane of any other.",
+        ),
+    ] = "auto"
     tip_radius: Annotated[
         str | None,
         typer.Option("--tip-radius", help="Radius of the tip: shorter waves are not fitted.", metavar="LENGTH"),
@@ -39,7 +45,7 @@ def info(
 ) -> None:
     """Say what is in a file: channels, size, pixel, units, missing points, roughness.
 
-    Roughness values are those after levelling, by the least-squares plane if not told otherwise.
+    Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, if not told otherwise.
     """
     import json
 
@@ -53,16 +59,17 @@ def info(
     _check(answer)
     radius = None if answer.tip_radius is None else parse(answer.tip_radius, "length", "--tip-radius")
     surface = _read(file, reading)
-    found, flat = channels(file), levelled(surface, answer.level)
+    level = answer.level if answer.level != "auto" else "mean" if surface.periodic else "plane"
+    found, flat = channels(file), levelled(surface, level)
     whole = characterise(flat, tip_radius=radius) if answer.full or answer.report or answer.plots else None
     shown = whole if answer.full else None
     if answer.as_json:
-        record = _record(file, found, surface, flat, shown) | {"levelled": answer.level}
+        record = _record(file, found, surface, flat, shown) | {"levelled": level}
         console().out(json.dumps(record, indent=2), highlight=False)
     else:
         _print(file, found, chosen(found, reading.channel, file).index, surface)
-        _print_roughness(flat, shown, answer.level)
-    _write(answer, flat, whole)
+        _print_roughness(flat, shown, level)
+    _write(answer, level, flat, whole)
 
 
 def _check(answer: AnswerOptions) -> None:
@@ -95,7 +102,7 @@ def _read(file: Path, reading: ReadingOptions) -> Surface:
     )
 
 
-def _write(answer: AnswerOptions, flat: Surface, found: Characterisation | None) -> None:
+def _write(answer: AnswerOptions, level: str, flat: Surface, found: Characterisation | None) -> None:
     from .show import print_files, say
 
     written: list[Path] = []
@@ -114,7 +121,7 @@ def _write(answer: AnswerOptions, flat: Surface, found: Characterisation | None)
         write_roughness_report(found, answer.report, overwrite=answer.force)
         written.append(answer.report)
     if written and not answer.as_json:
-        say(f"Pictures and pages show the heights after {answer.level} levelling.", "dim")
+        say(f"Pictures and pages show the heights after {level} levelling.", "dim")
         print_files(written)
 
 

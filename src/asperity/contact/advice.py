@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..core.arrays import RealArray
 from ..solids.body import materials_of, surface_material
-from ..surfaces.characterise.slopes import rms_profile_slope
+from ..surfaces.characterise.differences import axis_index
+from ..surfaces.characterise.slopes import rms_profile_curvature
+from ..surfaces.characterise.stencils import stencil_sums
 from ..surfaces.surface import Surface
 from .control import Control, Force, MeanPressure, mean_pressure
 from .finding import Advice
@@ -51,11 +52,11 @@ FIELDS_OF_A_SOLVE = 16
 
 def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     """Findings that can be made before solving: slopes, resolution, edges, load, layers, memory."""
-    profile = problem.profile()
+    profile = Surface(problem.profile(), *problem.grid.spacing)
     return (
-        *_slope(problem, profile),
+        *_slope(profile),
         *_resolution(profile),
-        *_asperity_radius(problem, profile),
+        *_asperity_radius(profile),
         *_edges(problem, profile),
         *_load(problem, control),
         *layer_advice(problem),
@@ -68,10 +69,9 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
     return (*_contact_pixels(result), *_nearly_full(result), *_room(result), *_plastic(result), *_hardness(result))
 
 
-def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
-    surface = Surface(profile, *problem.grid.spacing)
-    slope = math.hypot(
-        *(rms_profile_slope(surface, axis=name) for name, n in zip("xy", profile.shape, strict=True) if n > 1)
+def _slope(profile: Surface) -> Iterator[Advice]:
+    slope = math.sqrt(
+        sum(_mean_square(profile, axis, 1) / d**2 for axis, d in zip("xy", profile.grid.spacing, strict=True))
     )
     if slope > LARGEST_SLOPE:
         yield Advice(
@@ -82,13 +82,9 @@ def _slope(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
         )
 
 
-def _resolution(profile: RealArray) -> Iterator[Advice]:
+def _resolution(profile: Surface) -> Iterator[Advice]:
     """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, against the pixel."""
-    wavelengths = {
-        name: pixels
-        for axis, name in enumerate("xy")
-        if (pixels := _shortest_wavelength(profile, axis)) < PIXELS_PER_WAVE
-    }
+    wavelengths = {axis: pixels for axis in "xy" if (pixels := _shortest_wavelength(profile, axis)) < PIXELS_PER_WAVE}
     if wavelengths:
         found = " and ".join(f"{pixels:.1f} pixels along {name}" for name, pixels in wavelengths.items())
         yield Advice(
@@ -100,34 +96,33 @@ def _resolution(profile: RealArray) -> Iterator[Advice]:
         )
 
 
-def _asperity_radius(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+def _asperity_radius(profile: Surface) -> Iterator[Advice]:
     """Mean summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971) against the pixel."""
     if min(profile.shape) < 3:
         return
-    dx, dy = problem.grid.spacing
-    m4 = 0.5 * sum(_mean_square_difference(profile, 2, axis) / d**4 for axis, d in enumerate((dx, dy)))
-    radius = 0.375 * math.sqrt(math.pi / m4) if m4 > 0.0 else math.inf
-    if radius < PIXELS_PER_RADIUS * max(dx, dy):
+    m4 = 0.5 * sum(rms_profile_curvature(profile, axis=axis) ** 2 for axis in "xy")
+    radius, pixel = 0.375 * math.sqrt(math.pi / m4) if m4 > 0.0 else math.inf, max(profile.grid.spacing)
+    if radius < PIXELS_PER_RADIUS * pixel:
         yield Advice(
             "warning",
             "asperity radius",
-            f"The mean asperity radius 3/8 √(π/m4) is {radius / max(dx, dy):.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
+            f"The mean asperity radius 3/8 √(π/m4) is {radius / pixel:.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
             "wanted): asperities are spikes of single pixels. Check the height unit, refine the grid or smooth the surface.",
         )
 
 
-def _shortest_wavelength(profile: RealArray, axis: int) -> float:
+def _shortest_wavelength(profile: Surface, axis: str) -> float:
     """Effective wavelength along ``axis`` in pixels; infinite where differences vanish or there are too few points."""
-    m2, m4 = (_mean_square_difference(profile, order, axis) for order in (1, 2))
+    m2, m4 = (_mean_square(profile, axis, order) for order in (1, 2))
     return 2.0 * math.pi * math.sqrt(m2 / m4) if m4 > 0.0 else math.inf
 
 
-def _edges(problem: ContactProblem, profile: RealArray) -> Iterator[Advice]:
+def _edges(problem: ContactProblem, profile: Surface) -> Iterator[Advice]:
     for axis, name in enumerate("xy"):
         if profile.shape[axis] < 2 or not problem.boundary.wraps[axis]:
             continue
-        inside = _mean_square_difference(profile, 1, axis)
-        across = float(((profile.take(0, axis=axis) - profile.take(-1, axis=axis)) ** 2).mean())
+        inside = _mean_square(profile, name, 1)
+        across = float(((profile.heights.take(0, axis=axis) - profile.heights.take(-1, axis=axis)) ** 2).mean())
         if across > LARGEST_EDGE_JUMP**2 * inside:
             jump = (
                 f"{math.sqrt(across / inside):.1f} times the rms step between neighbours" if inside > 0.0 else "a jump"
@@ -255,7 +250,6 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
             )
 
 
-def _mean_square_difference(profile: RealArray, order: int, axis: int) -> float:
+def _mean_square(profile: Surface, axis: str, order: int) -> float:
     """Mean square of the differences of ``order`` along ``axis`` inside the grid; 0 where there are too few points."""
-    differences = np.diff(profile, order, axis=axis)
-    return float((differences**2).mean()) if differences.size else 0.0
+    return stencil_sums(profile, axis, order, 1).square if profile.shape[axis_index(axis)] > order else 0.0

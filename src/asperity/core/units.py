@@ -132,6 +132,11 @@ def _compact_volume(quantity: Any) -> Any:
     return _in_largest(quantity, ("m**3", "mm**3", "um**3"), "nm**3", 1e-3)
 
 
+def _compact_spectrum(quantity: Any) -> Any:
+    """Power spectrum C in the largest unit in which it is at least 0.01."""
+    return _in_largest(quantity, ("m**4", "mm**4", "um**4"), "nm**4")
+
+
 def _in_largest(quantity: Any, units: tuple[str, ...], smallest: str, least: float = 0.01) -> Any:
     for unit in units:
         if abs(quantity.to(unit).magnitude) >= least:
@@ -139,7 +144,7 @@ def _in_largest(quantity: Any, units: tuple[str, ...], smallest: str, least: flo
     return quantity.to(smallest)
 
 
-_COMPACT = {"m**2": _compact_area, "m**3": _compact_volume}
+_COMPACT = {"m**2": _compact_area, "m**3": _compact_volume, "m**4": _compact_spectrum}
 
 
 _EXAMPLES = {

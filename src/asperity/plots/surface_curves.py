@@ -31,7 +31,7 @@ def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
         heights = np.linspace(distribution.edges[0], distribution.edges[-1], 400)
         normal = distribution.normal(heights) * in_unit.factor
         ax.plot(in_unit(heights), normal, color=BLACK, label="normal, same Sq")
-        ax.set_title(f"Ssk {found.heights.Ssk:.2f}   Sku {found.heights.Sku:.2f}", loc="right")
+        ax.set_title(f"Ssk {found.heights.Ssk:z.2f}   Sku {found.heights.Sku:.2f}", loc="right")
     ax.set_xlim(edges[0], edges[-1])
     return _with_legend(ax)
 

@@ -80,6 +80,17 @@ def test_removed_form_is_the_reference_polynomial(name, form, group):
     np.testing.assert_allclose(removed[valid], expected[valid], rtol=0.0, atol=1e-10)  # twelve digits are printed
 
 
+@pytest.mark.parametrize(
+    ("form", "kept"), [("mean", True), ("plane", False), ("quadratic", False), (0, True), (3, False)]
+)
+def test_a_periodic_surface_less_a_plane_is_no_longer_periodic(form, kept):
+    wave = np.sin(2.0 * np.pi * np.arange(16) / 16)[:, None] * np.ones(8)
+    flat = levelled(Surface(wave, 1.0, periodic=True), form)
+    assert flat.periodic is kept
+    before, after = (float(h[0, 0] - h[-1, 0]) for h in (wave, flat.heights))
+    assert (after == pytest.approx(before, abs=1e-12)) is kept  # the step from the last point to the first
+
+
 def test_levelling_in_blocks_equals_one_factorisation():
     tall = Grid((900, 100), (1e-7, 1e-7))  # more points than one block
     heights = np.random.default_rng(1).standard_normal(tall.shape)

@@ -12,7 +12,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.units import show
-from .embedding import clipped_eigenvalues, clipping_text
+from .embedding import clipping_text, embedded_psd
 
 _EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
 _GAUSSIAN_DOMAIN = 8.0  # the same; negative part 1e-7
@@ -90,9 +90,7 @@ class ExponentialAutocorrelation:
         InputError
             If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
-        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
-        psd[0, 0] = 0.0
-        return psd
+        return embedded_psd(self, grid)
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
@@ -157,9 +155,7 @@ class GaussianAutocorrelation:
         InputError
             If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
-        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
-        psd[0, 0] = 0.0
-        return psd
+        return embedded_psd(self, grid)
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""

@@ -85,6 +85,13 @@ def clipped_eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
     return np.maximum(values, 0.0)
 
 
+def embedded_psd(model: Autocovariance, grid: Grid) -> RealArray:
+    """C in m⁴ on the modes of ``grid`` that gives its lags the autocovariance, zero at q = 0."""
+    psd: RealArray = grid.pixel_area * clipped_eigenvalues(model, grid)
+    psd[0, 0] = 0.0
+    return psd
+
+
 def clipping_text(model: Autocovariance, grid: Grid) -> str:
     """Words on the clipped part of the spectrum, empty if it is no more than rounding."""
     if all(size >= _AMPLE * length for size, length in zip(grid.size, model.embedding_lengths, strict=True)):

@@ -25,6 +25,7 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
     The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2 (``quadratic``) or of any
     whole number up to 20, found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling is a
     high-pass filter: it lowers the rms height of a surface with waves as long as the map, the more the higher the degree.
+    A periodic surface stays periodic only without its mean: a plane less, it no longer meets itself at its borders.
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
         used = kept
         fit = _fitted(surface, used, degree, name)
     how = f", robustly without {int(np.count_nonzero(~used & ~surface.mask))} points" if robust else ""
-    return recorded(surface, before - fit, f"levelled: {name} removed{how}", periodic=surface.periodic)
+    return recorded(surface, before - fit, f"levelled: {name} removed{how}", periodic=surface.periodic and degree == 0)
 
 
 def _degree(form: str | int) -> tuple[int, str]:
