@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
+from asperity.io.build_film import build_film
 from asperity.io.build_stress import build_stress
 from asperity.io.documents import load_document, loads
 
@@ -123,6 +124,52 @@ def test_the_examples_of_single_contacts(capsys):
     assert names["onset"].at_surface
     assert np.all(names["curve"].area_fraction >= names["elastic"].area_fraction)
     assert names["pressure"] < 0.0 < names["sticky"].reach
+
+
+def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
+    """On a surface as smooth as the films are thin; the table of options and keys says the same twice."""
+    monkeypatch.chdir(tmp_path)
+    waves = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.1e-6
+    )
+    scan = asp.generate.gaussian(asp.Grid((48, 48), (40e-9, 40e-9)), waves, seed=5)
+    asp.save_surface(scan, "scan.nc")
+    page = ROOT / "docs/how-to/wet-contact.md"
+    names = {"scan": scan}
+    for number, code in enumerate(blocks(page, "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert asp.load_wet("wet.nc").meniscus_force == names["wet"].meniscus_force
+    assert names["held"].external_force == pytest.approx(names["wet"].external_force, rel=0.1)
+    capsys.readouterr()
+    for line in commands(page):
+        result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
+        assert result.exit_code == 0, result.output
+        assert "Liquid film and menisci" in result.stdout
+    film, own = blocks(page, "toml")
+    head = 'version = 1\nbody = "DLC"\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol = { force = "1 mN" }\n'
+    assert loads(head + film).film.contact_angle == ("60 deg", "60 deg")
+    (tmp_path / "own.toml").write_text(own, encoding="utf-8")
+    assert asp.liquid("our lubricant", library=tmp_path / "own.toml").viscosity == 0.08
+
+
+def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch):
+    """Every row of the table in the guide, as option and as key."""
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs/how-to/wet-contact.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(--[a-z-]+) ([^`]+)` \| `([^`]+)` \|", page, re.MULTILINE)
+    assert len(rows) == 9
+    head = 'version = 1\nbody = "DLC"\ncontrol = { force = "1 mN" }\n'
+    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\n[film]\n'
+    base = {"liquid": 'liquid = "PFPE"', "thickness": 'thickness = "1 nm"'}
+    for option, value, key in rows:
+        more = {**base, "liquid": 'liquid = "water"'} if option == "--humidity" else base
+        (tmp_path / "p.toml").write_text(head + "\n".join(more.values()), encoding="utf-8")
+        words = ["contact", "--from", "p.toml", option, value, "--save-document", "q.toml", "--force"]
+        assert CliRunner().invoke(app, words).exit_code == 0, option
+        name = key.split(" = ")[0]
+        wanted = "\n".join([*(line for known, line in more.items() if known != name), key])
+        found = load_document(tmp_path / "q.toml").film
+        assert build_film(found, tmp_path) == build_film(loads(head + wanted).film, tmp_path), option
 
 
 def commands(path: Path) -> list[str]:

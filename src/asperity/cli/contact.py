@@ -45,7 +45,7 @@ def contact(
         table, names = _from_document(source.from_, bodies, solve), {}
         where, base = f"problem document {source.from_}", source.from_.parent
     table = with_film(table, film, stress)
-    table = with_stress(table, without_shared_friction(stress, film), wanted=output.wants_stress)
+    table = with_stress(table, without_shared_friction(stress, table), wanted=output.wants_stress)
     document = checked(table, where, names | (stress_names(table) | film_names() if source.from_ is None else {}))
     raise typer.Exit(perform(document, base, output))
 

@@ -55,14 +55,14 @@ def with_film(table: Mapping[str, Any], options: FilmOptions, stress: StressOpti
     values = {_KEYS.get(f.name, f.name): getattr(options, f.name) for f in fields(options)}
     given = {key: str(value) for key, value in values.items() if value is not None}
     before = table.get("film")
-    if given and stress.friction is not None:
+    if stress.friction is not None and (given or before is not None):
         given["friction"] = stress.friction  # type: ignore[assignment]
     return {**table, "film": {**(before if isinstance(before, dict) else {}), **given}} if given else dict(table)
 
 
-def without_shared_friction(stress: StressOptions, options: FilmOptions) -> StressOptions:
-    """``stress`` without its friction coefficient if that is all it says: beside a film it asks for no stresses."""
-    if options == FilmOptions() or stress != StressOptions(friction=stress.friction):
+def without_shared_friction(stress: StressOptions, table: Mapping[str, Any]) -> StressOptions:
+    """``stress`` without its friction coefficient if that is all it says: beside a film in ``table`` it asks for none."""
+    if "film" not in table or stress != StressOptions(friction=stress.friction):
         return stress
     return replace(stress, friction=None)
 
