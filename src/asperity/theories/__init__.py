@@ -1,14 +1,19 @@
 """Closed-form theories: they take and return numbers."""
 
 from .adhesive_sphere import DMT, JKR, tabor_parameter
+from .anisotropic_summits import AnisotropicSummits
 from .bisinusoid import CrossedWaves
+from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
 from .catalogue import THEORIES, theory
 from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
+from .discrete_summits import DiscreteSummits
 from .effective_hardness import EffectiveHardness
 from .elastic_plastic_summits import ElasticPlasticSummits
 from .fuller_tabor import FullerTabor
+from .greenwood_tripp import GreenwoodTripp
 from .greenwood_williamson import GreenwoodWilliamson
 from .greenwood_williamson_fits import FittedGreenwoodWilliamson
+from .greenwood_williamson_plastic import plastic_area_share, separation_at_plastic_onset
 from .hertz import HertzPoint
 from .hertz_ellipse import HertzEllipse
 from .hertz_ellipse_stress import hertz_ellipse_normal
@@ -17,6 +22,7 @@ from .hertz_line import HertzLine
 from .hertz_line_fields import hertz_line_normal, hertz_line_shear
 from .identical_asperities import IdenticalAsperities
 from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
+from .interacting_crests import InteractingCrests
 from .jackson_green import JacksonGreen, JacksonGreenSphere
 from .kogut_etsion import KogutEtsion, KogutEtsionSphere
 from .kotwal_bhushan import KotwalBhushan
@@ -24,9 +30,12 @@ from .line_indenters import LineFlatPunch, LinePowerLawIndenter
 from .line_loads import flamant_normal, flamant_tangential, strip_pressure, strip_shear
 from .majumdar_bhushan import MajumdarBhushan
 from .maugis import MaugisDugdale, maugis_pull_off
+from .mccool import McCool
+from .measured_heights import AnyHeights, HistogramHeights
 from .mindlin import MindlinLine, MindlinPoint, tangential_modulus
 from .nayak import NayakSummits
 from .oliver_pharr import OliverPharr
+from .onions_archard import OnionsArchard
 from .persson import Persson
 from .plasticity_index import (
     critical_interference,
@@ -42,6 +51,7 @@ from .restitution import rebound
 from .single_contact import ContactAnswer
 from .sinusoidal_asperity import SinusoidalAsperity
 from .sliding_yield import YieldOnset, cylinder_yield_onset, sphere_yield_onset
+from .summit_heights import ExponentialHeights, GaussianHeights, LaplaceHeights, TriangularHeights, UniformHeights
 from .wavy import Westergaard
 from .whitehouse_archard import SampledPeaks
 
@@ -49,40 +59,55 @@ __all__ = [
     "DMT",
     "JKR",
     "THEORIES",
+    "AnisotropicSummits",
+    "AnyHeights",
+    "BushGibsonThomas",
     "ChangEtsionBogy",
     "ChangEtsionBogySphere",
     "ContactAnswer",
     "CrossedWaves",
+    "DiscreteSummits",
     "EffectiveHardness",
     "ElasticPlasticSummits",
+    "ExponentialHeights",
     "FittedGreenwoodWilliamson",
     "FlatPunch",
     "FullerTabor",
+    "GaussianHeights",
+    "GreenwoodElliptic",
+    "GreenwoodTripp",
     "GreenwoodWilliamson",
     "HertzEllipse",
     "HertzLine",
     "HertzPoint",
+    "HistogramHeights",
     "IdenticalAsperities",
+    "InteractingCrests",
     "JacksonGreen",
     "JacksonGreenSphere",
     "KogutEtsion",
     "KogutEtsionSphere",
     "KotwalBhushan",
+    "LaplaceHeights",
     "Limit",
     "LineFlatPunch",
     "LinePowerLawIndenter",
     "MajumdarBhushan",
     "MaugisDugdale",
+    "McCool",
     "MindlinLine",
     "MindlinPoint",
     "NayakSummits",
     "OliverPharr",
+    "OnionsArchard",
     "Persson",
     "PowerLawIndenter",
     "Prediction",
     "SampledPeaks",
     "SinusoidalAsperity",
     "SphericalIndenter",
+    "TriangularHeights",
+    "UniformHeights",
     "Westergaard",
     "YieldOnset",
     "boussinesq",
@@ -99,8 +124,10 @@ __all__ = [
     "hertz_shear",
     "maugis_pull_off",
     "nominal_interference",
+    "plastic_area_share",
     "profile_plasticity_index",
     "rebound",
+    "separation_at_plastic_onset",
     "sphere_yield_onset",
     "strip_pressure",
     "strip_shear",

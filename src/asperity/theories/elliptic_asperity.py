@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.arrays import RealArray
+from .hertz_ellipse import axis_ratio
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,14 +54,4 @@ def ellipse(k: RealArray) -> Ellipse:
 
 def ellipse_of_curvatures(ratio: float) -> Ellipse:
     """Ellipse of a summit whose curvatures have the ``ratio`` κ1/κ2 >= 1."""
-    from scipy.optimize import brentq
-
-    wanted = math.log(ratio)
-
-    def excess(log_k: float) -> float:
-        r = float(ellipse(np.array(math.exp(log_k))).r)
-        return 2.0 * math.atanh(r) - wanted
-
-    # the ratio of the curvatures lies between (a/b) and (a/b)², less a logarithm
-    log_k = 0.0 if wanted == 0.0 else brentq(excess, -wanted, 0.0, xtol=1e-15, rtol=1e-14)
-    return ellipse(np.array(math.exp(log_k)))
+    return ellipse(axis_ratio(ratio))
