@@ -16,6 +16,8 @@ from ..contact.result import ContactResult
 from ..contact.sliding import solve_sliding
 from ..contact.solve import Keep, solve
 from ..contact.state import InterfaceState
+from ..contact.wet import solve_wet
+from ..contact.wet_result import WetContactResult
 from ..core.engine import CpuEngine
 from ..io.build import Case, build, build_control
 from ..io.documents import checked
@@ -75,16 +77,17 @@ class _LoadPath:
         return replace(self._built, control=build_control(document.control))
 
     def _answer(self, case: Case) -> dict[str, Any]:
-        result = self._solved(case)
+        wet = _wet(case)
+        result = self._solved(case) if wet is None else wet.contact
         stress = None
         if case.stress is not None:
             stress = survey(case.stress, result, lines=False, threads=case.threads or 1)
-        solved = Solved(case, result, stress)
+        solved = Solved(case, result, stress, wet)
         return {
             "values": {name: measure(name).of(solved) for name in self._quantities},
             "work": {name: getattr(result.certificate, name) for name in CHECKS},
             "citations": list(
-                dict.fromkeys((*result.citation_keys, *(() if stress is None else stress.citation_keys)))
+                dict.fromkeys((*(wet or result).citation_keys, *(() if stress is None else stress.citation_keys)))
             ),
         }
 
@@ -108,3 +111,11 @@ class _LoadPath:
             return None
         state = predicted(case.problem, case.control, self._last)
         return replace(state, permanent_indentation=np.zeros(case.problem.grid.shape))
+
+
+def _wet(case: Case) -> WetContactResult | None:
+    """Contact of ``case`` with its film of liquid; None if it has none."""
+    if case.film is None:
+        return None
+    engine = CpuEngine(case.threads or 1)
+    return solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver, engine=engine)

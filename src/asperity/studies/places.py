@@ -21,7 +21,7 @@ from ..io.schemas.values import Table
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
 
-FILES = ("path", "materials_file")
+FILES = ("path", "materials_file", "liquids_file")
 """Keys that hold a path; the content of the file counts and not its name."""
 
 

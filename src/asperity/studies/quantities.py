@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from operator import attrgetter
 
 from ..contact.result import SCALARS, ContactResult
+from ..contact.wet_result import WET_SCALARS, WetContactResult
 from ..core.errors import InputError
 from ..io.build import Case
 from ..io.documents import ProblemDocument
@@ -17,11 +18,12 @@ from ..stress.survey import StressSurvey
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """A case with its answers; ``stress`` if the document asks for it."""
+    """A case with its answers; ``stress`` and ``wet`` if the document asks for them."""
 
     case: Case
     result: ContactResult
     stress: StressSurvey | None = None
+    wet: WetContactResult | None = None
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,10 @@ def _of_result(name: str) -> Callable[[Solved], float]:
     return lambda solved: float(getattr(solved.result, name))
 
 
+def _of_menisci(name: str) -> Callable[[Solved], float]:
+    return lambda solved: float(getattr(solved.wet, name))
+
+
 def _largest(parts: str, peak: str) -> Callable[[Solved], float]:
     """Largest value of the ``peak`` in all ``parts`` of the survey of stresses; NaN where there are none."""
     found = attrgetter(parts)
@@ -54,6 +60,7 @@ STIFFNESS = "normal_stiffness"
 
 MEASURES = (
     *(Measure(q.attribute, q.unit, q.label, _of_result(q.attribute), costly=q.attribute == STIFFNESS) for q in SCALARS),
+    *(Measure(q.attribute, q.unit, q.label, _of_menisci(q.attribute), "film") for q in WET_SCALARS),
     Measure("max_displacement", "m", "largest displacement", lambda solved: float(solved.result.displacement.max())),
     Measure(
         "rms_height", "m", "rms height of the profile", lambda solved: float(solved.result.problem.profile().std())

@@ -1,0 +1,66 @@
+"""Films of liquid in studies: humidity and thickness as axes, menisci as quantities, runaways as records."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from study_cases import InProcess, plan
+
+import asperity as asp
+from asperity.io.build import build
+from asperity.io.documents import checked
+from asperity.studies.collect import dataset, failures
+from asperity.studies.places import replaced
+from asperity.studies.run import carry_out
+
+SPECTRUM = {
+    "kind": "self_affine",
+    "rms_height": "2 nm",
+    "hurst": 0.8,
+    "rolloff_wavelength": "1 um",
+    "shortest_wavelength": "100 nm",
+}
+WET = {
+    "version": 1,
+    "surface": {"kind": "rough", "points": [48, 48], "size": "1.92 um", "seed": 5, "spectrum": SPECTRUM},
+    "body": {"youngs_modulus": "90 GPa", "poisson_ratio": 0.3},
+    "control": {"mean_pressure": "2 MPa"},
+    "film": {"liquid": "water", "humidity": "80 %", "contact_angle": ["60 deg", "60 deg"], "friction": 0.3},
+}
+
+
+def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
+    humidities = ["50 %", "70 %", "80 %"]
+    made = plan(
+        problem=WET,
+        axes=[{"path": "film.humidity", "values": humidities}],
+        quantities=["meniscus_force", "static_friction", "n_menisci"],
+    )
+    carry_out(made, tmp_path / "r.log", InProcess())
+    data = dataset(made, tmp_path / "r.log")
+    assert (np.diff(data["meniscus_force"]) > 0.0).all()
+    assert data["meniscus_force"].attrs["units"] == "N"
+    for number, humidity in enumerate(humidities):
+        case = build(checked(replaced(WET, ("film", "humidity"), humidity)))
+        alone = asp.solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver)
+        assert float(data["meniscus_force"][number]) == alone.meniscus_force
+        assert float(data["static_friction"][number]) == pytest.approx(alone.static_friction, rel=1e-12)
+
+
+def test_a_force_that_runs_away_is_a_record_with_its_reason(tmp_path):
+    soft = {**WET, "body": {"youngs_modulus": "1 GPa", "poisson_ratio": 0.3}, "control": {"mean_pressure": "10 kPa"}}
+    soft["film"] = {"liquid": "PFPE", "thickness": "1 nm"}
+    thin = {"path": "film.thickness", "values": ["0.001 nm", "2 nm"]}
+    made = plan(problem=soft, axes=[thin], quantities=["meniscus_force"])
+    carry_out(made, tmp_path / "r.log", InProcess())
+    data = dataset(made, tmp_path / "r.log")
+    assert np.isfinite(data["meniscus_force"][0])
+    assert np.isnan(data["meniscus_force"][1])
+    (failed,) = failures(made, tmp_path / "r.log")
+    assert "runs away" in failed.message
+
+
+def test_menisci_need_a_film():
+    dry = {key: value for key, value in WET.items() if key != "film"}
+    with pytest.raises(asp.InputError, match=r"needs the table \[film\]"):
+        plan(problem=dry, axes=[{"path": "control.mean_pressure", "values": ["1 MPa"]}], quantities=["meniscus_force"])
