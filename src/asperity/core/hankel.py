@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import RealArray
-from .log_table import STEP
+from .panels import STEP
 
 
 def log_hankel(values: RealArray, order: float) -> RealArray:

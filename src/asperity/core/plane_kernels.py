@@ -1,6 +1,6 @@
 """Compiled passes from the spectra of surface tractions to the spectra of the fields on a plane at depth.
 
-A row of wavevectors first gets its panel polynomials (see ``radial``), then the coefficients of each field under each
+A row of wavevectors first gets its panel polynomials (see ``panels``), then the coefficients of each field under each
 load, turned from the frame of every wavevector into that of the grid; its mirror image has the same ones up to signs.
 Loops are short and touch few arrays, so that compilers turn them into vector instructions.
 
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from .radial import TERMS
+from .panels import TERMS
 
 _compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 

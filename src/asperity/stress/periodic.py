@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.arrays import ComplexArray, RealArray
 from ..core.engine.blocks import Blocks
-from ..core.radial import Panels, panels
+from ..core.panels import Panels, panels
 from ..core.spectral import RealTransform, thread_count
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .mean_mode import mean_displacement, mean_stress
@@ -77,7 +77,7 @@ class PeriodicPlanes:
     def _spectra(self, kernel: str, plane: Plane, functions: tuple[str, ...], count: int, *constants: float) -> Any:
         """Spectra (count, nx, ny // 2 + 1) of a plane, in the buffer."""
         found = self._transfers.to(plane)
-        coefficients = self._panels.coefficients(np.stack([getattr(found, name) for name in functions]))
+        coefficients = self._panels.fitted(np.stack([getattr(found, name) for name in functions]))
         limit = _NEGLIGIBLE / plane.depth if plane.depth > 0.0 else np.inf
         if self._buffer.shape[0] < count:
             self._buffer = np.empty((count, *self._transform.spectrum_shape), self._buffer.dtype)

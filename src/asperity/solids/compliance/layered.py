@@ -8,7 +8,7 @@ from functools import cached_property
 
 from ...core.arrays import RealArray
 from ...core.grid import Grid
-from ...core.log_table import covering_grid, log_table
+from ...core.panels import covering_grid, log_table
 from ..elastic import Elastic
 from ..layers import Layered
 from .hybrid import PlaneCompliance, interface_compliances

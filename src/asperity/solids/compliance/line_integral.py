@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.hankel import log_hankel
-from ...core.log_table import LogTable, log_table
+from ...core.panels import LogTable, log_table
 
 _SMALL = 1e-5  # of the wavenumber 1/d, where the constant term of an amplitude can be read off
 
@@ -58,6 +58,6 @@ def line_integral(alpha: RealArray, amplitude: RealArray, d: float, *, cosine: b
     x = 1.0 / alpha[::-1]
     kernel = log_hankel(rest * np.sqrt(alpha), -0.5 if cosine else 0.5) * np.sqrt(0.5 / (np.pi * x))
     start = float(x[0])
-    moment = log_table(start, kernel * x).integral()
-    moment.coefficients[0] += kernel[0] * moment.start
+    moment = log_table(start, kernel * x)
+    moment = moment.integral(float(kernel[0]) * moment.start)
     return LineIntegral(b, a, d, cosine, log_table(start, kernel), moment)

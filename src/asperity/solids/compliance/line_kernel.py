@@ -14,7 +14,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.hankel import log_hankel
-from ...core.log_table import LogTable, log_table
+from ...core.panels import LogTable, log_table
 from .point_kernel import Limits, wavenumber_grid
 
 
@@ -47,8 +47,8 @@ def line_kernel(values: RealArray, limits: Limits) -> LineKernel:
     wave = np.sqrt(0.5 * np.pi * x) * log_hankel(remainder * np.sqrt(alpha), 0.5)
     slope = limits.high + jump * x**2 / (x**2 + d**2) + wave
     start = float(x[0])
-    moment = log_table(start, slope * x).integral()
-    moment.coefficients[0] += slope[0] * moment.start
+    moment = log_table(start, slope * x)
+    moment = moment.integral(float(slope[0]) * moment.start)
     return LineKernel(log_table(start, slope).integral(), moment, infinity=np.inf if limits.low else _DIED_OUT * d)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.hankel import log_hankel
-from ...core.log_table import STEP, LogTable, log_grid, log_table
+from ...core.panels import STEP, LogTable, log_grid, log_table
 
 COUNT = 8192
 """Nodes of the grids of wavenumber and distance, 85 e-folds: the alias of a tail 1/r is exp(-42) = 4e-19."""
@@ -67,6 +67,6 @@ def point_kernel(values: RealArray, limits: Limits, order: int = 0) -> PointKern
     root = np.hypot(r, d)
     strength = limits.high + jump * r / root * (r / (root + d)) ** order + remainder
     start = float(r[0])
-    moment = log_table(start, strength * r).integral()
-    moment.coefficients[0] += strength[0] * moment.start
+    moment = log_table(start, strength * r)
+    moment = moment.integral(float(strength[0]) * moment.start)
     return PointKernel(order, log_table(start, strength), moment)
