@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,8 @@ from asperity.cli.main import app
 from asperity.io.build_film import build_film
 from asperity.io.build_stress import build_stress
 from asperity.io.documents import load_document, loads
+from asperity.io.study_documents import study_from_table
+from asperity.studies.plan import make_plan
 
 ROOT = Path(__file__).parents[2]
 GUIDES = sorted((ROOT / "docs").rglob("*.md"))
@@ -228,6 +231,37 @@ def test_the_materials_of_the_guide_are_valid(tmp_path):
     file.write_text(text, encoding="utf-8")
     assert asp.material("coating A", library=file).strength.hardness == 21e9
     assert asp.material("seal rubber", library=file).youngs_modulus == 5e6
+
+
+def test_the_studies_of_the_guide(tmp_path, monkeypatch):
+    """The sweep runs as the page says; each kind of study is a valid addition to it."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs/how-to/campaigns.md"
+    sweep, *kinds = blocks(page, "toml")
+    problem = """
+        version = 1
+        body = "E=140GPa,nu=0.25:5nm/E=200GPa,nu=0.3"
+        control = { mean_pressure = "1 MPa" }
+        [surface]
+        kind = "rough"
+        points = [16, 16]
+        size = "5 um"
+        seed = 1
+        spectrum = { kind = "gaussian", rms_height = "1 nm", correlation_length = "1 um" }
+    """
+    Path("problem.toml").write_text(problem, encoding="utf-8")
+    Path("thickness.toml").write_text(sweep, encoding="utf-8")
+    names = {"asp": asp}
+    (code,) = blocks(page, "python")
+    exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["peak"].dims == ("thickness",)
+    assert bool((names["peak"] > 0.0).all())
+    assert names["campaign"].state().complete
+    head = sweep.partition("[[axes]]")[0]
+    found = {study_from_table(tomllib.loads(head + kind), Path()).document.kind for kind in kinds}
+    assert found == {"monte_carlo", "convergence", "critical_thickness", "sensitivity"}
+    for kind in kinds:
+        make_plan(study_from_table(tomllib.loads(head + kind), Path()))
 
 
 @pytest.mark.parametrize("page", [ROOT / "README.md", *GUIDES, ROOT / "CONTRIBUTING.md"], ids=lambda p: p.name)

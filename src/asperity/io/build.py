@@ -86,8 +86,7 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     stress = None if document.stress is None else build_stress(document.stress)
     if stress is not None:
         check_stress(stress, problem)
-    path = () if document.control.path is None else build_path(document.control.path)
-    control = path[-1] if path else build_control(document.control)
+    control, path = build_load(document.control)
     film, friction = (None, Friction()) if document.film is None else build_film(document.film, folder)
     return Case(problem, control, solver, document.solver.threads, stress, path, film, friction)
 
@@ -119,6 +118,14 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
     hardness, softer = min(known, key=lambda item: item[0])
     coated_softer = table.hardness == EFFECTIVE and isinstance(softer, Layered) and softer.reduced.layers
     return LayeredHardness(softer) if coated_softer and isinstance(softer, Layered) else Hardness(hardness)
+
+
+def build_load(table: ControlTable) -> tuple[Control, tuple[Control, ...]]:
+    """The one control that ``table`` gives and no path, or the last control of its load path and the whole path."""
+    if table.path is None:
+        return build_control(table), ()
+    path = build_path(table.path)
+    return path[-1], path
 
 
 def build_path(table: PathTable) -> tuple[Control, ...]:

@@ -13,19 +13,11 @@ from ..core import require
 from ..core.errors import InputError
 from ..io.documents import ProblemDocument, checked
 from ..io.schemas.study import AxisTable
-from .places import Key, Place, content, locate, problem_table, replaced
+from .edits import Edit, edited
+from .places import Place, locate, problem_table
 
 Coordinate: TypeAlias = float | str
 """Where a point lies on its axis: a number in SI units, or a word."""
-
-
-@dataclass(frozen=True)
-class Edit:
-    """One change of a document: ``value`` at ``keys``, and the ``content`` it stands for."""
-
-    keys: tuple[Key, ...]
-    value: Any
-    content: Any
 
 
 @dataclass(frozen=True)
@@ -72,13 +64,8 @@ class Base:
             If the changed document has a problem.
         """
         made = Edit(place.keys, value, place.content(value, self.folder))
-        checked(replaced(problem_table(self.document), place.keys, value), f"problem with {place.path} = {value!r}")
+        checked(edited(problem_table(self.document), [made]), f"problem with {place.path} = {value!r}")
         return made
-
-    def whole(self, key: str, table: Any, coordinate: Coordinate) -> Point:
-        """Point at which the whole ``table`` stands under ``key``."""
-        changed = checked({**problem_table(self.document), key: table}, f"problem with another {key}")
-        return Point(coordinate, (Edit((key,), table, content(changed, self.folder)[key]),))
 
 
 def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
@@ -167,12 +154,10 @@ def default_name(path: str, taken: set[str]) -> str:
 
 def _together(base: Base, changes: Sequence[tuple[Place, Any]]) -> tuple[Edit, ...]:
     """Edits of all ``changes``, which are checked together: a hardness alone may have no modulus to go with."""
-    table = problem_table(base.document)
-    for place, value in changes:
-        table = replaced(table, place.keys, value)
+    edits = tuple(Edit(place.keys, value, place.content(value, base.folder)) for place, value in changes)
     shown = ", ".join(f"{place.path} = {value!r}" for place, value in changes)
-    checked(table, f"problem with {shown}")
-    return tuple(Edit(place.keys, value, place.content(value, base.folder)) for place, value in changes)
+    checked(edited(problem_table(base.document), edits), f"problem with {shown}")
+    return edits
 
 
 def _as_written(place: Place, value: Any) -> Any:

@@ -9,7 +9,8 @@ from itertools import pairwise
 
 from ..core.errors import InputError
 from ..io.schemas.study import ConvergenceTable
-from .axes import Axis, Base, Edit, Point
+from .axes import Axis, Base, Point
+from .edits import Edit
 from .places import locate
 
 HALVINGS = 60

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +11,14 @@ from numpy.typing import ArrayLike
 
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..io.documents import checked
 from ..io.schemas.study import CriticalThicknessTable
 from .axes import Axis, Base, Point, values_of
+from .edits import Change, Edit, edited
 from .places import locate, problem_table
+
+CHANGES: tuple[Change, Change] = ("without", "endless")
+"""The layer at both ends of the axis."""
 
 
 @dataclass(frozen=True)
@@ -82,10 +86,14 @@ def thickness_axis(base: Base, table: CriticalThicknessTable) -> Axis:
         raise InputError(
             f"thicknesses must be greater than zero, but one is {thicknesses[0][1]!r}; zero comes by itself."
         )
-    body = problem_table(base.document)[key]
+    layer: Any = getattr(base.document, key).layers[number]
+    if hasattr(layer, "top"):
+        raise InputError("critical_thickness.layer must be homogeneous, but is graded; take another layer.")
+    limits = [Edit(place.keys, change=change) for change in CHANGES]
+    for edit in limits:
+        checked(edited(problem_table(base.document), [edit]), f"problem with the layer {edit.change}")
     inside = [Point(thickness, (base.edit(place, value),)) for thickness, value in thicknesses]
-    without, endless = (base.whole(key, _without(body, number), 0.0), base.whole(key, _endless(body, number), math.inf))
-    return Axis("thickness", "m", place.path, (without, *inside, endless))
+    return Axis("thickness", "m", place.path, (Point(0.0, (limits[0],)), *inside, Point(math.inf, (limits[1],))))
 
 
 def _last_within(x: RealArray, done: RealArray, share: float) -> float:
@@ -99,25 +107,3 @@ def _last_within(x: RealArray, done: RealArray, share: float) -> float:
     before = after - 1
     edge = math.copysign(share, done[after])
     return float(x[before] + (x[after] - x[before]) * (edge - done[before]) / (done[after] - done[before]))
-
-
-def _without(body: dict[str, Any], number: int) -> dict[str, Any]:
-    """``body`` without its layer ``number``."""
-    rest = [layer for index, layer in enumerate(body["layers"]) if index != number]
-    return {**body, "layers": rest} if rest else _bare(body, body["base"])
-
-
-def _endless(body: dict[str, Any], number: int) -> dict[str, Any]:
-    """``body`` whose layer ``number`` reaches down for ever."""
-    layer: dict[str, Any] = body["layers"][number]
-    if "top" in layer:
-        raise InputError("critical_thickness.layer must be homogeneous, but is graded; take another layer.")
-    material = {key: value for key, value in layer.items() if key not in ("kind", "thickness", "interface")}
-    above: Sequence[Any] = body["layers"][:number]
-    return {**body, "layers": list(above), "base": material} if above else _bare(body, material)
-
-
-def _bare(body: dict[str, Any], material: dict[str, Any]) -> dict[str, Any]:
-    """A body of one ``material``, from the same library as ``body``."""
-    library = {"materials_file": body["materials_file"]} if "materials_file" in body and "material" in material else {}
-    return {**material, **library}

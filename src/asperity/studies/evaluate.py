@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..contact.operators import Operator, prepare_operator
-from ..contact.path import predicted
+from ..contact.path import predicted, steps
 from ..contact.result import ContactResult
 from ..contact.sliding import solve_sliding
 from ..contact.solve import Keep, solve
@@ -19,10 +20,11 @@ from ..contact.state import InterfaceState
 from ..contact.wet import solve_wet
 from ..contact.wet_result import WetContactResult
 from ..core.engine import CpuEngine
-from ..io.build import Case, build, build_control
+from ..core.errors import InputError
+from ..io.build import Case, build, build_load
 from ..io.documents import checked
 from ..stress.survey import survey
-from .places import replaced
+from .edits import edited, from_plain
 from .quantities import STIFFNESS, Solved, measure
 from .store import Record
 
@@ -33,8 +35,9 @@ CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterat
 def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     """Records of the cases of ``task``, which differ in the load alone, in its order.
 
-    Each case starts from the virgin surfaces. The operator is prepared once, and the pressures of the cases before are the
-    first guess. A case that fails is a record with its exception.
+    Each case starts from the virgin surfaces; one with a load path follows it, and its last step counts. The operator is
+    prepared once, and the pressures of the cases before are the first guess. A case that fails is a record with its
+    exception.
 
     Parameters
     ----------
@@ -68,13 +71,11 @@ class _LoadPath:
             return {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": said}
 
     def _case(self, edits: list[Any]) -> Case:
-        table = self._table
-        for keys, value in edits:
-            table = replaced(table, tuple(keys), value)
-        document = checked(table, "problem of this case")
+        document = checked(edited(self._table, map(from_plain, edits)), "problem of this case")
         if self._built is None:
             self._built = build(document, self._folder)
-        return replace(self._built, control=build_control(document.control))
+        control, path = build_load(document.control)
+        return replace(self._built, control=control, path=path)
 
     def _answer(self, case: Case) -> dict[str, Any]:
         wet = _wet(case)
@@ -94,14 +95,21 @@ class _LoadPath:
     def _solved(self, case: Case) -> ContactResult:
         stress = case.stress
         if stress is not None and stress.coupled and stress.friction:
-            options: dict[str, Any] = {"direction": stress.direction, "engine": CpuEngine(case.threads or 1)}
-            return solve_sliding(case.problem, case.control, stress.friction, **options).contact
+            if case.path:
+                raise InputError(
+                    "stress.coupled must be left out with a load path: a coupled contact is solved for one load."
+                )
+            engine = CpuEngine(case.threads or 1)
+            return solve_sliding(
+                case.problem, case.control, stress.friction, direction=stress.direction, engine=engine
+            ).contact
         problem, engine = case.problem, CpuEngine(case.threads or 1)
         if self._operator is None:
             self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        result = solve(
-            problem, case.control, solver=case.solver, state=self._guess(case), keep=self._keep, operator=self._operator
-        )
+        options: dict[str, Any] = {"solver": case.solver, "keep": self._keep, "operator": self._operator}
+        if case.path:
+            return deque(steps(problem, case.path, **options), maxlen=1)[0]
+        result = solve(problem, case.control, state=self._guess(case), **options)
         self._last = [*self._last[-1:], result]
         return result
 

@@ -119,7 +119,7 @@ def replaced(table: dict[str, Any], keys: tuple[Key, ...], value: Any) -> dict[s
         child = node.get(key, {}) if isinstance(node, dict) else node[key]
         node[key] = list(child) if isinstance(child, list) else dict(child)
         node = node[key]
-    if keys[0] == "control":
+    if keys[0] == "control" and len(keys) == 2:
         for other in CONTROLS:
             node.pop(other, None)
     node[keys[-1]] = value

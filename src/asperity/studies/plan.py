@@ -14,10 +14,11 @@ from ..core.errors import InputError
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..io.study_documents import LoadedStudy
-from .axes import Axis, Base, Coordinate, Edit, default_name, listed, make_axis
+from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
-from .places import content, problem_table, replaced
+from .edits import Edit, edited_content
+from .places import content, problem_table
 from .quantities import MEASURES, computed
 from .sampling import sample_axis
 from .sensitivity import parameter_axis
@@ -99,10 +100,7 @@ class Plan:
 
     def key(self, edits: Sequence[Edit]) -> str:
         """Digest of the content of a case: its problem, the quantities and the version of the program."""
-        table = self._content
-        for edit in edits:
-            table = replaced(table, edit.keys, edit.content)
-        return content_digest([table, self._made_by])
+        return content_digest([edited_content(self._content, edits), self._made_by])
 
     def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
         """Where the case at ``index`` lies, by name of axis and column."""

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .edits import plain
 from .executors import Executor, Lost, Task
 from .monte_carlo import Stop
 from .plan import Plan, StudyCase
@@ -144,7 +145,7 @@ class _Work:
             "folder": str(self._plan.base.folder.absolute()),
             "quantities": list(self._plan.quantities),
             "cases": [
-                {"key": case.key, "index": list(case.index), "edits": [[list(e.keys), e.value] for e in case.edits]}
+                {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
                 for case in cases
             ],
         }

@@ -13,7 +13,8 @@ import numpy as np
 from ..core import require
 from ..core.errors import InputError
 from ..io.schemas.study import MonteCarloTable, RandomTable
-from .axes import Axis, Base, Coordinate, Edit, Point, numeric_edit
+from .axes import Axis, Base, Coordinate, Point, numeric_edit
+from .edits import Edit
 from .places import Place, locate
 
 

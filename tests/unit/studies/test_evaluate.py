@@ -234,3 +234,18 @@ def test_computed_quantities_are_those_that_are_there():
     stressed = document.model_copy(update={"stress": checked({**PROBLEM, "stress": {}}).stress})
     assert "max_von_mises" in computed(stressed, [])
     assert replace(MEASURES[0], name="x").unit == MEASURES[0].unit
+
+
+def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):
+    """Loaded beyond the hardness and unloaded: the peak is an axis, and the residual indentation depends on it."""
+    control = {"path": {"mean_pressure": ["20 MPa", "1 MPa"], "steps": 3}}
+    problem = {**HARD, "control": control}
+    peaks = {"path": "control.path.mean_pressure.0", "values": ["5 MPa", "20 MPa"], "name": "peak"}
+    data = collected(tmp_path, problem=problem, axes=[peaks], quantities=["max_permanent_indentation", "mean_pressure"])
+    case = build(checked(problem))
+    path = asp.solve_path(case.problem, case.path, solver=case.solver)
+    assert float(data["max_permanent_indentation"][1]) == pytest.approx(
+        path.results[-1].max_permanent_indentation, rel=3.0 * TOLERANCE**0.5, abs=0.0
+    )
+    np.testing.assert_allclose(data["mean_pressure"], 1e6, rtol=1e-6)
+    assert 0.0 < float(data["max_permanent_indentation"][0]) < float(data["max_permanent_indentation"][1])

@@ -12,7 +12,8 @@ from study_cases import LOADS, PROBLEM, SEEDS, plan
 from asperity.core.digest import content_digest
 from asperity.core.errors import InputError
 from asperity.io.documents import checked
-from asperity.studies.places import content, replaced
+from asperity.studies.edits import edited
+from asperity.studies.places import content
 
 THICKNESS = {"path": "body.layers.0.thickness", "first": "1 nm", "last": "1 um", "count": 4, "scale": "log"}
 
@@ -54,9 +55,7 @@ def test_a_key_is_that_of_the_whole_changed_problem():
     """Keys are made without checking every case; they must be those of the checked document."""
     made = plan(axes=[LOADS, THICKNESS, {"path": "surface.points", "values": [16, [32, 16]]}])
     for case in (case for path in made.paths() for case in path):
-        table = made.table
-        for edit in case.edits:
-            table = replaced(table, edit.keys, edit.value)
+        table = edited(made.table, case.edits)
         assert case.key == content_digest([content(checked(table), Path()), made._made_by])
 
 
@@ -102,11 +101,23 @@ def test_the_limits_of_a_layer_are_other_bodies():
         ("body.layers.1", ["DLC"], ["DLC"]),
     ):
         table = {"layer": layer, "first": "1 nm", "last": "9 nm", "count": 3}
-        points = plan(problem=problem, critical_thickness=table).axes[0].points
+        made = plan(problem=problem, critical_thickness=table)
+        points = made.axes[0].points
         assert [point.coordinate for point in (points[0], points[-1])] == [0.0, np.inf]
-        bodies = [points[0].edits[0].value, points[-1].edits[0].value]
+        bodies = [edited(made.table, points[at].edits)["body"] for at in (0, -1)]
         assert [[part["material"] for part in body.get("layers", [])] for body in bodies] == [without, endless]
-    assert points[-1].edits[0].value["base"]["material"] == "Cr"
+    assert bodies[1]["base"]["material"] == "Cr"
+
+
+def test_other_axes_reach_the_limits_of_a_layer():
+    modulus = {"path": "body.layers.0.youngs_modulus", "values": ["10 GPa", "500 GPa"]}
+    made = plan(axes=[modulus], critical_thickness={"first": "1 nm", "last": "9 nm", "count": 2})
+    ends = {case.index: edited(made.table, case.edits)["body"] for path in made.paths() for case in path}
+    assert ends[0, 0] == ends[1, 0] == made.table["body"]["base"]
+    assert [ends[number, 3]["youngs_modulus"] for number in (0, 1)] == ["10000000000.0 Pa", "500000000000.0 Pa"]
+    assert len({case.key for path in made.paths() for case in path}) == 7, (
+        "without the layer its modulus does not matter"
+    )
 
 
 def test_levels_of_a_convergence_study():

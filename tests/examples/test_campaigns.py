@@ -1,0 +1,53 @@
+"""The ready study files run, and say what they should."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from study_cases import InProcess
+
+from asperity.studies.campaign import prepare_study
+from asperity.studies.run import carry_out
+
+FOLDER = Path(__file__).parents[2] / "examples" / "campaigns"
+
+
+def finished(name: str, tmp_path: Path):
+    campaign = prepare_study(FOLDER / f"{name}.toml", tmp_path / name)
+    assert carry_out(campaign.plan, campaign.records, InProcess()).failed == 0
+    assert campaign.state().complete
+    return campaign
+
+
+def test_every_ready_study_is_tested_here():
+    assert {path.stem for path in FOLDER.glob("*.toml")} == {"coating_thickness", "area_against_load"}
+
+
+def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
+    """Waves of length λ reach about λ/2π deep: thicknesses beyond a few λ = 1 µm are endless, below λ/1000 they are none."""
+    found = finished("coating_thickness", tmp_path).analysis()
+    for quantity in ("max_pressure", "max_displacement", "mean_gap"):
+        floor, ceiling = found[f"{quantity}_floor"], found[f"{quantity}_ceiling"]
+        assert np.all(floor < 0.2 * ceiling)
+        assert np.all((floor > 0.5e-9) & (ceiling < 20e-6))
+    softer, stiffer = np.asarray(found["max_pressure_at_infinity"] / found["max_pressure_at_zero"])
+    assert softer < 1.0 < stiffer
+    # max pressure is that of small spots and sees less deep than the mean gap does
+    assert np.all(found["max_pressure_ceiling"] < found["mean_gap_ceiling"])
+
+
+def test_area_rises_in_proportion_to_load(tmp_path):
+    campaign = finished("area_against_load", tmp_path)
+    found = campaign.analysis()
+    area, load = np.asarray(found["area_fraction_corrected_mean"]), np.asarray(found["load"])
+    half = np.asarray(found["area_fraction_corrected_half_width"])
+    assert np.all(half <= 0.04 * area)
+    assert campaign.state().samples < 200
+    modulus = 100e9 / (1.0 - 0.3**2)
+    # κ = A E* h' / p lies between 1.6 (Persson) and 2.51 (Bush, Gibson & Thomas) at small loads, and falls with area
+    kappa = area * modulus * 0.02 / load
+    assert 1.6 < kappa[0] < 2.51
+    assert np.all(np.diff(kappa) < 0.0)
+    assert area[0] == pytest.approx(2.0 * load[0] / (modulus * 0.02), rel=0.25)
