@@ -44,8 +44,9 @@ def test_the_example_of_the_readme(scan, tmp_path, monkeypatch, capsys):
     assert "Polonsky" in capsys.readouterr().out
 
 
-def test_the_examples_of_loading_and_unloading(scan):
-    first, second = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
+def test_the_examples_of_loading_and_unloading(scan, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    first, second, *rest = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
     names = {"scan": scan, "asp": asp, "np": np}
     exec(compile(first, "first block", "exec"), names)  # noqa: S102 - running the page is the test
     # each of the two solves is uncertain in energy by its field error times load times rms height, some times over
@@ -54,6 +55,18 @@ def test_the_examples_of_loading_and_unloading(scan):
     assert names["loaded"].plastic_work > 0.0
     exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
     assert names["result"].mean_pressure == pytest.approx(500e6)
+    for number, code in enumerate(rest):
+        exec(compile(code, f"block {number + 3}", "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["balance"].relative_error < 0.05
+    assert {"path.nc", "path.csv", "plots"} == {path.name for path in tmp_path.iterdir()}
+    assert not names["found"].below.is_plastic
+    assert names["worn"].plastic.any()
+    np.testing.assert_allclose(
+        names["worn"].pressure[names["worn"].plastic], names["limit"][names["worn"].plastic], rtol=2e-5
+    )
+    (text,) = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "toml")
+    head = 'version = 1\nbody = "DLC:20nm/Co-Cr"\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\n'
+    assert loads(head + text).control.path.steps == 8
 
 
 def test_the_examples_of_layered_bodies(scan, capsys):
@@ -182,7 +195,15 @@ def commands(path: Path) -> list[str]:
     return [line for line in found if "scan.di" in line]
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/how-to/measured-scan.md", "docs/how-to/coated-contact.md"])
+@pytest.mark.parametrize(
+    "page",
+    [
+        "README.md",
+        "docs/how-to/measured-scan.md",
+        "docs/how-to/coated-contact.md",
+        "docs/how-to/loading-and-unloading.md",
+    ],
+)
 def test_the_commands_on_a_scan(scan, tmp_path, monkeypatch, page):
     monkeypatch.chdir(tmp_path)
     asp.save_surface(scan, "scan.nc")

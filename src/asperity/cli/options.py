@@ -144,6 +144,14 @@ class OutputOptions:
         Path | None, _option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
     ] = None
     force: Annotated[bool, _option("--force", "Replace files that exist.", OUTPUT)] = False
+    plastic_load: Annotated[
+        bool,
+        _option(
+            "--plastic-load",
+            "Search the load at which 2 % of the real area is at the hardness (some 15 solves).",
+            OUTPUT,
+        ),
+    ] = False
     save_document: Annotated[
         Path | None, _option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
     ] = None

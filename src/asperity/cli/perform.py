@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from .options import OutputOptions
 if TYPE_CHECKING:
     from ..contact.finding import Advice
     from ..contact.path import LoadPath
+    from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..contact.wet_result import WetContactResult
@@ -33,7 +35,6 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.atomic import require_new_files
     from ..io.build import build
     from ..io.documents import relocated
-    from .show import print_advice, print_files, print_result
     from .stress_run import output_folder, surveyed, write_volume
     from .wet_run import wet_contact
 
@@ -45,32 +46,35 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
         result = _result(case, path, wet, chosen=_chooses_solver(document))
         asked, lines = case.stress, folder is not None
         stress = None if asked is None else surveyed(asked, result, lines=lines, threads=case.threads)
-        findings = (*before, *review(result))
-        if folder is not None and output.out is not None:
-            moved = relocated(document, base_folder, output.out)
-            _write_folder(Run(result, findings, moved, stress, path, wet), folder)
+        found = _plastic_load(case) if output.plastic_load else None
+        moved = document if output.out is None else relocated(document, base_folder, output.out)
+        run = Run(result, (*before, *review(result)), moved, stress, path, wet, found)
+        if folder is not None:
+            _write_folder(run, folder)
     _write_files(wet or result, document, base_folder, output)
-    print_result(result, document.title)
-    _print_parts(path, wet, stress)
     if stress is not None:
         write_volume(stress, output)
-    print_advice(findings)
-    print_files(_written(output, stressed=stress is not None, along_path=path is not None))
+    _print(run, _written(output, stressed=stress is not None, along_path=path is not None))
     return OK if (path or wet or result).converged else NOT_CONVERGED
 
 
-def _print_parts(path: LoadPath | None, wet: WetContactResult | None, stress: StressSurvey | None) -> None:
-    """Print load path, menisci and stresses, each if there is any."""
-    from .show import print_path
+def _print(run: Run, written: Iterable[Path]) -> None:
+    """Print what ``run`` has found and which files were ``written``."""
+    from .show import print_advice, print_files, print_path, print_plastic_load, print_result
     from .stress_run import print_stress
     from .wet_run import print_wet
 
-    if path is not None:
-        print_path(path)
-    if wet is not None:
-        print_wet(wet)
-    if stress is not None:
-        print_stress(stress)
+    print_result(run.result, run.document.title)
+    if run.path is not None:
+        print_path(run.path)
+    if run.wet is not None:
+        print_wet(run.wet)
+    if run.plastic_load is not None:
+        print_plastic_load(run.plastic_load)
+    if run.stress is not None:
+        print_stress(run.stress)
+    print_advice(run.findings)
+    print_files(written)
 
 
 def _result(case: Case, path: LoadPath | None, wet: WetContactResult | None, *, chosen: bool) -> ContactResult:
@@ -112,6 +116,15 @@ def _ran(case: Case) -> LoadPath:
             progress=progress,
             on_failure="return",
         )
+
+
+def _plastic_load(case: Case) -> PlasticLoad:
+    from ..contact.plastic_load import plastic_load
+    from .interrupt import interruptible
+    from .progress import shown
+
+    with shown("searching the plastic load") as bar, interruptible(bar) as progress:
+        return plastic_load(case.problem, solver=case.solver, progress=progress)
 
 
 def _solved(case: Case, *, chosen: bool) -> ContactResult:
@@ -166,16 +179,15 @@ class Run:
     stress: StressSurvey | None
     path: LoadPath | None
     wet: WetContactResult | None
+    plastic_load: PlasticLoad | None
 
 
 def _write_folder(run: Run, folder: Path) -> None:
     """Write everything into ``folder``."""
     from ..io.documents import dumps, save_document
     from ..io.export import export_csv
-    from ..io.path_files import export_path_csv, save_path
     from ..io.results import save
     from ..plots.figures import save_plots
-    from ..plots.path_figures import save_path_plots
     from ..report import write_report
     from .stress_run import write_stress
     from .wet_run import write_wet
@@ -189,13 +201,29 @@ def _write_folder(run: Run, folder: Path) -> None:
     menisci = None if run.wet is None else write_wet(run.wet, folder, text)
     part = None if run.stress is None else write_stress(run.stress, folder)
     if run.path is not None:
-        save_path(run.path, folder / PATH_NAMES[0], document=text)
-        export_path_csv(run.path, folder / PATH_NAMES[1])
-        save_path_plots(run.path, folder / "plots")
+        _write_path(run.path, folder, text)
     page, title = folder / "report.html", run.document.title
     write_report(
-        result, page, advice=run.findings, document=text, title=title, stress=part, load_path=run.path, wet=menisci
+        result,
+        page,
+        advice=run.findings,
+        document=text,
+        title=title,
+        stress=part,
+        load_path=run.path,
+        plastic_load=run.plastic_load,
+        wet=menisci,
     )
+
+
+def _write_path(path: LoadPath, folder: Path, document: str) -> None:
+    """Write steps, table and figures of ``path`` into ``folder``."""
+    from ..io.path_files import export_path_csv, save_path
+    from ..plots.path_figures import save_path_plots
+
+    save_path(path, folder / PATH_NAMES[0], document=document)
+    export_path_csv(path, folder / PATH_NAMES[1])
+    save_path_plots(path, folder / "plots")
 
 
 def _write_files(

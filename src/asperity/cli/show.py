@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from ..contact.finding import Advice
     from ..contact.path import LoadPath
+    from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
     from ..surfaces.surface import Surface
 
@@ -127,6 +128,13 @@ def print_path(path: LoadPath) -> None:
     for title, made in (("Load path", turn_table(path)), ("Energies", energy_table(path))):
         out.print(table(title, made.cells, made.headings))
     say(path_sentence(path), "" if path.converged else "bold red")
+
+
+def print_plastic_load(found: PlasticLoad) -> None:
+    """Print the load at which the contact becomes plastic."""
+    from ..report.plasticity import plastic_load_row
+
+    console().print(table("Plastic load", [plastic_load_row(found)]))
 
 
 def print_advice(findings: Iterable[Advice]) -> None:

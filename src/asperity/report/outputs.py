@@ -68,9 +68,11 @@ def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
 def summary(result: ContactResult) -> str:
     """One sentence on the state of the contact."""
     share = f"{percent(result.area_fraction_corrected)} of the nominal area"
+    dents = f" {percent(float(result.indented.mean()))} of the nominal area is indented for good."
+    dents = dents if result.indented.any() else ""
     if not result.contact.any():
-        return "The bodies do not touch."
+        return "The bodies do not touch." + dents
     if result.is_plastic:
         plastic = f"{percent(result.plastic_area_fraction)} of the real contact area is at the hardness"
         return f"The bodies touch on {share}. The contact is plastic: {plastic}."
-    return f"The bodies touch on {share}. The contact is elastic."
+    return f"The bodies touch on {share}. The contact is elastic.{dents}"

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..contact.finding import Advice
 from ..contact.path import LoadPath
+from ..contact.plastic_load import PlasticLoad
 from ..contact.result import ContactResult
 from ..core.citations import REFERENCES
 from ..core.errors import InputError
@@ -49,6 +50,7 @@ def write_report(
     stress: StressPart | None = None,
     load_path: LoadPath | None = None,
     wet: WetPart | None = None,
+    plastic_load: PlasticLoad | None = None,
     overwrite: bool = False,
 ) -> None:
     """Write a report of ``result`` to the HTML file ``path``; it needs no network and no other file.
@@ -71,6 +73,8 @@ def write_report(
         The path whose last step is ``result``.
     wet
         Liquid film and menisci of a wet contact, whose contact is ``result``, and their figures.
+    plastic_load
+        The load at which the contact becomes plastic, if it was searched for.
     overwrite
         Whether an existing file is replaced.
 
@@ -85,7 +89,7 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     with atomic_file(path, overwrite=overwrite) as file:
-        page = _Page(result, advice, document, title or _title(result), stress, load_path, wet)
+        page = _Page(result, advice, document, title or _title(result), stress, load_path, wet, plastic_load)
         file.write_text(_html(page), encoding="utf-8")
 
 
@@ -100,6 +104,7 @@ class _Page:
     stress: StressPart | None
     load_path: LoadPath | None
     wet: WetPart | None
+    plastic_load: PlasticLoad | None
 
 
 def _html(page: _Page) -> str:
@@ -116,7 +121,7 @@ def _html(page: _Page) -> str:
         certificate=certificate_rows(result),
         results=result_rows(result),
         figures=[_shown(plot.title, plot.caption, render(plot, result)) for plot in PLOTS],
-        plastic=_plastic(result),
+        plastic=_plastic(result, page.plastic_load),
         path=None if load_path is None else _path(load_path),
         stress=None if stress is None else _stress(stress),
         wet=None if wet is None else _wet(wet),
@@ -149,12 +154,14 @@ def _shown(title: str, caption: str, picture: bytes) -> dict[str, str]:
     return {"title": title, "caption": caption, "picture": base64.b64encode(picture).decode("ascii")}
 
 
-def _plastic(result: ContactResult) -> dict[str, Any] | None:
-    """The part on plastic deformation for the template; None where nothing has yielded."""
-    if not result.indented.any():
+def _plastic(result: ContactResult, found: PlasticLoad | None) -> dict[str, Any] | None:
+    """The part on plastic deformation for the template; None where nothing has yielded and no yield was searched for."""
+    if found is None and not result.indented.any():
         return None
-    figures = [_shown(plot.title, plot.caption, render(plot, result)) for plot in PLASTIC_PLOTS]
-    return {"rows": plastic_rows(result), "figures": figures}
+    figures = [
+        _shown(plot.title, plot.caption, render(plot, result)) for plot in PLASTIC_PLOTS if result.indented.any()
+    ]
+    return {"rows": plastic_rows(result, found), "figures": figures}
 
 
 def _path(path: LoadPath) -> dict[str, Any]:

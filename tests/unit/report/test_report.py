@@ -18,7 +18,7 @@ from asperity.contact.solvers import ConjugateGradient
 from asperity.core.citations import reference
 from asperity.core.digest import array_digest
 from asperity.core.errors import OutputError
-from asperity.plots import PLOTS
+from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
 from asperity.report.bodies import body_rows, body_text
 from asperity.report.inputs import surface_rows
@@ -102,7 +102,7 @@ def test_page_is_well_formed(page: Page, html: str) -> None:
 
 def test_nothing_is_loaded_from_elsewhere(page: Page, html: str) -> None:
     loaded = [value for _, attributes in page.tags for key, value in attributes.items() if key in {"src", "href"}]
-    assert len(loaded) == len(PLOTS) + 1
+    assert len(loaded) == len(PLOTS) + len(PLASTIC_PLOTS) + 1
     assert all(value.startswith("data:") for value in loaded)
     assert page.all("script") == []
     assert "@import" not in html
@@ -138,7 +138,7 @@ def test_inputs_are_stated(page: Page) -> None:
 
 def test_figures_are_pictures_with_alternative_text(page: Page) -> None:
     images = page.all("img")
-    assert [item["alt"].split(".")[0] for item in images] == [plot.title for plot in PLOTS]
+    assert [item["alt"].split(".")[0] for item in images] == [plot.title for plot in (*PLOTS, *PLASTIC_PLOTS)]
     for item in images:
         head, data = item["src"].split(",")
         assert head == "data:image/png;base64"
