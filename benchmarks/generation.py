@@ -35,6 +35,9 @@ def kinds(n: int) -> dict[str, Callable[[], object]]:
             grid, decay, seed=1, skewness=0.2, kurtosis=4.0
         ),
         "translation to -1, 4": lambda: g.translated(grid, decay, seed=1, skewness=-1.0, kurtosis=4.0),
+        "translation to -1, 4, Pearson": lambda: g.translated(
+            grid, decay, seed=1, skewness=-1.0, kurtosis=4.0, system="pearson"
+        ),
         "two processes": lambda: g.two_process(grid, decay, decay, offset=1.0, seed=1),
         "Weierstrass-Mandelbrot": lambda: g.weierstrass_mandelbrot(grid, dimension=2.4, roughness=1e-3, seed=1),
     }
