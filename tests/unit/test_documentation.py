@@ -123,6 +123,14 @@ def test_the_examples_of_preparation(scan, capsys):
     assert len(loads(table + rest).surface.prepare) == 7
 
 
+def test_the_example_of_statistical_theories(capsys):
+    (code,) = blocks(ROOT / "docs/theory/statistical-contact.md", "python")
+    exec(compile(code, "statistical-contact.md", "exec"), {})  # noqa: S102 - running the page is the test
+    printed = capsys.readouterr().out
+    assert "bush-gibson-thomas 0.0" in printed
+    assert "area fraction holds [Carbone2008]" in printed
+
+
 def test_the_examples_of_scaling_theories(capsys):
     names = {}
     for number, code in enumerate(blocks(ROOT / "docs/theory/scaling-theories.md", "python")):
