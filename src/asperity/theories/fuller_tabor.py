@@ -181,7 +181,7 @@ class FullerTabor:
 
     def _least(self) -> tuple[float, float]:
         """Separation D and load f where f is least, by ever finer grids about the least of the last one."""
-        low, high = LOWEST / 4.0, HIGHEST / 4.0
+        low, high = LOWEST / 4.0, HIGHEST / 4.0 + self.reach
         for _ in range(14):  # each a tenth of the one before
             D = np.linspace(low, high, 41)
             loads = self.load_per_summit(D)

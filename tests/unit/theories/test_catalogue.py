@@ -73,6 +73,12 @@ def test_every_theory_answers_about_the_same_surface(name, roughness):
         assert np.all((coefficient > 0.7) & (coefficient < 10.0))
 
 
+def test_every_theory_is_in_the_public_namespace():
+    assert [kind.__name__ for kind in THEORIES.values() if kind.__name__ not in asp.theories.__all__] == []
+    assert sorted(set(asp.theories.__all__)) == sorted(asp.theories.__all__)
+    assert all(getattr(asp.theories, name).__doc__ or name == "THEORIES" for name in asp.theories.__all__)
+
+
 def test_unknown_theories_are_refused():
     with pytest.raises(asp.InputError, match="name of a theory"):
         theory("phlogiston")
