@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
-from agreement.matrix import MATRIX, Agreement
+from agreement.matrix import MATRIX as ROUGH_SURFACES
+from agreement.matrix import Agreement
+from agreement.single_contacts import SINGLE_CONTACTS
 
 from asperity.theories.catalogue import THEORIES
+
+MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS)
+PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 
 @pytest.mark.parametrize("row", MATRIX, ids=lambda row: f"{row.theory}|{row.other}|{row.limit}")
@@ -27,3 +33,10 @@ def test_rows_name_theories_and_say_why():
         assert row.theory in THEORIES
         assert row.other in THEORIES or " " in row.other or "/" in row.other or "(" in row.other
         assert len(row.reason) >= 10
+
+
+def test_the_page_shows_these_rows():
+    rows = [f"| {row.theory} | {row.other} | {row.limit} | {row.tolerance:.2g} | {row.reason} |" for row in MATRIX]
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    shown = [line for line in lines if line.startswith("| ")][1:]
+    assert shown == rows, f"the table of {PAGE.name} must be\n" + "\n".join(rows)
