@@ -82,3 +82,13 @@ def test_plots_of_an_indented_surface(run: Runner, matrix: Path, tmp_path: Path)
     drawn = run("plot", out / "result.nc", "--kind", "indentation", "--out", tmp_path)
     assert drawn.exit_code == 0, drawn.stderr
     assert (tmp_path / "indentation.png").stat().st_size > 1000
+
+
+def test_the_plastic_load(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    body = ("--body", "E=100GPa,nu=0.3,H=0.5GPa")
+    options = ("--hardness", "body", "--pressure", "1MPa", "--plastic-load", "--out", tmp_path / "run")
+    result = run("contact", matrix, *SCALE, *body, *options)
+    assert result.exit_code == 0, result.stderr
+    words = "first load at which 2 % of the real area is plastic"
+    assert words in " ".join(result.stdout.split())
+    assert words in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")

@@ -46,6 +46,7 @@ def refused(run: Runner, *arguments: object) -> str:
         ((*BODY, *LOAD, "--path-steps", "3"), "--path-steps must be given together with a load path"),
         ((*BODY, "--path", "1MPa", "--friction", "0.1", "--coupled"), "--coupled) must be left out with a load path"),
         (("--body", "E=1GPa,nu=0.3", *LOAD, "--hardness", "effective"), "hardness must be known for at least one body"),
+        ((*BODY, *LOAD, "--plastic-load"), "must limit the pressure, but is hard wall. Use Hardness(H) (--hardness)."),
         ((*BODY, *LOAD, "--tolerance", "2"), "--tolerance must be greater than 0 and less than 1, but is 2.0."),
         ((*BODY, *LOAD, "--load", "1mN"), "exactly one of"),
         ((*BODY, "--pressure", "6GPa", "--hardness", "body"), "at most the mean hardness 5e+09 Pa"),

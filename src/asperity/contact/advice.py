@@ -15,6 +15,7 @@ from ..surfaces.characterise.stencils import stencil_sums
 from ..surfaces.surface import Surface
 from .control import Control, Force, MeanPressure, mean_pressure
 from .finding import Advice
+from .laws import LayeredHardness
 from .layer_advice import layer_advice
 from .problem import ContactProblem
 from .result import ContactResult
@@ -237,7 +238,10 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
+    law = result.problem.law
     for body in (result.problem.body, result.problem.counter_body):
+        if isinstance(law, LayeredHardness) and law.body == body:
+            continue  # pressed through its top layer it bears more or less than that layer's hardness
         solid = surface_material(body)
         hardness = math.nan if solid is None else solid.strength.hardness
         if result.max_pressure > hardness * (1.0 + 1e-9):  # reaching a cap equal to the hardness is as it should be

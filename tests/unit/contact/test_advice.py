@@ -115,3 +115,15 @@ def test_pressure_above_the_known_hardness():
     assert "butter" in found[0].message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
     assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))
+
+
+def test_a_soft_coating_pressed_through_is_not_above_its_hardness():
+    """With the hardness that follows the indentation the film bears more than its own hardness, as it should."""
+    film, base = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in (0.02, 0.5))
+    coated = asp.Layered([asp.Layer(film, 0.5)], base)
+    result = asp.solve(
+        asp.ContactProblem(rough((32, 32)), coated, law=asp.LayeredHardness(coated)), asp.MeanPressure(0.01)
+    )
+    assert result.max_pressure > 0.021
+    assert "hardness" not in criteria(asp.review(result))
+    assert "softer layers below" not in criteria(asp.advise(result.problem, result.control))
