@@ -128,7 +128,8 @@ def spectrum_of(
     Level the surface and fill missing points first. One that is not periodic is windowed (Hann), without which the
     jump between its borders would be generated too; the lowest modes, which a window mixes with the mean, take the power
     of the next ones. Waves longer than the surface have that power too, waves shorter than those of its grid none. The
-    shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions.
+    shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions, and
+    keeps that of every ring of wavenumbers.
 
     Parameters
     ----------
@@ -148,7 +149,8 @@ def spectrum_of(
     InputError
         If points are missing, all heights are equal, or nothing is left above the floor.
     """
-    from ..characterise.spectrum import default_edges, power_spectrum, radial_spectrum
+    from ..characterise.spectrum import power_spectrum
+    from .rings import ring_table
 
     if not require.finite(floor, "floor of the spectrum (m^4)") >= 0.0:
         raise InputError(f"floor of the spectrum (m^4) must be zero or greater, but is {floor:g}.")
@@ -157,12 +159,12 @@ def spectrum_of(
     keys = tuple(dict.fromkeys((*surface.citation_keys, *spectrum.citation_keys)))
     first = 0.0 if spectrum.window == "none" else _MIXED
     if isotropic:
-        rings = radial_spectrum(spectrum, default_edges(spectrum, per_decade, corners=True))
-        kept = rings.q >= first * 2.0 * np.pi / min(spectrum.grid.size)
-        q, psd = np.append(rings.q[kept], rings.high[-1]), _above(rings.psd[kept], floor)
-        words = f"radial spectrum of {source}"
-        return TabulatedSpectrum(q, np.append(psd, psd[-1]), words=words, citation_keys=keys)
-    psd = _above(_without_mixed(spectrum, first), floor)
+        lowest = first * 2.0 * np.pi / min(spectrum.grid.size)
+        q, psd = ring_table(spectrum, per_decade=per_decade, lowest=lowest, floor=floor)
+        _require_some(psd, floor)
+        return TabulatedSpectrum(q, psd, words=f"radial spectrum of {source}", citation_keys=keys)
+    psd = np.maximum(_without_mixed(spectrum, first) - floor, 0.0)
+    _require_some(psd, floor)
     return MeasuredSpectrum(replace(spectrum, psd=psd), source, keys)
 
 
@@ -178,13 +180,11 @@ def _beside_mean(psd: RealArray) -> float:
     return float(np.mean(neighbours)) if neighbours else 0.0
 
 
-def _above(psd: RealArray, floor: float) -> RealArray:
-    left: RealArray = np.maximum(psd - floor, 0.0)
-    if not left.any():
+def _require_some(psd: RealArray, floor: float) -> None:
+    if not psd.any():
         raise InputError(
             f"surface whose spectrum is to be generated must be rough beyond the floor of {floor:g} m^4, but is not."
         )
-    return left
 
 
 def _without_mixed(spectrum: PowerSpectrum, first: float) -> RealArray:
