@@ -43,6 +43,12 @@ class JKR:
         Work of adhesion w in J/m², > 0.
     spacing
         Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether the theory applies (``limits``).
+
+    Examples
+    --------
+    >>> tip = JKR(E_star=1e6, radius=10e-6, work=0.05)
+    >>> f"{tip.pull_off * 1e6:.2f} µN, {tip.at_load(0.0).radius * 1e6:.2f} µm without load"
+    '2.36 µN, 4.13 µm without load'
     """
 
     E_star: float

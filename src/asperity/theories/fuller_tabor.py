@@ -49,6 +49,13 @@ class FullerTabor:
         Whether the surfaces part (True) or approach.
     spacing
         Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether JKR applies (``validity``).
+
+    Examples
+    --------
+    >>> soft = FullerTabor(E_star=10e6, density=1e10, radius=10e-6, height_deviation=1e-7, work=0.05)
+    >>> separation, pressure = soft.pull_off()
+    >>> f"{pressure / 1e3:.1f} kPa against {soft.density * soft.sphere.pull_off / 1e3:.1f} kPa of equal heights"
+    '-12.1 kPa against 23.6 kPa of equal heights'
     """
 
     E_star: float

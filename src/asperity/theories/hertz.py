@@ -24,6 +24,13 @@ class HertzPoint:
         Contact modulus E* in Pa, 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2, > 0.
     radius
         Relative radius of curvature R in m, 1/R = 1/R1 + 1/R2, > 0.
+
+    Examples
+    --------
+    >>> ball = HertzPoint(E_star=115e9, radius=5e-3)
+    >>> answer = ball.at_load(10.0)
+    >>> f"{answer.radius * 1e6:.1f} µm, {answer.max_pressure / 1e9:.3f} GPa, {answer.approach * 1e9:.0f} nm"
+    '68.8 µm, 1.008 GPa, 948 nm'
     """
 
     E_star: float

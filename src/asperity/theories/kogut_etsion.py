@@ -35,6 +35,13 @@ class KogutEtsionSphere:
         Hardness H = 2.8Y of the softer body in Pa, > 0.
     nu
         Poisson's ratio ν of the body that yields, up to 0.5; K = 0.454 + 0.41ν. The fits were made at 0.3.
+
+    Examples
+    --------
+    >>> sphere = KogutEtsionSphere(E_star=110e9, radius=1e-6, hardness=6e9)
+    >>> deep = sphere.at_interference(200 * sphere.critical_interference)
+    >>> f"{deep.mean_pressure / 1e9:.2f} GPa"
+    '6.00 GPa'
     """
 
     E_star: float

@@ -26,6 +26,12 @@ class Westergaard:
         Δ in m, > 0: half the height from trough to crest.
     wavelength
         λ in m, > 0.
+
+    Examples
+    --------
+    >>> wave = Westergaard(E_star=1e9, amplitude=1e-6, wavelength=1e-3)
+    >>> [round(float(part), 3) for part in wave.area_fraction([0.1e6, 1e6, 4e6])]
+    [0.114, 0.382, 1.0]
     """
 
     E_star: float
