@@ -15,6 +15,7 @@ from asperity.theories.anisotropic_summits import AnisotropicSummits, equivalent
 from asperity.theories.bush_gibson_thomas import ASYMPTOTE, BushGibsonThomas, GreenwoodElliptic
 from asperity.theories.elliptic_asperity import ellipse, ellipse_of_curvatures
 from asperity.theories.greenwood_tripp import GreenwoodTripp
+from asperity.theories.hertz_ellipse import axis_ratio
 from asperity.theories.mccool import McCool
 from asperity.theories.onions_archard import OnionsArchard, plastic_area_share
 from asperity.theories.roughness import MomentTensor, Roughness
@@ -109,6 +110,28 @@ def test_all_summits(kind):
         assert found.pressure == pytest.approx(row[f"p_over_Estar_sqrt_m2{suffix}"], rel=5e-11)
         assert kappa(theory, found) == pytest.approx(row[f"kappa{suffix}"], rel=5e-11)
         assert found.contact_density / row["alpha"] == pytest.approx(row["n_times_m2_over_m4"], rel=ROUNDING)
+
+
+@pytest.mark.parametrize(("alpha", "D"), [(2.0, 1.0), (8.0, 0.0)])
+def test_all_summits_by_monte_carlo(alpha, D):
+    # draws of height, mean curvature and its anisotropy at a point of the surface; a summit counts by its Gaussian curvature
+    rng, number, rho = np.random.default_rng(2), 150_000, math.sqrt(1.5 / alpha)
+    t = rng.standard_normal(number)
+    height = rho * t + math.sqrt(1.0 - rho**2) * rng.standard_normal(number)
+    u = rng.exponential(size=number)
+    touching = (t > 0.0) & (u < t * t) & (height > D)
+    t, u, depth = t[touching], u[touching], height[touching] - D
+    count = alpha / (3.0 * math.pi) * (t * t - u)
+    shape = ellipse(axis_ratio((t + np.sqrt(u)) / (t - np.sqrt(u))))
+    mean_curvature = t * math.sqrt(2.0 * alpha / 3.0)
+    found = BushGibsonThomas(1.0, 1.0, 1.0, alpha).at_separation(D)
+    for expected, each in (
+        (found.contact_density, count),
+        (found.area_fraction, count * math.pi * depth / mean_curvature * shape.area),
+        (found.pressure, count * 4.0 / 3.0 * depth**1.5 / np.sqrt(mean_curvature) * shape.load),
+    ):
+        mean, square = each.sum() / number, np.square(each).sum() / number
+        assert expected == pytest.approx(mean, abs=4.0 * math.sqrt((square - mean**2) / number))
 
 
 @pytest.mark.parametrize("kind", [BushGibsonThomas, GreenwoodElliptic])

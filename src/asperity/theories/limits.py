@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from .nayak import NARROWEST, ROUNDING
 from .protocol import Limit, Prediction
 
 SMALL_AREA = 0.1
@@ -60,7 +61,7 @@ def isotropic_bandwidth(prediction: Prediction, alpha: float) -> Limit:
     return constant_limit(
         "bandwidth alpha",
         alpha,
-        (1.5, math.inf),
+        (NARROWEST * (1.0 - ROUNDING), math.inf),
         prediction=prediction,
         citation="Nayak1971",
         message="No isotropic Gaussian surface has such moments; the map is anisotropic, not Gaussian or not resolved.",

@@ -16,8 +16,11 @@ from ..core.errors import InputError
 GEOMETRIC_CURVATURE = 1.35621131344399
 """<sqrt(κ1 κ2)>/sqrt(m4) over all summits, by quadrature of (t² - u)^(3/2) e^(-u) φ(t)."""
 
-_NARROWEST = 1.5  # α of a surface with a single wavelength, the least of all isotropic ones
-_ROUNDING = 1e-9  # by which α of a computed narrow spectrum may lie below 1.5
+NARROWEST = 1.5
+"""α of a surface with a single wavelength, the least of all isotropic ones."""
+
+ROUNDING = 1e-9
+"""Share by which α of a computed narrow spectrum may lie below 1.5."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class NayakSummits:
         require.positive(self.m0, "moment m0 (m^2)")
         require.positive(self.m2, "moment m2")
         require.positive(self.m4, "moment m4 (1/m^2)")
-        if self.alpha < _NARROWEST * (1.0 - _ROUNDING):
+        if self.alpha < NARROWEST * (1.0 - ROUNDING):
             raise InputError(
                 f"moments of an isotropic surface must have m0 m4/m2^2 >= 1.5, but have {self.alpha:.6g}. "
                 "Finite differences on a coarse grid or an anisotropic surface can give less."
@@ -142,7 +145,7 @@ class NayakSummits:
         rho = self.correlation
         variance = 1.0 - rho**2
         plain = np.exp(-0.5 * xi**2) / math.sqrt(2.0 * math.pi)
-        if variance < _ROUNDING:  # a single wavelength: t = ξ
+        if variance < ROUNDING:  # a single wavelength: t = ξ
             shape = xi**2 - 1.0 + np.exp(-(xi**2))
             single: RealArray = 2.0 * math.sqrt(3.0) * np.where(xi > 0.0, xi**power * shape, 0.0) * plain
             return single

@@ -217,7 +217,7 @@ class Roughness:
         if part is None:
             raise InputError(
                 f"roughness for the theory {theory} must hold {what}, but does not. "
-                "Measure it on a map with asperity.roughness_of, or give it to Roughness."
+                "Measure it with asperity.roughness_of on a map that has it, or give it to Roughness."
             )
         return part
 
