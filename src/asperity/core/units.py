@@ -77,13 +77,19 @@ def unit_factor(name: str, kind: str, what: str) -> float:
     """
     import pint
 
-    registry, unit = _registry(), DIMENSIONS[kind]
+    unit = DIMENSIONS[kind]
     try:
-        return float(registry.Quantity(1.0, name or "dimensionless").to(unit).magnitude)
+        return _factor(name or "dimensionless", unit)
     except pint.DimensionalityError:
         raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
         raise UnitError(f"{what} has the unknown unit {name!r}; use for example {unit}.") from None
+
+
+@cache
+def _factor(name: str, unit: str) -> float:
+    """One ``name`` in ``unit``."""
+    return float(_registry().Quantity(1.0, name).to(unit).magnitude)
 
 
 def parse_size(text: str, what: str = "size") -> tuple[float, float]:

@@ -1,0 +1,99 @@
+"""The page of every kind of study, and the files beside it."""
+
+from __future__ import annotations
+
+import csv
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+import tomli_w
+from study_cases import LOADS, PROBLEM, SEEDS, InProcess, study
+
+from asperity.report.study_files import write_study_files
+from asperity.studies.campaign import Campaign, prepare_study
+from asperity.studies.run import carry_out
+
+SEED = {"path": "surface.seed", "distribution": "seed"}
+STUDIES = {
+    "sweep": {"axes": [LOADS, {"path": "body.layers.0.thickness", "values": ["1 nm", "10 nm"]}]},
+    "list": {"axes": [LOADS, {**SEEDS, "values": [1, 2, 3]}], "combine": "list"},
+    "words": {"axes": [{"path": "boundary.kind", "values": ["periodic", "free"]}]},
+    "monte_carlo": {"axes": [LOADS], "monte_carlo": {"seed": 1, "samples": 5, "random": [SEED]}},
+    "histogram": {"monte_carlo": {"seed": 1, "samples": 5, "random": [SEED]}},
+    "convergence": {"axes": [LOADS], "convergence": {"of": "grid", "levels": [16, 32, 64]}},
+    "critical_thickness": {"axes": [LOADS], "critical_thickness": {"first": "1 nm", "last": "10 um", "count": 4}},
+    "sensitivity": {"sensitivity": {"parameters": ["control.mean_pressure", "body.layers.0.thickness"]}},
+}
+FINDINGS = {"monte_carlo", "histogram", "convergence", "critical_thickness", "sensitivity"}
+
+
+class Reader(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.pictures = 0
+        self.headings: list[str] = []
+        self._inside = False
+        self.links: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        values = dict(attrs)
+        self.pictures += tag == "img" and values["src"].startswith("data:image/png;base64,") and bool(values["alt"])
+        self._inside = tag == "h2"
+        self.links += [value for key, value in attrs if key in ("href", "src") and not value.startswith("data:")]
+
+    def handle_data(self, data):
+        if self._inside and data.strip():
+            self.headings.append(data.strip())
+
+
+def made(tmp_path: Path, name: str) -> Campaign:
+    (tmp_path / "s.toml").write_text(tomli_w.dumps(study(**STUDIES[name], title=f"A <{name}>")), encoding="utf-8")
+    campaign = prepare_study(tmp_path / "s.toml")
+    carry_out(campaign.plan, campaign.records, InProcess())
+    return campaign
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_every_kind_of_study_has_its_files(tmp_path, name):
+    campaign = made(tmp_path, name)
+    write_study_files(campaign, campaign.folder)
+    page = (campaign.folder / "report.html").read_text(encoding="utf-8")
+    reader = Reader()
+    reader.feed(page)
+    assert f"A &lt;{name}&gt;" in page
+    assert "All cases are done." in page
+    assert reader.links == [], "the page needs nothing else"
+    assert ("Findings" in reader.headings) == (name in FINDINGS)
+    pictures = list((campaign.folder / "plots").glob("*.png")) if (campaign.folder / "plots").exists() else []
+    assert reader.pictures == len(pictures)
+    assert len(pictures) >= (0 if name == "words" else 4), "one for each quantity where there is something to draw"
+    assert (campaign.folder / "findings.csv").exists() == (name in FINDINGS)
+    with (campaign.folder / "cases.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == campaign.plan.n_cases
+    assert all(float(row["max_pressure"]) > 0.0 for row in rows)
+
+
+def test_findings_of_critical_thickness_are_in_the_page(tmp_path):
+    campaign = made(tmp_path, "critical_thickness")
+    write_study_files(campaign, campaign.folder)
+    page = (campaign.folder / "report.html").read_text(encoding="utf-8")
+    for text in (
+        "floor",
+        "ceiling",
+        "endless layer",
+        "control mean pressure 1 MPa",
+        "Study of critical thickness: 18 cases",
+    ):
+        assert text in page
+    assert "Burmister1945" in page
+
+
+def test_a_study_under_way_says_what_is_missing(tmp_path):
+    (tmp_path / "s.toml").write_text(tomli_w.dumps(study(axes=[SEEDS, LOADS])), encoding="utf-8")
+    campaign = prepare_study(tmp_path / "s.toml")
+    write_study_files(campaign, campaign.folder)
+    page = (campaign.folder / "report.html").read_text(encoding="utf-8")
+    assert "12 cases are missing." in page
+    assert PROBLEM["surface"]["size"] in page
