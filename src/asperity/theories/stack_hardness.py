@@ -14,9 +14,9 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from .effective_hardness import EffectiveHardness
 
-_KNOTS = 160
+_KNOTS = 2000
 _SHALLOWEST, _DEEPEST = 1e-3, 1e4
-_ORDER = 8
+_ORDER = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +88,8 @@ class StackHardness:
     def work(self, depth: ArrayLike) -> RealArray:
         """∫ H dd from the surface to ``depth`` in m (any shape, >= 0): work per area in J/m².
 
-        By Gauss's rule between knots 1.15 times deeper one than the other; relative error about 1e-9.
+        By Gauss's rule between knots a hundredth deeper one than the other; relative error about 1e-10, and 1e-6 where one
+        share passes another between two knots.
         """
         d = np.asarray(depth, dtype=float)
         below = np.searchsorted(self._knots, d, side="right") - 1
