@@ -1,4 +1,4 @@
-"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run.
+"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run, and of its maxima.
 
 python benchmarks/stress.py --size 1024 --threads 2 --repeats 15
 """
@@ -16,6 +16,7 @@ import asperity as asp
 from asperity.core.spectral import RealTransform, fft_library
 from asperity.core.tensor import STRESSES, StressTensor
 from asperity.stress.free import FreePlanes
+from asperity.stress.maxima import Maxima
 from asperity.stress.periodic import PeriodicPlanes
 from asperity.stress.regions import planes
 from asperity.stress.tractions import Tractions
@@ -37,9 +38,14 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 
 def shears(shape: tuple[int, int], rng: np.random.Generator) -> dict[str, asp.Sliding | asp.ShearTraction]:
-    """Pressure alone, shear in proportion to it, shear of its own."""
+    """Pressure alone, shear in proportion to it along an axis and askew, shear of its own."""
     fields = asp.ShearTraction(*rng.standard_normal((2, *shape)))
-    return {"pressure": asp.Sliding(0.0), "sliding": asp.Sliding(0.3, 0.4), "shear fields": fields}
+    return {
+        "pressure": asp.Sliding(0.0),
+        "along x": asp.Sliding(0.3),
+        "sliding": asp.Sliding(0.3, 0.4),
+        "shear fields": fields,
+    }
 
 
 def periodic(n: int, threads: int, repeats: int) -> None:
@@ -72,6 +78,33 @@ def periodic(n: int, threads: int, repeats: int) -> None:
                 print(f"{dtype:9} {name:11} {load:13} {six:14.2f} {one:8.2f} {one / six:6.2f}")
 
 
+def searched(n: int, threads: int, repeats: int) -> None:
+    """Print the time of finding all maxima of a plane beside that of the plane, at several depths."""
+    rough = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * smooth(n), s=(n, n))
+    pressure, line = np.maximum(rough / rough.std() - 1.0, 0.0), np.arange(n) * DX
+    loads = Tractions(asp.Grid((n, n), (DX, DX)), pressure, asp.Sliding(0.3))
+    print(f"\nmaxima of a plane, one layer, sliding: ms, medians of {repeats}")
+    for dtype in ("float64", "float32"):
+        source = PeriodicPlanes(loads, BODIES["1 layer"], dtype=dtype, threads=threads)
+        for depth in (0.0, 3 * DX, 20 * DX, 200 * DX):
+            plane = planes(BODIES["1 layer"], [depth])[0]
+            tensor = source.stress(plane).map(lambda c: c[None])
+            field = asp.StressField((plane,), tensor, None, line, line, ("plane", "x", "y"), (DX, DX))
+            found = Maxima(threads)
+            rounds = [
+                (milliseconds(lambda s=source, p=plane: s.stress(p)), milliseconds(lambda f=field, m=found: m.take(f)))
+                for _ in range(repeats)
+            ]
+            one, search = (statistics.median(column) for column in zip(*rounds, strict=True))
+            print(f"{dtype:9} depth {depth / DX:4.0f} pixels: plane {one:6.1f}, maxima {search:6.1f}")
+
+
+def smooth(n: int) -> np.ndarray:
+    """Filter (n, n // 2 + 1) that leaves waves longer than about 30 pixels."""
+    frequency = np.hypot(*np.meshgrid(np.fft.fftfreq(n), np.fft.rfftfreq(n), indexing="ij"))
+    return np.exp(-((30.0 * frequency) ** 2))
+
+
 def free(n: int, threads: int) -> None:
     """Print the time of a plane with nothing outside the grid: influence coefficients, their transforms, the products."""
     grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
@@ -92,5 +125,6 @@ if __name__ == "__main__":
     options = parser.parse_args()
     print(f"{options.size}², {options.threads} threads, transforms by {fft_library()}")
     periodic(options.size, options.threads, options.repeats)
+    searched(options.size, options.threads, options.repeats)
     if not options.no_free:
         free(options.size, options.threads)

@@ -182,19 +182,28 @@ def _rows(r, traction):  # type: ignore[no-untyped-def]
 
 
 @_compiled
+def _sheared(traction):  # type: ignore[no-untyped-def]
+    """Whether there is shear along x, and along y."""
+    _, kx, ky, fields, _, _ = traction
+    return fields or kx != 0.0, fields or ky != 0.0
+
+
+@_compiled
 def stress_spectra(span, waves, table, nu, traction, out):  # type: ignore[no-untyped-def]
     """Spectra xx, yy, zz, xy, xz, yz; functions τ_zz, τ_Lz, LL_z, and for shear τ_zL, τ_LL, LL_L, τ_T, LT."""
     nx, n = traction[0].shape[0], traction[0].shape[1]
     v, alpha, t, rows = np.zeros((table[1].shape[1], n)), np.empty(n), np.empty(n), np.empty((5, n))
     K = np.zeros((6, 3, n))  # by field and load
+    sheared_x, sheared_y = _sheared(traction)
     d = (rows[0], rows[1], rows[2], rows[3], rows[4])
     turned = (d[1], d[0], d[3], d[2], d[4])
     for i in range(span[0], span[1]):
         used = _amplitudes(waves[0][i], waves[2], table, alpha, t, v)
         _directions(i, waves, alpha, used, d)
         _stress_under_pressure(used, d, v, nu, (K[0, 0], K[1, 0], K[2, 0], K[3, 0], K[4, 0], K[5, 0]))
-        if v.shape[0] > 3:
+        if sheared_x:
             _stress_under_shear(used, d, v, nu, (K[0, 1], K[1, 1], K[2, 1], K[3, 1], K[4, 1], K[5, 1]))
+        if sheared_y:
             _stress_under_shear(used, turned, v, nu, (K[1, 2], K[0, 2], K[2, 2], K[3, 2], K[5, 2], K[4, 2]))
         for mirror in range(1 if i == 0 or 2 * i == nx else 2):
             r = nx - i if mirror else i

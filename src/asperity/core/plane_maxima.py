@@ -47,6 +47,29 @@ def _deviator(part, used, J2, mean, r):  # type: ignore[no-untyped-def]
 
 
 @_compiled
+def _tension_bound(used, J2, mean, r, out):  # type: ignore[no-untyped-def]
+    """Upper bound of σ1, point by point."""
+    for k in range(used):
+        cosine = min(1.0 + (r[k] - 1.0) / 9.0, 0.5 + np.sqrt((1.0 + r[k]) / 6.0))
+        out[k] = mean[k] + 2.0 * np.sqrt(J2[k] / 3.0) * cosine
+
+
+@_compiled
+def _shear_bound(used, J2, r, out):  # type: ignore[no-untyped-def]
+    """Upper bound of (σ1 - σ3)/2, point by point."""
+    for k in range(used):
+        out[k] = np.sqrt(J2[k] * (1.0 - r[k] * r[k] / 9.0))
+
+
+@_compiled
+def _block(components, first, used, copied):  # type: ignore[no-untyped-def]
+    """The components of a block in double precision, whatever the fields are."""
+    for component in range(6):
+        copied[component, :used] = components[component][first : first + used]
+    return copied[0], copied[1], copied[2], copied[3], copied[4], copied[5]
+
+
+@_compiled
 def _tractions(part, used, work, out):  # type: ignore[no-untyped-def]
     """Largest |σxz|, |σyz|, magnitude of both, and σzz."""
     zz, xz, yz = part
@@ -70,20 +93,41 @@ def block_bounds(span, components, out):  # type: ignore[no-untyped-def]
     for block in range(span[0], span[1]):
         first, last = block * BLOCK, min(size, (block + 1) * BLOCK)
         used = last - first
-        for component in range(6):
-            copied[component, :used] = components[component][first:last]  # in double precision, whatever the fields are
-        xx, yy, zz, xy, xz, yz = copied[0], copied[1], copied[2], copied[3], copied[4], copied[5]
+        xx, yy, zz, xy, xz, yz = _block(components, first, used, copied)
         _deviator((xx, yy, zz, xy, xz, yz), used, J2, mean, r)
         out[block, 0] = np.sqrt(3.0 * _largest(J2, used))
-        for k in range(used):
-            cosine = min(1.0 + (r[k] - 1.0) / 9.0, 0.5 + np.sqrt((1.0 + r[k]) / 6.0))
-            work[k] = mean[k] + 2.0 * np.sqrt(J2[k] / 3.0) * cosine
+        _tension_bound(used, J2, mean, r, work)
         out[block, 1] = _largest(work, used)
-        for k in range(used):
-            work[k] = J2[k] * (1.0 - r[k] * r[k] / 9.0)
-        out[block, 2] = np.sqrt(_largest(work, used))
+        _shear_bound(used, J2, r, work)
+        out[block, 2] = _largest(work, used)
         for k in range(used):
             half = 0.5 * (xx[k] - yy[k])
             work[k] = 0.5 * (xx[k] + yy[k]) + np.sqrt(half * half + xy[k] * xy[k])
         out[block, 3] = _largest(work, used)
         _tractions((zz, xz, yz), used, work, out[block, 4:])
+
+
+@_compiled
+def points_beyond(blocks, components, shear, value):  # type: ignore[no-untyped-def]
+    """Places in ``blocks`` whose own bound of the ``shear``, else of the tension, is above ``value``."""
+    copied, J2, mean, r, bound = (
+        np.empty((6, BLOCK)),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+    )
+    found, count = np.empty(blocks.size * BLOCK, np.intp), 0
+    for block in blocks:
+        first = block * BLOCK
+        used = min(BLOCK, components[0].size - first)
+        _deviator(_block(components, first, used, copied), used, J2, mean, r)
+        if shear:
+            _shear_bound(used, J2, r, bound)
+        else:
+            _tension_bound(used, J2, mean, r, bound)
+        for k in range(used):
+            if bound[k] > value:
+                found[count] = first + k
+                count += 1
+    return found[:count]

@@ -97,32 +97,34 @@ def _keep(peaks: dict[str, Peak], name: str, peak: Peak) -> None:
 
 
 class _Search:
-    """Search of one plane: exact values only in the blocks of points whose upper bound says that they may be largest."""
+    """Search of one plane: exact values only at points whose upper bound says that they may be largest."""
 
     def __init__(self, field: StressField, blocks: Blocks) -> None:
-        kernels = import_module("..core.plane_maxima", __package__)
-        self._field, self._size = field, int(kernels.BLOCK)
+        self._kernels = import_module("..core.plane_maxima", __package__)
+        self._field, self._size = field, int(self._kernels.BLOCK)
         self._flat = field.tensor.map(np.ravel)
+        self._components = tuple(vars(self._flat).values())
         count = -(-self._flat.xx.size // self._size)
-        found = np.empty((count, len(kernels.BOUNDS)))
-        blocks.share(kernels.block_bounds, count, tuple(vars(self._flat).values()), found, alone=count < 64)
-        self._bounds = dict(zip(kernels.BOUNDS, found.T, strict=True))
+        found = np.empty((count, len(self._kernels.BOUNDS)))
+        blocks.share(self._kernels.block_bounds, count, self._components, found, alone=count < 64)
+        self._bounds = dict(zip(self._kernels.BOUNDS, found.T, strict=True))
         self._margin = 16.0 * float(np.finfo(self._flat.xx.dtype).eps * np.abs(found).max())  # rounding of the bounds
 
     def peak(self, name: str, function: Callable[[StressTensor], RealArray]) -> Peak:
         """Largest ``function`` of the stress, whose bounds are those of ``name``."""
         bounds = self._bounds[name]
-        value, place = self._largest(np.array([int(np.argmax(bounds))]), function)
-        if name in _BOUNDED:  # other blocks may hold larger ones
-            others = np.flatnonzero(bounds > value - self._margin)
-            value, place = self._largest(others, function) if others.size > 1 else (value, place)
+        first = int(np.argmax(bounds)) * self._size
+        value, place = self._largest(np.arange(first, min(first + self._size, self._flat.xx.size)), function)
+        if name in _BOUNDED:  # points of other blocks may be larger
+            least = value - self._margin
+            blocks = np.flatnonzero(bounds > least)
+            points = self._kernels.points_beyond(blocks, self._components, name == "shear", least)
+            value, place = self._largest(points, function) if points.size else (value, place)
         indices = np.unravel_index(place, self._field.tensor.xx.shape[1:])
         return peak_at(self._field, value, (0, *map(int, indices)))
 
-    def _largest(self, blocks: NDArray[np.intp], function: Callable[[StressTensor], RealArray]) -> tuple[float, int]:
-        """Largest value in ``blocks`` and its place on the plane."""
-        points = (blocks[:, None] * self._size + np.arange(self._size)).ravel()
-        points = points[points < self._flat.xx.size]
+    def _largest(self, points: NDArray[np.intp], function: Callable[[StressTensor], RealArray]) -> tuple[float, int]:
+        """Largest value at ``points`` of the plane, and its place."""
         values = function(self._flat.map(lambda component: component[points]))
         best = int(np.argmax(values))
         return float(values[best]), int(points[best])
