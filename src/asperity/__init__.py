@@ -19,6 +19,7 @@ from .contact.sliding import SlidingResult, solve_sliding
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .contact.wet import Friction, Steady, solve_wet
+from .contact.wet_advice import review_wet
 from .contact.wet_result import WetContactResult
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
@@ -193,6 +194,7 @@ __all__ = [
     "reliability_cutoff",
     "resampled",
     "review",
+    "review_wet",
     "rms_height",
     "rms_slope",
     "roughness",

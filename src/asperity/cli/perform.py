@@ -32,6 +32,7 @@ PATH_NAMES = ("path.nc", "path.csv")
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..contact.advice import advise, review
+    from ..contact.wet_advice import review_wet
     from ..io.atomic import require_new_files
     from ..io.build import build
     from ..io.documents import relocated
@@ -48,7 +49,8 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
         stress = None if asked is None else surveyed(asked, result, lines=lines, threads=case.threads)
         found = _plastic_load(case) if output.plastic_load else None
         moved = document if output.out is None else relocated(document, base_folder, output.out)
-        run = Run(result, (*before, *review(result)), moved, stress, path, wet, found)
+        findings = (*before, *review(result), *(() if wet is None else review_wet(wet)))
+        run = Run(result, findings, moved, stress, path, wet, found)
         if folder is not None:
             _write_folder(run, folder)
     _write_files(wet or result, document, base_folder, output)

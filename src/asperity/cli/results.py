@@ -8,6 +8,9 @@ from typing import Annotated
 import typer
 
 Result = Annotated[Path, typer.Argument(help="Result file of `asperity contact --out`.", metavar="RESULT.nc")]
+MENISCI = "menisci"
+"""Kind of figure that only wet contacts have."""
+
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 
 
@@ -18,7 +21,7 @@ def plot(
         typer.Option(
             "--kind",
             help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram; of an indented surface "
-            "also indentation and residual.",
+            "also indentation and residual, of a wet contact menisci.",
         ),
     ] = "all",
     out: Annotated[Path, typer.Option("--out", help="Folder of the pictures, made if missing.")] = Path(),
@@ -26,32 +29,37 @@ def plot(
 ) -> None:
     """Draw the figures of a result as PNG files."""
     from ..core import require
-    from ..io.atomic import atomic_file
-    from ..io.results import load
-    from ..plots.figures import PLASTIC_PLOTS, PLOTS, render, save_plots
+    from ..plots.figures import PLASTIC_PLOTS, PLOTS
     from .show import print_files
 
-    every = (*PLOTS, *PLASTIC_PLOTS)
-    require.one_of(kind, ("all", *(item.name for item in every)), "--kind")
+    require.one_of(kind, ("all", *(item.name for item in (*PLOTS, *PLASTIC_PLOTS)), MENISCI), "--kind")
+    print_files(_menisci(file, out, force=force) if kind == MENISCI else _figures(file, kind, out, force=force))
+
+
+def _figures(file: Path, kind: str, out: Path, *, force: bool) -> tuple[Path, ...]:
+    """Draw the figure of that ``kind`` of the result in ``file``, or all there are, into the folder ``out``."""
+    from ..io.atomic import atomic_file
+    from ..io.results import load
+    from ..io.wet_results import is_wet
+    from ..plots.figures import PLASTIC_PLOTS, PLOTS, render, save_plots
+
     result = load(file)
     if kind == "all":
-        print_files([*save_plots(result, out, overwrite=force), *_menisci(file, out, force=force)])
-        return
+        menisci = _menisci(file, out, force=force) if is_wet(file) else ()
+        return (*save_plots(result, out, overwrite=force), *menisci)
     _make(out)
     path = out / f"{kind}.png"
     with atomic_file(path, overwrite=force) as partial:
-        partial.write_bytes(render(next(item for item in every if item.name == kind), result))
-    print_files([path])
+        partial.write_bytes(render(next(item for item in (*PLOTS, *PLASTIC_PLOTS) if item.name == kind), result))
+    return (path,)
 
 
 def _menisci(file: Path, out: Path, *, force: bool) -> tuple[Path, ...]:
-    """Draw the menisci of the result in ``file`` into the folder ``out``, if it has any."""
-    from ..io.wet_results import is_wet, load_wet
+    """Draw the menisci of the wet contact in ``file`` into the folder ``out``."""
+    from ..io.wet_results import load_wet
     from ..plots.menisci import wet_figures
     from ..plots.picture import save_pictures
 
-    if not is_wet(file):
-        return ()
     pictures = {figure.name: lambda picture=figure.picture: picture for figure in wet_figures(load_wet(file))}
     return save_pictures(pictures, out, overwrite=force)
 

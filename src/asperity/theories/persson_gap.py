@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,9 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
 from .isotropic_spectrum import IsotropicSpectrum
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicHermiteSpline
 
 CALIBRATED = 0.45
 """γ for which the gap agrees with boundary-element solutions within 7 % for 0.01 <= p/(E* h'_rms) <= 0.2."""
@@ -67,18 +70,18 @@ class PerssonGap:
     def prefactor(self) -> float:
         """β of p = β E* exp(-ū/u0) at low load."""
         moment = float(self._weights @ np.log(self._sharpness)) / float(self._weights.sum())
-        more = 3.0 * (1.0 - self.gamma) / self.gamma * _squared_erf_integral(np.zeros(1))[0]
+        more = 3.0 * (1.0 - self.gamma) / self.gamma * float(_squared_erf_integral()(0.0))
         return math.exp(-0.5 * np.euler_gamma - moment + more)
 
     def mean_gap(self, pressure: ArrayLike) -> RealArray:
         """Mean gap ū in m at the mean ``pressure`` in Pa (> 0, any shape)."""
         from scipy.special import exp1
 
-        loads = self._relative(pressure)
+        loads, squares = self._relative(pressure), _squared_erf_integral()
         gap = np.empty(loads.size)
         for number, load in enumerate(loads.ravel()):
             x = np.minimum(self._sharpness * load, 26.0)  # exp(-26²) is zero
-            inner = 0.5 * self.gamma * exp1(x**2) + 3.0 * (1.0 - self.gamma) * _squared_erf_integral(x)
+            inner = 0.5 * self.gamma * exp1(x**2) + 3.0 * (1.0 - self.gamma) * squares(np.minimum(x, _GONE))
             gap[number] = self._weights @ inner
         return gap.reshape(loads.shape)
 
@@ -153,8 +156,8 @@ def _gauss_panels(table: RealArray) -> tuple[RealArray, RealArray]:
     return (middle[:, None] + half[:, None] * x).ravel(), (half[:, None] * weight).ravel()
 
 
-def _squared_erf_integral(x: RealArray) -> RealArray:
-    """∫_x^∞ erf²(t) exp(-t²)/t dt, x >= 0, within 1e-13: a Hermite spline through Gauss sums; 0.407125 at zero."""
+def _squared_erf_integral() -> CubicHermiteSpline:
+    """∫_x^∞ erf²(t) exp(-t²)/t dt for 0 <= x <= 6 within 1e-13: a Hermite spline through Gauss sums; 0.407125 at zero."""
     from scipy.interpolate import CubicHermiteSpline
     from scipy.special import erf
 
@@ -166,5 +169,4 @@ def _squared_erf_integral(x: RealArray) -> RealArray:
     beyond = np.concatenate([np.cumsum(parts[::-1])[::-1], [0.0]])
     slope = np.zeros_like(edges)
     slope[1:] = -(erf(edges[1:]) ** 2) * np.exp(-(edges[1:] ** 2)) / edges[1:]
-    values: RealArray = CubicHermiteSpline(edges, beyond, slope)(np.minimum(x, _GONE))
-    return values
+    return CubicHermiteSpline(edges, beyond, slope)
