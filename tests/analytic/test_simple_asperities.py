@@ -91,7 +91,7 @@ def test_loads_of_a_cap_find_their_contact():
     slope = np.gradient(answer.load, answer.approach)[50:-1]
     assert answer.stiffness[50:-1] == pytest.approx(slope, rel=1e-3)  # differences of a fiftieth, second order
     assert cap.validity(answer)[0].value.max() == pytest.approx(0.01 * np.pi, rel=1e-3)
-    with pytest.raises(InputError, match="widest contact"):
+    with pytest.raises(InputError, match="valley around the cap"):
         cap.at_load(1.1 * widest)
 
 

@@ -311,10 +311,20 @@ def test_validity_is_about_slopes():
     assert not wave.validity(wave.at_pressure([0.01, 0.1]))[0].holds.any()
 
 
-def test_unusable_values_are_refused():
-    with pytest.raises(InputError, match=r"load \(N\) must be finite and at least 0, but is -1"):
-        HertzPoint(1.0, 1.0).at_load([1.0, -1.0])
-    with pytest.raises(InputError, match="contact modulus"):
-        HertzPoint(0.0, 1.0)
-    with pytest.raises(InputError, match="Concave tips"):
-        PowerLawIndenter(1.0, 1.0, 0.5)
+@pytest.mark.parametrize(
+    ("attempt", "words"),
+    [
+        (lambda: HertzPoint(1.0, 1.0).at_load([1.0, -1.0]), r"load \(N\) must be finite and at least 0, but is -1"),
+        (lambda: HertzPoint(0.0, 1.0), "contact modulus"),
+        (lambda: PowerLawIndenter(1.0, 1.0, 0.5), "at least 1, but is 0.5. Concave tips"),
+        (lambda: LinePowerLawIndenter(1.0, 1.0, 0.5), "Concave tips"),
+        (lambda: SphericalIndenter(1.0, 1.0).at_radius(1.0), "less than that of the sphere"),
+        (lambda: FlatPunch(1.0, 1.0).at_approach(-1.0), "approach"),
+        (lambda: HertzEllipse(1.0, 1.0, 0.0), "radius of curvature along y"),
+        (lambda: CrossedWaves(1.0, 1.0, 1.0).full_contact(0.0, 0.0, 1.0), "Partial contact has no closed form"),
+        (lambda: tangential_modulus(0.0, 0.3, 1.0, 0.3), "shear modulus"),
+    ],
+)
+def test_unusable_values_are_refused(attempt, words):
+    with pytest.raises(InputError, match=words):
+        attempt()

@@ -96,7 +96,7 @@ class JKR:
         InputError
             If a load is below the pull-off force.
         """
-        P = checked(load, "load (N)", lowest=-self.pull_off)
+        P = checked(load, "load (N)", -self.pull_off, "A stronger pull parts the bodies.")
         adhesive = 2.0 * self.pull_off  # 3πwR
         # the root vanishes at pull-off, where rounding may make it negative
         root = np.sqrt(np.maximum(adhesive * (adhesive + 2.0 * P), 0.0))
@@ -104,7 +104,10 @@ class JKR:
 
     def at_approach(self, approach: ArrayLike) -> ContactAnswer:
         """The stable contact with fixed grips at the ``approach`` δ in m, >= -δc, of any shape."""
-        delta = checked(approach, "approach (m)", lowest=-self.critical_extension) / self.critical_extension
+        delta = (
+            checked(approach, "approach (m)", -self.critical_extension, "Further apart there is no contact.")
+            / self.critical_extension
+        )
         return self.at_radius(self.critical_radius * contact_ratio(delta))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
@@ -226,7 +229,7 @@ class DMT:
         InputError
             If a load is below the pull-off force.
         """
-        P = checked(load, "load (N)", lowest=-self.pull_off)
+        P = checked(load, "load (N)", -self.pull_off, "A stronger pull parts the bodies.")
         return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:

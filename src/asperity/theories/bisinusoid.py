@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
+from ..core.errors import InputError
 from .hertz import HertzPoint
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .single_contact import checked, small_slope
@@ -83,7 +84,11 @@ class CrossedWaves:
         """Pressure in Pa at ``x``, ``y`` in m (broadcast) from a crest in full contact, p̄ >= p*."""
         p = require.positive(mean_pressure, "mean pressure (Pa)")
         full = self.full_contact_pressure
-        require.positive(p - full * (1.0 - 1e-12), "mean pressure beyond that of full contact (Pa)")
+        if p < full * (1.0 - 1e-12):
+            raise InputError(
+                f"mean pressure must be at least that of full contact, {full:.6g} Pa, but is {p:.6g} Pa. "
+                "Partial contact has no closed form: solve the contact."
+            )
         q = 2.0 * np.pi / self.wavelength
         return np.asarray(p + 0.5 * full * (np.cos(q * np.asarray(x)) + np.cos(q * np.asarray(y))))
 

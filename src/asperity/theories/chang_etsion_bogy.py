@@ -13,6 +13,7 @@ from ..core.arrays import RealArray
 from . import elastic_plastic_asperity as law
 from .elastic_plastic_summits import ElasticPlasticSummits
 from .greenwood_williamson import GreenwoodWilliamson
+from .hertz import HertzPoint
 from .plasticity_index import critical_interference, hardness_coefficient
 from .protocol import E_STAR, Input, Limit, Prediction
 from .roughness import Roughness
@@ -53,7 +54,9 @@ class ChangEtsionBogySphere:
     )
 
     def __post_init__(self) -> None:
-        require.positive(self.critical_interference, "critical interference (m)")
+        HertzPoint(self.E_star, self.radius)
+        require.positive(self.hardness, "hardness (Pa)")
+        hardness_coefficient(self.nu)
 
     @property
     def critical_interference(self) -> float:

@@ -15,11 +15,27 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
+from ..core.errors import InputError
 from ..core.quadrature import gauss
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, bisected, checked, small_slope
 
 _NODES = 48  # 16 leave 1e-9 at exponent 8, 48 rounding
+
+
+def convex(exponent: float) -> float:
+    """``exponent`` if it is that of a convex tip, >= 1.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    if not require.finite(exponent, "exponent of the profile") >= 1.0:
+        raise InputError(
+            f"exponent of the profile must be at least 1, but is {exponent:g}. Concave tips have no closed form."
+        )
+    return exponent
 
 
 def power_integral(rho: ArrayLike, exponent: float) -> RealArray:
@@ -66,10 +82,7 @@ class PowerLawIndenter:
     def __post_init__(self) -> None:
         require.positive(self.E_star, "contact modulus E_star (Pa)")
         require.positive(self.coefficient, "coefficient of the profile")
-        if require.finite(self.exponent, "exponent of the profile") < 1.0:
-            require.between(
-                self.exponent, 1.0, math.inf, "exponent of the profile", "Concave tips have no closed form."
-            )
+        convex(self.exponent)
 
     @property
     def approach_factor(self) -> float:
@@ -229,6 +242,10 @@ class SphericalIndenter:
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, 0 <= a < R, of any shape."""
         a = checked(contact_radius, "contact radius (m)")
+        if np.any(a >= self.radius):
+            raise InputError(
+                f"contact radius must be less than that of the sphere, {self.radius:g} m, but is {float(a.max()):g} m."
+            )
         s = a / self.radius
         with np.errstate(invalid="ignore", divide="ignore"):
             # p at the axis: (E*/π) ∫ g'(x)/x dx, g = x artanh(x/R)

@@ -14,6 +14,7 @@ from ..core.arrays import RealArray
 from . import elastic_plastic_asperity as law
 from .elastic_plastic_summits import ElasticPlasticSummits
 from .greenwood_williamson import GreenwoodWilliamson
+from .hertz import HertzPoint
 from .plasticity_index import critical_interference, yield_coefficient
 from .protocol import E_STAR, Input, Limit, Prediction
 from .roughness import Roughness
@@ -52,7 +53,9 @@ class JacksonGreenSphere:
     )
 
     def __post_init__(self) -> None:
-        require.positive(self.critical_interference, "critical interference (m)")
+        HertzPoint(self.E_star, self.radius)
+        require.positive(self.yield_stress, "yield stress (Pa)")
+        yield_coefficient(self.nu)
 
     @property
     def critical_interference(self) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
-from .indenters import power_integral
+from .indenters import convex, power_integral
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, checked, small_slope
 
@@ -48,10 +48,7 @@ class LinePowerLawIndenter:
     def __post_init__(self) -> None:
         require.positive(self.E_star, "contact modulus E_star (Pa)")
         require.positive(self.coefficient, "coefficient of the profile")
-        if require.finite(self.exponent, "exponent of the profile") < 1.0:
-            require.between(
-                self.exponent, 1.0, math.inf, "exponent of the profile", "Concave tips have no closed form."
-            )
+        convex(self.exponent)
 
     @property
     def load_factor(self) -> float:

@@ -135,7 +135,7 @@ class MaugisDugdale:
         """
         least = maugis_pull_off(self.transition)
         unit = np.pi * self.work * self.radius
-        P = checked(load, "load (N)", lowest=float(least.load) * unit) / unit
+        P = checked(load, "load (N)", float(least.load) * unit, "A stronger pull parts the bodies.") / unit
         ends = np.full_like(P, _NARROWEST), np.full_like(P, np.log(least.ring))
         s = np.exp(bisected(lambda y: P - maugis_at_ring(self.transition, np.exp(y)).load, *ends))
         return self._answer(maugis_at_ring(self.transition, s))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from ..core import require
+from .single_contact import poissons_ratio
 
 HARDNESS_OVER_YIELD = 2.8
 """H/Y of full plasticity (Tabor 1951)."""
@@ -18,12 +19,12 @@ def hardness_coefficient(nu: float) -> float:
 
     With H = 2.8Y within 2.2 % of the exact value (``sphere_yield_onset``), 0.2 % at ν = 0.3.
     """
-    return 0.454 + 0.41 * _poisson(nu)
+    return 0.454 + 0.41 * poissons_ratio(nu)
 
 
 def yield_coefficient(nu: float) -> float:
     """C = 1.295 exp(0.736ν) of p0 = C Y at first yield (Jackson & Green 2005): within 0.4 % of the exact value."""
-    return 1.295 * math.exp(0.736 * _poisson(nu))
+    return 1.295 * math.exp(0.736 * poissons_ratio(nu))
 
 
 def nominal_interference(E_star: float, radius: float, hardness: float) -> float:
@@ -60,10 +61,6 @@ def profile_plasticity_index(E_star: float, hardness: float, deviation: float, c
     """
     slope = _positive(deviation, "deviation of heights (m)") / _positive(correlation_length, "correlation length (m)")
     return _modulus(E_star) / _positive(hardness, "hardness (Pa)") * slope
-
-
-def _poisson(nu: float) -> float:
-    return 0.0 if require.not_negative(nu, "Poisson's ratio") == 0.0 else require.at_most(nu, 0.5, "Poisson's ratio")
 
 
 def _positive(value: float, what: str) -> float:

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from .protocol import Described, Limit
@@ -69,7 +70,7 @@ def small_slope(criterion: str, slope: RealArray) -> Limit:
     return Limit(criterion, np.atleast_1d(slope).ravel(), 0.0, SMALL_SLOPE, "Sneddon1965", message)
 
 
-def checked(values: ArrayLike, what: str, lowest: float = 0.0) -> RealArray:
+def checked(values: ArrayLike, what: str, lowest: float = 0.0, fix: str = "") -> RealArray:
     """``values`` as an array of finite numbers of at least ``lowest``.
 
     Raises
@@ -80,8 +81,24 @@ def checked(values: ArrayLike, what: str, lowest: float = 0.0) -> RealArray:
     array: RealArray = np.asarray(values, dtype=float)
     if not np.all(np.isfinite(array) & (array >= lowest)):
         wrong = float(array[~(np.isfinite(array) & (array >= lowest))].flat[0])
-        raise InputError(f"{what} must be finite and at least {lowest:.6g}, but is {wrong:.6g}.")
+        raise InputError(
+            f"{what} must be finite and at least {lowest:.6g}, but is {wrong:.6g}." + (f" {fix}" if fix else "")
+        )
     return array
+
+
+def poissons_ratio(nu: float) -> float:
+    """``nu`` if it is from 0 to 0.5, both included.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    value = require.finite(nu, "Poisson's ratio")
+    if not 0.0 <= value <= 0.5:
+        raise InputError(f"Poisson's ratio must be from 0 to 0.5, but is {value:g}.")
+    return value
 
 
 def bisected(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
+from ..core.errors import InputError
 from ..core.quadrature import gauss
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, bisected, checked, small_slope
@@ -69,7 +70,11 @@ class SinusoidalAsperity:
         """
         P = checked(load, "load (N)")
         widest = self.at_radius(0.35 * self.wavelength)
-        checked(float(widest.load) - P, "load left to that of the widest contact of a cap (N)")
+        if np.any(widest.load < P):
+            raise InputError(
+                f"load of a cap must be at most that of a contact radius of 0.35 wavelengths, {float(widest.load):.6g} N, "
+                f"but is {float(P.max()):.6g} N. Beyond, the valley around the cap takes part: solve the contact."
+            )
         a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest.radius))
         return self.at_radius(a)
 

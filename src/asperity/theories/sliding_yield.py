@@ -19,6 +19,7 @@ from ..core.deviator import second_invariant
 from ..core.tensor import StressTensor
 from .hertz_fields import hertz_normal, hertz_shear
 from .hertz_line_fields import hertz_line_normal, hertz_line_shear
+from .single_contact import poissons_ratio
 
 _ROUNDS = 14  # of refinement by 5 each: past the square root of the rounding, which the place of a maximum is known to
 
@@ -87,8 +88,7 @@ def cylinder_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
 
 
 def _onset(stress: Callable[[RealArray, RealArray], StressTensor], nu: float, friction: float) -> YieldOnset:
-    if require.not_negative(nu, "Poisson's ratio") > 0.5:
-        require.at_most(nu, 0.5, "Poisson's ratio")
+    poissons_ratio(nu)
     require.not_negative(friction, "friction coefficient")
 
     def root_J2(x: RealArray, z: RealArray) -> RealArray:
