@@ -43,7 +43,9 @@ def run(
     from .show import say
 
     campaign = prepare_study(study, out)
-    say(f"{campaign.title}: {campaign.plan.n_cases} cases at most, results in {campaign.folder}")
+    monte_carlo = campaign.study.document.monte_carlo
+    most = "at most " if monte_carlo is not None and monte_carlo.stop is not None else ""
+    say(f"{campaign.title}: {most}{campaign.plan.n_cases} cases, results in {campaign.folder}")
     try:
         with watched(campaign.title) as watch:
             done = campaign.run(workers=workers, dask=dask, retry=retry, watch=watch)

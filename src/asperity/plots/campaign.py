@@ -120,7 +120,6 @@ def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axe
 def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Transition], ax: Axes) -> Axes:
     """Draw a quantity against the ``thickness`` of a layer on ``ax``: limits as lines, floor and ceiling as triangles."""
     along, up = scale(thickness.values, thickness.unit), scale(y.values, y.unit)
-    marks = set()
     for number, item in enumerate(transitions):
         colour = COLOURS[number % len(COLOURS)]
         ax.plot(
@@ -128,14 +127,16 @@ def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Tra
         )
         for limit in (item.at_zero, item.at_infinity):
             ax.axhline(float(up(limit)), color=colour, linestyle=":", linewidth=0.8)
-        for name, place, marker in (("floor", item.floor, "^"), ("ceiling", item.ceiling, "v")):
-            if math.isfinite(place):
-                height = np.interp(math.log(place), np.log(thickness.values), item.values)
-                label = name if name not in marks else None
-                marks.add(name)
-                ax.plot(along(place), up(height), color=BLACK, marker=marker, markersize=7.0, linestyle="", label=label)
+    marked = False
+    for name, marker in (("floor", "^"), ("ceiling", "v")):
+        places = [(float(getattr(item, name)), item.values) for item in transitions]
+        there = [(x, np.interp(math.log(x), np.log(thickness.values), values)) for x, values in places if x > 0.0]
+        if there:
+            x, heights = np.array(there).T
+            ax.plot(along(x), up(heights), color=BLACK, marker=marker, markersize=7.0, linestyle="", label=name)
+            marked = True
     ax.set_xscale("log")
-    return _labelled(ax, (thickness.label, along), (y.label, up), legend=bool(marks) or len(transitions) > 1)
+    return _labelled(ax, (thickness.label, along), (y.label, up), legend=marked or len(transitions) > 1)
 
 
 def plot_sensitivities(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ..core.units import show
+from ..core.units import percent, show
 from ..plots.campaign import (
     Curve,
     Labelled,
@@ -22,7 +22,7 @@ from ..plots.campaign import (
 )
 from ..plots.picture import CURVE_SIZE, png
 from ..studies.campaign import Campaign
-from ..studies.monte_carlo import estimate
+from ..studies.monte_carlo import CONFIDENCE, estimate
 
 if TYPE_CHECKING:
     import xarray
@@ -96,16 +96,18 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
         picture = _picture(lambda ax: plot_curves(labelled(data[along]), y, curves, ax))
         caption = f"Mean of {y.label} over the samples; the band is one standard deviation on either side{where}."
         yield StudyFigure(f"{name}_mean", f"{_title(y.label)}, mean and scatter", caption, picture)
-    whole = estimate(np.asarray(first))
+    table = campaign.study.document.monte_carlo
+    confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
+    whole = estimate(np.asarray(first), confidence)
     samples = Labelled(np.asarray(first, dtype=float), y.unit, y.label)
     picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
     yield StudyFigure(
         f"{name}_samples", f"{_title(y.label)}, distribution", f"Distribution over the samples{more}.", picture
     )
-    running = [estimate(samples.values[: n + 1]) for n in range(samples.values.size)]
+    running = [estimate(samples.values[: n + 1], confidence) for n in range(samples.values.size)]
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
     picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
-    caption = f"Mean of the first samples and its 95 % confidence{more}."
+    caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
     yield StudyFigure(f"{name}_running", f"{_title(y.label)}, running mean", caption, picture)
 
 

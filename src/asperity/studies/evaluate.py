@@ -23,6 +23,7 @@ from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from ..io.build import Case, build, build_load
 from ..io.documents import checked
+from ..io.provenance import software
 from ..stress.survey import survey
 from .edits import edited, from_plain
 from .quantities import STIFFNESS, Solved, measure
@@ -43,8 +44,18 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     ----------
     task
         ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``, and ``cases`` with
-        ``key`` and ``edits``: plain values, so that it can be sent to another machine.
+        ``key`` and ``edits``, and the ``version`` of asperity: plain values, so that it can be sent to another machine.
+
+    Raises
+    ------
+    InputError
+        If this is another version of asperity than the one that gives the task.
     """
+    own = software()["asperity"]
+    if task["version"] != own:
+        raise InputError(
+            f"workers of a study must have the version {task['version']} of asperity, but one has {own}; install the same."
+        )
     path = _LoadPath(task)
     return [path.record(case) for case in task["cases"]]
 

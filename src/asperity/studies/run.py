@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..io.provenance import software
 from .edits import plain
 from .executors import Executor, Lost, Task
 from .monte_carlo import Stop
@@ -144,6 +145,7 @@ class _Work:
             "table": self._plan.table,
             "folder": str(self._plan.base.folder.absolute()),
             "quantities": list(self._plan.quantities),
+            "version": software()["asperity"],
             "cases": [
                 {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
                 for case in cases

@@ -249,3 +249,11 @@ def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):
     )
     np.testing.assert_allclose(data["mean_pressure"], 1e6, rtol=1e-6)
     assert 0.0 < float(data["max_permanent_indentation"][0]) < float(data["max_permanent_indentation"][1])
+
+
+def test_a_worker_of_another_version_is_refused(tmp_path, monkeypatch):
+    """Its numbers would be stored under the digest of this version."""
+    monkeypatch.setattr("asperity.studies.evaluate.software", lambda: {"asperity": "0.0.9"})
+    with pytest.raises(asp.InputError, match=r"must have the version .* of asperity, but one has 0\.0\.9"):
+        carry_out(plan(axes=[LOADS]), tmp_path / "r.log", InProcess())
+    assert list(records(tmp_path / "r.log")) == []

@@ -185,3 +185,16 @@ def test_cases_are_made_on_the_way():
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] - peaks[0] < 50 * 5400
+
+
+def test_files_are_an_axis_known_by_content(tmp_path):
+    for name, text in (("a.txt", "1 2\n3 4\n"), ("b.txt", "1 2\n3 5\n")):
+        (tmp_path / name).write_text(text)
+    surface = {"kind": "file", "path": "a.txt", "size": "1 um", "height_unit": "nm"}
+    axis = {"path": "surface.path", "values": ["a.txt", "b.txt"]}
+    made = plan(tmp_path, problem={**PROBLEM, "surface": surface}, axes=[axis])
+    assert [point.coordinate for point in made.axes[0].points] == ["a.txt", "b.txt"]
+    keys = [case.key for path in made.paths() for case in path]
+    (tmp_path / "a.txt").write_text("1 2\n3 5\n")
+    again = plan(tmp_path, problem={**PROBLEM, "surface": surface}, axes=[axis])
+    assert [case.key for path in again.paths() for case in path] == [keys[1]] * 2
