@@ -128,3 +128,5 @@ def test_plastic_contacts_keep_what_earlier_loads_indented(problem):
     np.testing.assert_allclose(
         wet.contact.permanent_indentation, direct.permanent_indentation, atol=1e-3 * direct.max_permanent_indentation
     )
+    on = asp.solve_wet(plastic, asp.MeanPressure(2.0 * LOAD.value), film, state=wet.contact.state).contact
+    assert on.total_plastic_work == pytest.approx(wet.contact.plastic_work + on.plastic_work, rel=1e-12)

@@ -163,8 +163,8 @@ class _Round:
             control = Approach(control.value + shift)
         start = self.state
         if guess is not None:
-            permanent = np.zeros(guess.shape) if start is None else start.permanent_indentation
-            start = InterfaceState(permanent, guess)
+            virgin = InterfaceState(np.zeros(guess.shape), guess)
+            start = virgin if start is None else replace(start, pressure=guess)
         options = {"solver": self.solver, "operator": self.operator, "progress": self.told}
         found = solve(posed, control, state=start, keep=Keep(stiffness=False), **options)  # type: ignore[arg-type]
         displacement = found.displacement + lift

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -157,8 +157,8 @@ class _Rounds:
         """Contact under ``control``, started from the pressure of the round ``before``."""
         start = self.state
         if before is not None:
-            permanent = np.zeros(before.pressure.shape) if start is None else start.permanent_indentation
-            start = InterfaceState(permanent, before.pressure)
+            virgin = InterfaceState(np.zeros(before.pressure.shape), before.pressure)
+            start = virgin if start is None else replace(start, pressure=before.pressure)
         options = {"solver": self.solver, "state": start, "progress": self.progress, "operator": self.operator}
         return solve(self.problem, control, on_failure="return", **options)  # type: ignore[arg-type]
 

@@ -170,6 +170,9 @@ def test_permanent_indentation_is_kept_once_not_once_per_round():
     assert slid.contact.plastic_area_fraction > 0.01
     surface = slid.contact.offset + slid.contact.displacement - problem.profile() + slid.contact.permanent_indentation
     np.testing.assert_allclose(np.maximum(surface, 0.0), slid.contact.gap, atol=1e-6 * np.ptp(problem.profile()))
+    on = solve_sliding(problem, asp.MeanPressure(2e8), 0.4, state=slid.contact.state).contact
+    assert on.total_plastic_work == pytest.approx(slid.contact.plastic_work + on.plastic_work, rel=1e-12)
+    assert on.total_plastic_work == pytest.approx(0.6e9 * on.plastic_volume, rel=1e-9)
 
 
 def test_refusals():
