@@ -16,7 +16,7 @@ from .coefficients import PlaneCoefficients
 from .line_coefficients import LineCoefficients
 from .mean_mode import require_displacement
 from .patch import Load
-from .regions import Plane, stack
+from .regions import Plane, slips, stack
 from .tractions import ShearTraction, Tractions
 
 
@@ -48,6 +48,8 @@ class FreePlanes:
             found.zz[...] = -self.tractions.pressure
             found.xz[...] = -self.tractions.shear_x
             found.yz[...] = -self.tractions.shear_y
+        elif slips(self._body, plane):  # likewise
+            found.xz[...] = found.yz[...] = 0.0
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 from ..core import require
 from ..core.errors import InputError
 from ..solids.elastic import Elastic, Rigid
+from ..solids.interface import Frictionless
 from ..solids.layers import Layered
 
 Side: TypeAlias = Literal["surface", "inside", "above", "below"]
@@ -83,6 +84,12 @@ def regions(body: object) -> tuple[Region, ...]:
     if not found:
         raise InputError("body in which stresses are asked must deform, but is a bare rigid base.")
     return tuple(found)
+
+
+def slips(layers: Layered, plane: Plane) -> bool:
+    """Whether ``plane`` is a side of an interface of ``layers`` (see ``stack``) that carries no shear traction."""
+    upper = {"above": plane.region.index, "below": plane.region.index - 1}.get(plane.side)
+    return upper is not None and isinstance(layers.layers[upper].interface, Frictionless)
 
 
 def planes(body: object, depths: Iterable[float]) -> tuple[Plane, ...]:

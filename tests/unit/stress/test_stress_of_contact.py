@@ -286,7 +286,7 @@ def test_shear_without_mean_above_an_interface_that_slips():
     for name in STRESSES:
         free, periodic = (getattr(field.tensor, name) for field in fields)
         np.testing.assert_allclose(free, periodic, atol=bound, err_msg=name)  # of the largest traction, 1
-    assert np.abs(fields[0].within(1).shear_xz).max() < 1e-12
+    assert not fields[0].within(1).shear_xz.any()
     assert StressPlanes(Tractions(grid, np.zeros_like(qx), shear), body, [3.0]).whole(displacement=True).displacement
 
 
