@@ -175,7 +175,7 @@ def test_gaussian_surface_within_a_memory(run: Runner, tmp_path: Path) -> None:
         ("digital_filter", (*SEED, *EXPONENTIAL, "--kurtosis", "1"), "kurtosis of the heights"),
         ("digital_filter", (*SEED, *EXPONENTIAL, "--periodic", "--memory", "1GB"), "--memory must be left out"),
         ("rough", (*SEED, *EXPONENTIAL, "--no-periodic", "--memory", "1GB"), "--memory must be left out"),
-        ("rough", (*SEED, *EXPONENTIAL, "--memory", "1GB"), "Use endless() for autocorrelations"),
+        ("rough", (*SEED, *EXPONENTIAL, "--memory", "1GB"), "digital_filter, for autocorrelations"),
         ("dimples", ("--pitch", "4um", "--radius", "1um", "--depth", "1nm"), "--pitch"),
         ("laser_bumps", (), "Missing option"),
     ],

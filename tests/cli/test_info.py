@@ -48,6 +48,15 @@ def test_info_keeps_a_periodic_surface_periodic(run: Runner, tmp_path: Path) -> 
     assert tilted["Sq"] < found["Sq"]
 
 
+def test_info_levels_by_a_polynomial(run: Runner, matrix: Path) -> None:
+    assert "Roughness after degree-4 levelling" in run("info", matrix, *SCALE, "--level", "4").stdout
+    again, named = (run("info", matrix, *SCALE, "--level", form, "--json").stdout for form in ("2", "quadratic"))
+    assert json.loads(again)["Sq"] == json.loads(named)["Sq"]
+    refused = run("info", matrix, *SCALE, "--level", "sphere")
+    assert refused.exit_code == 2
+    assert "must be one of mean, plane, quadratic" in refused.stderr
+
+
 def test_info_plot(run: Runner, matrix: Path, tmp_path: Path) -> None:
     command = ("info", matrix, *SCALE, "--plot", tmp_path / "map.png")
     assert run(*command).exit_code == 0

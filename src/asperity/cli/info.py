@@ -26,7 +26,7 @@ class AnswerOptions:
         str,
         typer.Option(
             "--level",
-            help="Removed before: mean, plane or quadratic; by default the mean of a periodic surface, the plane of any other.",
+            help="Removed before: mean, plane, quadratic or a polynomial of the degree given; by default the mean of a periodic surface, the plane of any other.",
         ),
     ] = "auto"
     tip_radius: Annotated[
@@ -60,7 +60,7 @@ def info(
     radius = None if answer.tip_radius is None else parse(answer.tip_radius, "length", "--tip-radius")
     surface = _read(file, reading)
     level = answer.level if answer.level != "auto" else "mean" if surface.periodic else "plane"
-    found, flat = channels(file), levelled(surface, level)
+    found, flat = channels(file), levelled(surface, int(level) if level.isdigit() else level)
     whole = characterise(flat, tip_radius=radius) if answer.full or answer.report or answer.plots else None
     shown = whole if answer.full else None
     if answer.as_json:
@@ -121,7 +121,7 @@ def _write(answer: AnswerOptions, level: str, flat: Surface, found: Characterisa
         write_roughness_report(found, answer.report, overwrite=answer.force)
         written.append(answer.report)
     if written and not answer.as_json:
-        say(f"Pictures and pages show the heights after {level} levelling.", "dim")
+        say(f"Pictures and pages show the heights after {_levelling(level)}.", "dim")
         print_files(written)
 
 
@@ -193,12 +193,16 @@ def _print_roughness(flat: Surface, whole: Characterisation | None, level: str) 
     out = console()
     if whole is None:
         values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
-        out.print(table(f"Roughness after {level} levelling", values))
+        out.print(table(f"Roughness after {_levelling(level)}", values))
         return
     from ..report.quantities import quantity_rows
 
-    say(f"Roughness after {level} levelling", "bold")
+    say(f"Roughness after {_levelling(level)}", "bold")
     for heading, rows in quantity_rows(whole):
         out.print(table(heading, [(name, text) for name, text, _ in rows]))
     for remark in whole.remarks:
         say(remark, "yellow")
+
+
+def _levelling(level: str) -> str:
+    return f"degree-{level} levelling" if level.isdigit() else f"{level} levelling"

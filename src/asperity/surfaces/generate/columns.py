@@ -32,7 +32,7 @@ def spectrum_columns(spectrum: Spectrum, grid: Grid, width: int) -> Columns:
     if not isinstance(spectrum, SelfAffine | TwoSlopes):
         raise InputError(
             "spectrum of a surface beyond the memory must be SelfAffine, TwoSlopes or a table of the wavenumber, but is "
-            f"{type(spectrum).__name__}. Use endless() for autocorrelations."
+            f"{type(spectrum).__name__}. Use endless(), or on the command line digital_filter, for autocorrelations."
         )
     law = spectrum.law
     level = lattice_level(
