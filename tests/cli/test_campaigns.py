@@ -154,6 +154,14 @@ def test_a_bad_path_is_refused_before_anything_is_written(tmp_path, run: Runner)
     assert sorted(item.name for item in tmp_path.iterdir()) == ["s.toml"]
 
 
+def test_a_folder_with_other_things_is_left_alone(tmp_path, run: Runner):
+    path = written(tmp_path, axes=[LOADS])
+    said = run("run", path, "--out", tmp_path)
+    assert said.exit_code == 2
+    assert "must be new, empty, or hold its results" in said.stderr
+    assert [item.name for item in tmp_path.iterdir()] == ["s.toml"]
+
+
 def test_a_problem_may_be_a_file_and_the_folder_may_move(tmp_path):
     (tmp_path / "base").mkdir()
     (tmp_path / "base" / "a.txt").write_text("1 2 3\n2 1 2\n3 2 9\n")

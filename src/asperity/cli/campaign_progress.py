@@ -17,7 +17,7 @@ BETWEEN_LINES = 10.0
 
 @contextmanager
 def watched(title: str) -> Iterator[Watch]:
-    """Watch that shows the progress of the study ``title`` on stderr."""
+    """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its ``title``."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield Lines(lambda text: _write(f"{title}: {text}\n"))
         return
@@ -25,7 +25,7 @@ def watched(title: str) -> Iterator[Watch]:
 
     from .show import error_console
 
-    with Progress(TextColumn(title), BarColumn(), TextColumn("{task.description}"), console=error_console()) as bar:
+    with Progress(BarColumn(24), TextColumn("{task.description}"), console=error_console()) as bar:
         task = bar.add_task("starting workers", total=None)
 
         def shown(text: str, share: float) -> None:

@@ -164,6 +164,11 @@ def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | No
         loaded, target = load_study(study), default_folder(Path(study)) if folder is None else Path(folder)
     campaign = Campaign(target, loaded)
     _ = campaign.plan  # all mistakes are found before anything is written
+    if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
+        raise OutputError(
+            f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "
+            "choose another (--out)."
+        )
     try:
         target.mkdir(parents=True, exist_ok=True)
     except OSError as error:
