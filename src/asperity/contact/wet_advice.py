@@ -44,10 +44,15 @@ def _few_pixels(result: WetContactResult) -> Iterator[Advice]:
 def _molecules(result: WetContactResult) -> Iterator[Advice]:
     film = result.film
     radius = film.meniscus_height / wetting_factor(*film.contact_angles)
-    if radius < CONTINUUM or film.thickness < MOLECULE:
-        yield Advice(
-            "note",
-            "molecules",
-            f"The menisci have a radius of {radius:.2g} m and the film is {film.thickness:.2g} m thick; a molecule of water is "
-            f"{MOLECULE:.2g} m across. Laplace's equation is a formality below a radius of about {CONTINUUM:g} m.",
+    said = []
+    if radius < CONTINUUM:
+        said.append(
+            f"The menisci have a radius of {1e9 * radius:.2g} nm: below about 1 nm Laplace's equation is a formality."
         )
+    if film.thickness < MOLECULE:
+        said.append(
+            f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water ({1e9 * MOLECULE:.2g} nm): it "
+            "covers the surface in part only."
+        )
+    if said:
+        yield Advice("note", "molecules", " ".join(said))
