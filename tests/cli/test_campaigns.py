@@ -72,6 +72,7 @@ def test_a_kill_at_any_moment_loses_nothing_that_was_finished(tmp_path, run: Run
     assert len(keys) == len(set(keys)) == 60
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_a_resumable_state(tmp_path):
     seeds = {"path": "surface.seed", "first": 1, "last": 2000, "count": 2000}
     path = written(tmp_path, axes=[seeds])
