@@ -12,6 +12,7 @@ from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
 from .blocks import Blocks
 from .cpu_cells import CpuCells
 from .cpu_face import ROW_PAD, CpuFace, bound, memory
+from .neighbourhood import SIDE, local_means
 from .protocol import Cells, Convolution, Face, Hierarchy, Totals, Violation
 
 
@@ -69,18 +70,22 @@ class CpuEngine:
 
     def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> CpuSurvey:
         """Survey of an iterate."""
+        nx, ny = p.shape
         flat = p.ravel(), u.ravel(), _read_only(h)
+        squares = np.zeros((-(-nx // SIDE), -(-ny // SIDE), 2))
+        s = np.zeros((len(squares), 3 if cap is None else 7))
+        kernels, alone = self.blocks.kernels, _small(p.size)
         if cap is None:
-            s = self.blocks.sums(self.blocks.kernels.survey, p.size, 3, *flat)
+            self.blocks.share(kernels.survey, len(s), *flat, ny, s, squares, alone=alone)
             pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
             lowest = float(s[:, 2].min())
             totals = Totals(pressure, work, pressure, work, lowest, -np.inf, lowest)
         else:
-            s = self.blocks.sums(self.blocks.kernels.survey_capped, p.size, 7, *flat, bound(cap))
+            self.blocks.share(kernels.survey_capped, len(s), *flat, bound(cap), ny, s, squares, alone=alone)
             pressure, work, weight, weighted = (float(v) for v in s[:, :4].sum(axis=0))
             bounds = float(s[:, 4].min()), float(s[:, 5].max()), float(s[:, 6].min())
             totals = Totals(pressure, work, weight, weighted, *bounds)
-        return CpuSurvey(totals, self.blocks, (p.shape[0], p.shape[1]), *flat, cap)
+        return CpuSurvey(totals, self.blocks, (nx, ny), *flat, cap, squares)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
@@ -110,22 +115,27 @@ class CpuSurvey:
     u: RealArray
     h: RealArray
     cap: RealArray | None
+    squares: RealArray
 
     def face(self, level: float, scale: float, dtype: str) -> CpuFace:
         """Working set at ``level``."""
-        kernels, size = self.blocks.kernels, self.p.size
+        kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
+        levels = level + local_means(self.squares[..., 0], self.squares[..., 1] - level * self.squares[..., 0])
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
-        counts = np.zeros((-(-size // kernels.BLOCK), 2), dtype=np.int64)
+        counts = np.zeros((len(levels), 2), dtype=np.int64)
         if self.cap is None:
-            self.blocks.run(kernels.mark_elastic, size, self.p, self.u, self.h, level, mask, counts)
+            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, levels, mask, counts)
         else:
-            self.blocks.run(kernels.mark_face, size, self.p, self.u, self.h, bound(self.cap), level, mask, counts)
+            self._share(kernels.mark_face, self.p, self.u, self.h, bound(self.cap), row, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
         index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=dtype)
-        self.blocks.run(kernels.fill_face, size, self.u, self.h, level, scale, mask, starts, index, residual)
+        self._share(kernels.fill_face, self.u, self.h, level, scale, row, mask, starts, index, residual)
         return CpuFace(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
+
+    def _share(self, kernel: Any, *arguments: Any) -> None:
+        self.blocks.share(kernel, len(self.squares), *arguments, alone=_small(self.p.size))
 
 
 class _Convolution:
@@ -153,6 +163,11 @@ class _Convolution:
         self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         spectrum[0, 0] = mean * self._mean_factor
         return self._transform.backward(spectrum, out)
+
+
+def _small(size: int) -> bool:
+    """Whether handing work on ``size`` points to another thread costs more than it saves."""
+    return size < 1 << 15
 
 
 def _read_only(values: RealArray) -> RealArray:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from ..arrays import RealArray
 from .generic_cells import ArrayCells
-from .generic_face import ArrayFace
+from .generic_survey import ArraySurvey
 from .library import Library, bound, compat
-from .protocol import Cells, Convolution, Face, Hierarchy, Totals, Violation
+from .protocol import Cells, Convolution, Face, Hierarchy, Violation
 
 
 class ArrayEngine:
@@ -73,7 +72,7 @@ class ArrayEngine:
         """Survey of an iterate."""
         double = self._library.xp.float64
         p, u, h = (self._library.xp.astype(values, double, copy=False) for values in (p, u, h))
-        return ArraySurvey(self._library, _totals(self._library, p, u, h, cap), p, u, h, cap)
+        return ArraySurvey.of(self._library, p, u, h, cap)
 
     def violation(self, p: Any, u: Any, h: Any, cap: Any, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
@@ -94,53 +93,6 @@ class ArrayEngine:
     def release(self, face: Face, field: Any) -> None:
         """Zero everywhere."""
         field[...] = 0.0
-
-
-@dataclass(frozen=True, eq=False)
-class ArraySurvey:
-    """One iterate seen as a whole."""
-
-    library: Library
-    totals: Totals
-    p: Any
-    u: Any
-    h: Any
-    cap: Any
-
-    def face(self, level: float, scale: float, dtype: str) -> ArrayFace:
-        """Working set at ``level``."""
-        library, p, cap = self.library, self.p, self.cap
-        gap, loaded = self.u - self.h - float(level), p > 0.0
-        entering = ~loaded & (gap < 0.0)
-        inside = loaded | entering
-        if cap is not None:
-            capped = loaded & (p >= bound(library, cap, p))
-            leaving_cap = capped & (gap > 0.0)
-            entering = entering | leaving_cap
-            inside = (inside & ~capped) | leaving_cap
-        start = library.select(inside, library.xp.astype(gap * (-1.0 / float(scale)), getattr(library.xp, dtype)))
-        size, arrived = library.numbers([library.count(inside), library.count(entering)])
-        return ArrayFace(library, inside, start, int(size), int(arrived))
-
-
-def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
-    xp, select, numbers = library.xp, library.select, library.numbers
-    r = u - h
-    sums = [xp.sum(p), xp.sum(p * r), xp.min(r)]
-    if cap is None:
-        pressure, work, lowest = numbers(sums)
-        return Totals(pressure, work, pressure, work, lowest, -math.inf, lowest)
-    loaded = p > 0.0
-    capped = loaded & (p >= bound(library, cap, p))
-    inner = select(~capped, p)
-    sums += [
-        xp.min(select(~loaded, r, math.inf)),
-        xp.sum(inner),
-        xp.sum(inner * r),
-        xp.max(select(capped, r, -math.inf)),
-    ]
-    pressure, work, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
-    return Totals(pressure, work, weight, weighted, lowest, highest_capped, lowest_open)
 
 
 class _Convolution:

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from .neighbourhood import SIDE
+
 BLOCK = 1 << 14
 """Elements per block."""
 
@@ -31,28 +33,44 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def survey(span, p, u, h, sums):  # type: ignore[no-untyped-def]
-    """Without a cap, per block: sum p, sum p·r, min r. No branches: it vectorises."""
-    for b in range(span[0], span[1]):
+def survey(span, p, u, h, row, sums, squares):  # type: ignore[no-untyped-def]
+    """Without a cap, per band of SIDE rows: sum p, sum p·r, min r; per square: number of loaded points, and their sum r.
+
+    No branches: it vectorises.
+    """
+    for band in range(span[0], span[1]):
         total = 0.0
         pr = 0.0
         lowest = np.inf
-        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            pi = np.float64(p[i])
-            ri = u[i] - np.float64(h[i])
-            lowest = min(lowest, ri)
-            total += pi
-            pr += pi * ri
-        sums[b, 0] = total
-        sums[b, 1] = pr
-        sums[b, 2] = lowest
+        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+            for square in range(squares.shape[1]):
+                first = start + square * SIDE
+                loaded = 0.0
+                level = 0.0
+                for i in range(first, min(first + SIDE, start + row)):
+                    pi = np.float64(p[i])
+                    ri = u[i] - np.float64(h[i])
+                    carries = 1.0 if pi > 0.0 else 0.0
+                    lowest = min(lowest, ri)
+                    total += pi
+                    pr += pi * ri
+                    loaded += carries
+                    level += carries * ri
+                squares[band, square, 0] += loaded
+                squares[band, square, 1] += level
+        sums[band, 0] = total
+        sums[band, 1] = pr
+        sums[band, 2] = lowest
 
 
 @compiled
-def survey_capped(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
-    """Per block: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level."""
+def survey_capped(span, p, u, h, cap, row, sums, squares):  # type: ignore[no-untyped-def]
+    """Per band: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
+
+    Per square: number of points with 0 < p < cap, and their sum r.
+    """
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
-    for b in range(span[0], span[1]):
+    for band in range(span[0], span[1]):
         total = 0.0
         pr = 0.0
         weight = 0.0
@@ -60,27 +78,30 @@ def survey_capped(span, p, u, h, cap, sums):  # type: ignore[no-untyped-def]
         lowest = np.inf
         highest_capped = -np.inf
         lowest_open = np.inf
-        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            pi = np.float64(p[i])
-            ri = np.float64(u[i]) - h[i]
-            lowest = min(lowest, ri)
-            if pi > 0.0:
-                total += pi
-                pr += pi * ri
-                if pi >= cap[i * each]:
-                    highest_capped = max(highest_capped, ri)
+        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+            for i in range(start, start + row):
+                pi = np.float64(p[i])
+                ri = np.float64(u[i]) - h[i]
+                lowest = min(lowest, ri)
+                if pi > 0.0:
+                    total += pi
+                    pr += pi * ri
+                    if pi >= cap[i * each]:
+                        highest_capped = max(highest_capped, ri)
+                    else:
+                        weight += pi
+                        weighted += pi * ri
+                        squares[band, (i - start) // SIDE, 0] += 1.0
+                        squares[band, (i - start) // SIDE, 1] += ri
                 else:
-                    weight += pi
-                    weighted += pi * ri
-            else:
-                lowest_open = min(lowest_open, ri)
-        sums[b, 0] = total
-        sums[b, 1] = pr
-        sums[b, 2] = weight
-        sums[b, 3] = weighted
-        sums[b, 4] = lowest
-        sums[b, 5] = highest_capped
-        sums[b, 6] = lowest_open
+                    lowest_open = min(lowest_open, ri)
+        sums[band, 0] = total
+        sums[band, 1] = pr
+        sums[band, 2] = weight
+        sums[band, 3] = weighted
+        sums[band, 4] = lowest
+        sums[band, 5] = highest_capped
+        sums[band, 6] = lowest_open
 
 
 @compiled
@@ -120,57 +141,63 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 
 @compiled
-def mark_elastic(span, p, u, h, level, mask, counts):  # type: ignore[no-untyped-def]
+def mark_elastic(span, p, u, h, row, levels, mask, counts):  # type: ignore[no-untyped-def]
     """``mark_face`` without a cap. Numbers of points are sums of floats, which vectorise."""
-    for b in range(span[0], span[1]):
+    for band in range(span[0], span[1]):
         members = 0.0
         loaded = 0.0
-        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            carries = 1.0 if p[i] > 0.0 else 0.0
-            member = 1.0 if u[i] - np.float64(h[i]) < level else carries
-            loaded += carries
-            members += member
-            mask[i] = np.uint8(1) if member > 0.5 else np.uint8(0)
-        counts[b, 0] = int(members)
-        counts[b, 1] = int(members - loaded)
+        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+            for square in range(levels.shape[1]):
+                first = start + square * SIDE
+                level = levels[band, square]
+                for i in range(first, min(first + SIDE, start + row)):
+                    carries = 1.0 if p[i] > 0.0 else 0.0
+                    member = 1.0 if u[i] - np.float64(h[i]) < level else carries
+                    loaded += carries
+                    members += member
+                    mask[i] = np.uint8(1) if member > 0.5 else np.uint8(0)
+        counts[band, 0] = int(members)
+        counts[band, 1] = int(members - loaded)
 
 
 @compiled
-def mark_face(span, p, u, h, cap, level, mask, counts):  # type: ignore[no-untyped-def]
-    """Mask of the working set; per block: number of its points, and of those entering it from a bound.
+def mark_face(span, p, u, h, cap, row, levels, mask, counts):  # type: ignore[no-untyped-def]
+    """Mask of the working set by the ``levels`` of squares; per band: number of its points, and of those entering it.
 
     Without branches: which points belong is as random as the surface, and a processor cannot guess it.
     """
     each = 1 if cap.size > 1 else 0
-    for b in range(span[0], span[1]):
+    for band in range(span[0], span[1]):
         members = 0
         entering = 0
-        for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
-            gap = u[i] - np.float64(h[i]) - level
-            open_ = np.uint8(p[i] <= 0.0)
-            full = np.uint8(p[i] >= cap[i * each])
-            enters = (open_ & np.uint8(gap < 0.0)) | (full & np.uint8(gap > 0.0))
-            mask[i] = enters | (np.uint8(1) - (open_ | full))
-            entering += int(enters)
-            members += int(mask[i])
-        counts[b, 0] = members
-        counts[b, 1] = entering
+        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+            for i in range(start, start + row):
+                gap = u[i] - np.float64(h[i]) - levels[band, (i - start) // SIDE]
+                open_ = np.uint8(p[i] <= 0.0)
+                full = np.uint8(p[i] >= cap[i * each])
+                enters = (open_ & np.uint8(gap < 0.0)) | (full & np.uint8(gap > 0.0))
+                mask[i] = enters | (np.uint8(1) - (open_ | full))
+                entering += int(enters)
+                members += int(mask[i])
+        counts[band, 0] = members
+        counts[band, 1] = entering
 
 
 @compiled
-def fill_face(span, u, h, level, scale, mask, starts, index, residual):  # type: ignore[no-untyped-def]
+def fill_face(span, u, h, level, scale, row, mask, starts, index, residual):  # type: ignore[no-untyped-def]
     """Indices of the points of the mask in order, and (level - r) / scale there."""
     words = mask.view(np.uint64)
-    for b in range(span[0], span[1]):
-        k = starts[b]
-        for word in range(b * (BLOCK // 8), min((b + 1) * (BLOCK // 8), words.size)):
+    length = SIDE // 8 * row  # of a band, in words
+    for band in range(span[0], span[1]):
+        k = starts[band]
+        for word in range(band * length, min((band + 1) * length, words.size)):
             if words[word] == 0:  # most of the surface is out of contact
                 continue
             for i in range(8 * word, 8 * word + 8):
-                if k < starts[b + 1]:
+                if k < starts[band + 1]:
                     index[k] = i
                     k += mask[i]
-        for k in range(starts[b], starts[b + 1]):
+        for k in range(starts[band], starts[band + 1]):
             i = index[k]
             residual[k] = (level - (u[i] - np.float64(h[i]))) / scale
 

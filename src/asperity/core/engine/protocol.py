@@ -156,7 +156,11 @@ class Survey(Protocol):
         """Sums over it."""
 
     def face(self, level: float, scale: float, dtype: str) -> Face:
-        """Working set at ``level``, with vectors of the precision ``dtype``."""
+        """Working set at ``level``, with vectors of the precision ``dtype``.
+
+        Its points are those strictly between the bounds, and those at a bound whose gap is on the wrong side of the
+        level of their neighbourhood (see ``neighbourhood``).
+        """
 
 
 class Engine(Protocol):

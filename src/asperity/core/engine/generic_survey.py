@@ -1,0 +1,79 @@
+"""Survey of an iterate of the array-API engine."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ..arrays import RealArray
+from .generic_face import ArrayFace
+from .library import Library, bound
+from .neighbourhood import SIDE, local_means
+from .protocol import Totals
+
+
+@dataclass(frozen=True, eq=False)
+class ArraySurvey:
+    """One iterate seen as a whole."""
+
+    library: Library
+    totals: Totals
+    p: Any
+    u: Any
+    h: Any
+    cap: Any
+
+    @classmethod
+    def of(cls, library: Library, p: Any, u: Any, h: Any, cap: Any) -> ArraySurvey:
+        """Survey of an iterate."""
+        return cls(library, _totals(library, p, u, h, cap), p, u, h, cap)
+
+    def face(self, level: float, scale: float, dtype: str) -> ArrayFace:
+        """Working set at ``level``."""
+        library, p, cap = self.library, self.p, self.cap
+        gap, loaded = self.u - self.h - float(level), p > 0.0
+        capped = loaded & (p >= bound(library, cap, p)) if cap is not None else loaded & ~loaded
+        movable = loaded & ~capped
+        apart = gap - self._local(movable, gap)
+        entering = (~loaded & (apart < 0.0)) | (capped & (apart > 0.0))
+        inside = movable | entering
+        start = library.select(inside, library.xp.astype(gap * (-1.0 / float(scale)), getattr(library.xp, dtype)))
+        size, arrived = library.numbers([library.count(inside), library.count(entering)])
+        return ArrayFace(library, inside, start, int(size), int(arrived))
+
+    def _local(self, mask: Any, values: Any) -> Any:
+        """Mean of the ``values`` on the ``mask`` near each point."""
+        library, xp = self.library, self.library.xp
+        count = self._in_squares(library.xp.astype(mask, values.dtype))
+        means = library.array(local_means(count, self._in_squares(library.select(mask, values))), "float64")
+        nx, ny = values.shape
+        return xp.repeat(xp.repeat(means, SIDE, axis=0), SIDE, axis=1)[:nx, :ny]
+
+    def _in_squares(self, values: Any) -> RealArray:
+        """Sums over squares of SIDE x SIDE points."""
+        library, (nx, ny) = self.library, values.shape
+        bands, squares = -(-nx // SIDE), -(-ny // SIDE)
+        whole = library.zeros((bands * SIDE, squares * SIDE), "float64")
+        whole[:nx, :ny] = values
+        return library.numpy(library.xp.sum(library.xp.reshape(whole, (bands, SIDE, squares, SIDE)), axis=(1, 3)))
+
+
+def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
+    xp, select, numbers = library.xp, library.select, library.numbers
+    r = u - h
+    sums = [xp.sum(p), xp.sum(p * r), xp.min(r)]
+    if cap is None:
+        pressure, work, lowest = numbers(sums)
+        return Totals(pressure, work, pressure, work, lowest, -math.inf, lowest)
+    loaded = p > 0.0
+    capped = loaded & (p >= bound(library, cap, p))
+    inner = select(~capped, p)
+    sums += [
+        xp.min(select(~loaded, r, math.inf)),
+        xp.sum(inner),
+        xp.sum(inner * r),
+        xp.max(select(capped, r, -math.inf)),
+    ]
+    pressure, work, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
+    return Totals(pressure, work, weight, weighted, lowest, highest_capped, lowest_open)

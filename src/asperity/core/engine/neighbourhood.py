@@ -1,0 +1,37 @@
+"""Levels of neighbourhoods, by which points enter a working set.
+
+While an iterate is not yet solved for, its residual on the loaded points is smooth: whole regions stand too high or too
+low. Were unloaded points judged by the level of the plane, too many would enter in the one and too few in the other,
+and the set would follow the error instead of the surface. They are judged by the mean level of the loaded points
+near by, which is the level of the plane at the solution.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import RealArray
+
+SIDE = 64
+"""Points along the side of a square."""
+
+_PRIOR = 4.0
+"""Loaded points that the mean over a larger square counts for in that of a smaller one."""
+
+
+def local_means(count: RealArray, total: RealArray) -> RealArray:
+    """Mean in each square of a grid from the ``count`` of its points and their ``total``.
+
+    Where there are few points it falls back on the square of twice the side, and in the end on zero.
+    """
+    if count.size == 1:
+        return np.asarray(total / (count + _PRIOR))
+    wider = local_means(_in_fours(count), _in_fours(total)).repeat(2, axis=0).repeat(2, axis=1)
+    return np.asarray((total + _PRIOR * wider[: count.shape[0], : count.shape[1]]) / (count + _PRIOR))
+
+
+def _in_fours(values: RealArray) -> RealArray:
+    """Sums over 2 x 2 squares; those beyond an odd end are zero."""
+    nx, ny = values.shape
+    even = np.pad(values, ((0, nx % 2), (0, ny % 2)))
+    return np.asarray(even.reshape(-(-nx // 2), 2, -(-ny // 2), 2).sum(axis=(1, 3)))
