@@ -375,8 +375,9 @@ def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int
     for share in (0.2, 0.6, 1.0):  # the same buffers for one set after the other
         inside = rng.uniform(size=shape) < share
         p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
-        arrays = (engine.array(values, "float64") for values in (p, 0.0 * h, h))
+        arrays = (engine.array(values, "float64") for values in (p, np.where(inside, 0.0, 100.0), h))
         face = engine.survey(*arrays, None).face(-10.0, 1.0, dtype)
+        assert face.entering == 0
         cells.restrict(face)
         r = face.residual(centred=False)
         z, total, first, second = cells.solve(face, r, r, face.zeros())

@@ -55,8 +55,9 @@ class ActiveSet:
     """Newton's method on the contact set, each linear system solved loosely by preconditioned conjugate gradients.
 
     A step frees the points whose pressure may move, solves K p = h + level on them to a modest accuracy (preconditioner:
-    the inverse of a compliance of nested cells), and clips the pressure to its bounds. The first guess
-    comes from coarser grids. Corrections are computed in single precision, the gap they must close in double
+    the inverse of a compliance of nested cells), and clips the pressure to its bounds. Points enter the set by the mean
+    level of the loaded points near them, so that it does not follow errors of long wavelength. The first guess comes
+    from coarser grids. Corrections are computed in single precision, the gap they must close in double
     (``precision="mixed"``), so the answer has double precision at nearly the cost of single.
 
     The energy never rises: a step that would raise it is shortened to the minimum on its way, or replaced by one along

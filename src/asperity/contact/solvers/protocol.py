@@ -139,7 +139,10 @@ class Solution:
 
 PATIENCE = 500
 LEAST_PATIENCE = 20
-"""Iterations without a new smallest error after which a method counts as stagnated: a quarter of its limit, within these."""
+"""Iterations without a smaller error after which a method counts as stagnated: a quarter of its limit, within these."""
+
+_SMALLER = 0.99
+"""Share of the smallest error so far below which one counts as smaller: near rounding, last digits go on falling."""
 
 
 def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress: Progress | None = None) -> Solution:
@@ -156,7 +159,7 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
             return Solution(state.finished, _status(solver, state, stagnated), tuple(errors))
         state = solver.step(qp, state)
         errors.append(state.error)
-        if state.error < errors[best_at]:
+        if state.error < _SMALLER * errors[best_at]:
             best_at = len(errors) - 1
 
 
