@@ -15,6 +15,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.surfaces.surface.Surface.__init__": "one check for each way a height map can be unusable",
     },
     "parameters": {
+        "asperity.core.engine.kernels.survey": "a compiled pass takes its arrays and numbers one by one",
+        "asperity.core.engine.kernels.survey_capped": "a compiled pass takes its arrays and numbers one by one",
         "asperity.core.engine.kernels.mark_face": "a compiled pass takes its arrays and numbers one by one",
         "asperity.core.engine.kernels.fill_face": "a compiled pass takes its arrays and numbers one by one",
         "asperity.core.engine.kernels.violation": "a compiled pass takes its arrays and numbers one by one",
