@@ -1,139 +1,92 @@
-"""Closed-form theories: they take and return numbers."""
+"""Closed-form theories: they take and return numbers. A module is imported when one of its names is asked for.
 
-from .adhesive_sphere import DMT, JKR, tabor_parameter
-from .anisotropic_summits import AnisotropicSummits
-from .bisinusoid import CrossedWaves
-from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
-from .catalogue import THEORIES, theory
-from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
-from .discrete_summits import DiscreteSummits
-from .effective_hardness import EffectiveHardness
-from .elastic_plastic_summits import ElasticPlasticSummits
-from .fuller_tabor import FullerTabor
-from .greenwood_tripp import GreenwoodTripp
-from .greenwood_williamson import GreenwoodWilliamson
-from .greenwood_williamson_fits import FittedGreenwoodWilliamson
-from .greenwood_williamson_plastic import plastic_area_share, separation_at_plastic_onset
-from .hertz import HertzPoint
-from .hertz_ellipse import HertzEllipse
-from .hertz_ellipse_stress import hertz_ellipse_normal
-from .hertz_fields import hertz_normal, hertz_shear
-from .hertz_line import HertzLine
-from .hertz_line_fields import hertz_line_normal, hertz_line_shear
-from .identical_asperities import IdenticalAsperities
-from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
-from .interacting_crests import InteractingCrests
-from .jackson_green import JacksonGreen, JacksonGreenSphere
-from .kogut_etsion import KogutEtsion, KogutEtsionSphere
-from .kotwal_bhushan import KotwalBhushan
-from .line_indenters import LineFlatPunch, LinePowerLawIndenter
-from .line_loads import flamant_normal, flamant_tangential, strip_pressure, strip_shear
-from .majumdar_bhushan import MajumdarBhushan
-from .maugis import MaugisDugdale, maugis_pull_off
-from .mccool import McCool
-from .measured_heights import AnyHeights, HistogramHeights
-from .mindlin import MindlinLine, MindlinPoint, tangential_modulus
-from .nayak import NayakSummits
-from .oliver_pharr import OliverPharr
-from .onions_archard import OnionsArchard
-from .persson import Persson
-from .plasticity_index import (
-    critical_interference,
-    hardness_coefficient,
-    nominal_interference,
-    profile_plasticity_index,
-    summit_plasticity_index,
-    yield_coefficient,
+The stub beside this file says the same to type checkers.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any
+
+_NAMES = MappingProxyType(
+    {
+        "adhesive_sphere": ("DMT", "JKR", "tabor_parameter"),
+        "anisotropic_summits": ("AnisotropicSummits",),
+        "bisinusoid": ("CrossedWaves",),
+        "bush_gibson_thomas": ("BushGibsonThomas", "GreenwoodElliptic"),
+        "catalogue": ("THEORIES", "theory"),
+        "chang_etsion_bogy": ("ChangEtsionBogy", "ChangEtsionBogySphere"),
+        "discrete_summits": ("DiscreteSummits",),
+        "effective_hardness": ("EffectiveHardness",),
+        "elastic_plastic_summits": ("ElasticPlasticSummits",),
+        "fuller_tabor": ("FullerTabor",),
+        "greenwood_tripp": ("GreenwoodTripp",),
+        "greenwood_williamson": ("GreenwoodWilliamson",),
+        "greenwood_williamson_fits": ("FittedGreenwoodWilliamson",),
+        "greenwood_williamson_plastic": ("plastic_area_share", "separation_at_plastic_onset"),
+        "hertz": ("HertzPoint",),
+        "hertz_ellipse": ("HertzEllipse",),
+        "hertz_ellipse_stress": ("hertz_ellipse_normal",),
+        "hertz_fields": ("hertz_normal", "hertz_shear"),
+        "hertz_line": ("HertzLine",),
+        "hertz_line_fields": ("hertz_line_normal", "hertz_line_shear"),
+        "identical_asperities": ("IdenticalAsperities",),
+        "indenters": ("FlatPunch", "PowerLawIndenter", "SphericalIndenter"),
+        "interacting_crests": ("InteractingCrests",),
+        "jackson_green": ("JacksonGreen", "JacksonGreenSphere"),
+        "kogut_etsion": ("KogutEtsion", "KogutEtsionSphere"),
+        "kotwal_bhushan": ("KotwalBhushan",),
+        "line_indenters": ("LineFlatPunch", "LinePowerLawIndenter"),
+        "line_loads": ("flamant_normal", "flamant_tangential", "strip_pressure", "strip_shear"),
+        "majumdar_bhushan": ("MajumdarBhushan",),
+        "maugis": ("MaugisDugdale", "maugis_pull_off"),
+        "mccool": ("McCool",),
+        "measured_heights": ("AnyHeights", "HistogramHeights"),
+        "mindlin": ("MindlinLine", "MindlinPoint", "tangential_modulus"),
+        "nayak": ("NayakSummits",),
+        "oliver_pharr": ("OliverPharr",),
+        "onions_archard": ("OnionsArchard",),
+        "persson": ("Persson",),
+        "plasticity_index": (
+            "critical_interference",
+            "hardness_coefficient",
+            "nominal_interference",
+            "profile_plasticity_index",
+            "summit_plasticity_index",
+            "yield_coefficient",
+        ),
+        "point_loads": ("boussinesq", "cerruti"),
+        "protocol": ("Limit", "Prediction"),
+        "restitution": ("rebound",),
+        "single_contact": ("ContactAnswer",),
+        "sinusoidal_asperity": ("SinusoidalAsperity",),
+        "sliding_yield": ("YieldOnset", "cylinder_yield_onset", "sphere_yield_onset"),
+        "summit_heights": (
+            "ExponentialHeights",
+            "GaussianHeights",
+            "LaplaceHeights",
+            "TriangularHeights",
+            "UniformHeights",
+        ),
+        "wavy": ("Westergaard",),
+        "whitehouse_archard": ("SampledPeaks",),
+    }
 )
-from .point_loads import boussinesq, cerruti
-from .protocol import Limit, Prediction
-from .restitution import rebound
-from .single_contact import ContactAnswer
-from .sinusoidal_asperity import SinusoidalAsperity
-from .sliding_yield import YieldOnset, cylinder_yield_onset, sphere_yield_onset
-from .summit_heights import ExponentialHeights, GaussianHeights, LaplaceHeights, TriangularHeights, UniformHeights
-from .wavy import Westergaard
-from .whitehouse_archard import SampledPeaks
+"""Public names by module."""
 
-__all__ = [
-    "DMT",
-    "JKR",
-    "THEORIES",
-    "AnisotropicSummits",
-    "AnyHeights",
-    "BushGibsonThomas",
-    "ChangEtsionBogy",
-    "ChangEtsionBogySphere",
-    "ContactAnswer",
-    "CrossedWaves",
-    "DiscreteSummits",
-    "EffectiveHardness",
-    "ElasticPlasticSummits",
-    "ExponentialHeights",
-    "FittedGreenwoodWilliamson",
-    "FlatPunch",
-    "FullerTabor",
-    "GaussianHeights",
-    "GreenwoodElliptic",
-    "GreenwoodTripp",
-    "GreenwoodWilliamson",
-    "HertzEllipse",
-    "HertzLine",
-    "HertzPoint",
-    "HistogramHeights",
-    "IdenticalAsperities",
-    "InteractingCrests",
-    "JacksonGreen",
-    "JacksonGreenSphere",
-    "KogutEtsion",
-    "KogutEtsionSphere",
-    "KotwalBhushan",
-    "LaplaceHeights",
-    "Limit",
-    "LineFlatPunch",
-    "LinePowerLawIndenter",
-    "MajumdarBhushan",
-    "MaugisDugdale",
-    "McCool",
-    "MindlinLine",
-    "MindlinPoint",
-    "NayakSummits",
-    "OliverPharr",
-    "OnionsArchard",
-    "Persson",
-    "PowerLawIndenter",
-    "Prediction",
-    "SampledPeaks",
-    "SinusoidalAsperity",
-    "SphericalIndenter",
-    "TriangularHeights",
-    "UniformHeights",
-    "Westergaard",
-    "YieldOnset",
-    "boussinesq",
-    "cerruti",
-    "critical_interference",
-    "cylinder_yield_onset",
-    "flamant_normal",
-    "flamant_tangential",
-    "hardness_coefficient",
-    "hertz_ellipse_normal",
-    "hertz_line_normal",
-    "hertz_line_shear",
-    "hertz_normal",
-    "hertz_shear",
-    "maugis_pull_off",
-    "nominal_interference",
-    "plastic_area_share",
-    "profile_plasticity_index",
-    "rebound",
-    "separation_at_plastic_onset",
-    "sphere_yield_onset",
-    "strip_pressure",
-    "strip_shear",
-    "summit_plasticity_index",
-    "tabor_parameter",
-    "tangential_modulus",
-    "theory",
-    "yield_coefficient",
-]
+_HOME = MappingProxyType({name: module for module, names in _NAMES.items() for name in names})
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOME[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]
