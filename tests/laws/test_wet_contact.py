@@ -75,6 +75,13 @@ def test_the_steady_force_is_the_balance(problem):
     assert wet.static_friction == pytest.approx(0.3 * (1.0 + wet.relative_meniscus_force), rel=1e-12)
 
 
+def test_stiffness_is_that_of_the_last_contact(problem):
+    """Rounds leave it out; that of the contact at its end is the one of the same dry contact under load and menisci."""
+    wet = asp.solve_wet(problem, LOAD, lubricant(1.0 * NM))
+    direct = asp.solve(problem, wet.contact.control, state=asp.InterfaceState(np.zeros((96, 96)), wet.contact.pressure))
+    assert wet.contact.normal_stiffness == pytest.approx(direct.normal_stiffness, rel=1e-4)
+
+
 def test_menisci_move_with_the_surface(problem):
     surface = problem.surface
     moved = asp.Surface(np.roll(surface.heights, (17, 40), (0, 1)), surface.dx, surface.dy, periodic=True)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 def wet_contact(case: Case) -> WetContactResult | None:
     """Contact of ``case`` with its film of liquid; None if it has none."""
+    from ..contact.operators import prepare_operator
     from ..contact.wet import solve_wet
     from ..core.engine import CpuEngine
     from .interrupt import interruptible
@@ -20,14 +21,16 @@ def wet_contact(case: Case) -> WetContactResult | None:
 
     if case.film is None:
         return None
+    problem, engine = case.problem, CpuEngine(case.threads)
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     with shown("solving") as bar, interruptible(bar) as progress:
         return solve_wet(
-            case.problem,
+            problem,
             case.control,
             case.film,
             friction=case.friction,
             solver=case.solver,
-            engine=CpuEngine(case.threads),
+            operator=operator,
             progress=progress,
             on_failure="return",
         )

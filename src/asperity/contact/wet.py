@@ -8,17 +8,19 @@ from typing import Literal
 import numpy as np
 
 from ..core import require
-from ..core.engine import Engine
 from ..core.errors import ConvergenceError, NoSolutionError
 from ..core.progress import Progress
 from ..core.status import Outcome, Status
 from .control import Control, Force, MeanPressure, mean_pressure
+from .laws import cap_at
 from .operators import Operator, prepare_operator
+from .path import predicted
 from .problem import ContactProblem
 from .result import ContactResult
-from .solve import solve
+from .solve import Keep, solve
 from .solvers.protocol import Solver
 from .state import InterfaceState
+from .stiffness import normal_stiffness
 from .viscous import viscous_force
 from .wet_result import WetContactResult
 from .wetting import LiquidFilm, Wetting, wetting
@@ -71,8 +73,8 @@ def solve_wet(
     steady: Steady = Steady(),
     solver: Solver | None = None,
     state: InterfaceState | None = None,
+    operator: Operator | None = None,
     progress: Progress | None = None,
-    engine: Engine | None = None,
     on_failure: Literal["raise", "return"] = "raise",
 ) -> WetContactResult:
     """Solve a contact with a film of liquid (Tian & Bhushan 1996; Peng 2001, sec. 3.2.4).
@@ -83,8 +85,8 @@ def solve_wet(
 
     Parameters
     ----------
-    problem, solver, state, progress, engine
-        As for ``solve``.
+    problem, solver, state, progress
+        As for ``solve``. The pressure of the state is the first guess of the contact under W alone.
     control
         External load (``MeanPressure``, ``Force``) or position (``Approach``, ``MeanGap``).
     film
@@ -93,6 +95,9 @@ def solve_wet(
         Dry coefficient and speed for the friction force.
     steady
         When to stop.
+    operator
+        Prepared operator of the same problem (``prepare_operator``), to spare the set-up in repeated solves and to choose
+        the engine.
     on_failure
         ``"raise"`` a ConvergenceError holding the result, or ``"return"`` it with its status, when not steady.
 
@@ -109,12 +114,12 @@ def solve_wet(
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     require.instance(film, LiquidFilm, "film of a wet contact", "Use LiquidFilm.of(liquid, thickness).")
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    rounds = _Rounds(problem, film, operator, solver, state, progress)
+    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    rounds = _Rounds(problem, film, ready, solver, state, progress)
     load, found = _balanced(rounds, control, steady)
     result = WetContactResult(
         control=control,
-        contact=found.contact,
+        contact=rounds.whole(found.contact),
         film=film,
         wetting=found.wetting,
         external_force=load,
@@ -153,14 +158,21 @@ class _Rounds:
     state: InterfaceState | None
     progress: Progress | None
 
-    def solved(self, control: Control, before: ContactResult | None) -> ContactResult:
-        """Contact under ``control``, started from the pressure of the round ``before``."""
+    def solved(self, control: Control, last: list[ContactResult]) -> ContactResult:
+        """Contact under ``control``, started from what the ``last`` rounds suggest; its stiffness is left out."""
         start = self.state
-        if before is not None:
-            virgin = InterfaceState(np.zeros(before.pressure.shape), before.pressure)
-            start = virgin if start is None else replace(start, pressure=before.pressure)
+        if last:
+            guess = predicted(self.problem, control, last).pressure
+            virgin = InterfaceState(np.zeros(guess.shape), guess)
+            start = virgin if start is None else replace(start, pressure=guess)
         options = {"solver": self.solver, "state": start, "progress": self.progress, "operator": self.operator}
-        return solve(self.problem, control, on_failure="return", **options)  # type: ignore[arg-type]
+        keep = Keep(stiffness=False)
+        return solve(self.problem, control, keep=keep, on_failure="return", **options)  # type: ignore[arg-type]
+
+    def whole(self, contact: ContactResult) -> ContactResult:
+        """``contact`` with its stiffness, which only the last round needs."""
+        cap = cap_at(self.problem.law, contact.permanent_indentation)
+        return replace(contact, normal_stiffness=normal_stiffness(self.operator, contact.pressure, cap))
 
     def wetted(self, contact: ContactResult) -> Wetting:
         """Menisci of ``contact``."""
@@ -182,24 +194,24 @@ def _balanced(rounds: _Rounds, control: Control, steady: Steady) -> tuple[float,
     if isinstance(control, MeanPressure | Force):
         load = mean_pressure(control, rounds.problem.grid) * rounds.problem.grid.area
         return load, _settled(rounds, load, steady)
-    contact = rounds.solved(control, None)
+    contact = rounds.solved(control, [])
     found = rounds.wetted(contact)
     return contact.force - rounds.force(found), _Settled(contact, found, 1, 0.0, 0.0)
 
 
 def _settled(rounds: _Rounds, load: float, steady: Steady) -> _Settled:
     """Repeat until the menisci of the contact under ``load`` (N) and menisci are those that it was loaded with."""
-    contact = rounds.solved(Force(load), None)
-    found = rounds.wetted(contact)
+    contact = rounds.solved(Force(load), [])
+    last, found = [contact], rounds.wetted(contact)
     pull = start = rounds.force(found)
     was_open, change, count = found.share("kept") < COLLAPSED, pull / load, 1
     slack = rounds.slack(load, steady.tolerance)
     while count < steady.max_rounds and change > slack and contact.converged:
         try:
-            contact = rounds.solved(Force(load + pull), contact)
+            contact = rounds.solved(Force(load + pull), last)
         except NoSolutionError as error:
             raise NoSolutionError(f"{_runaway(load, start, pull, count)} The contact bears no more: {error}") from error
-        found = rounds.wetted(contact)
+        last, found = [last[-1], contact], rounds.wetted(contact)
         count += 1
         latest = rounds.force(found)
         if found.regime == "flooded" and was_open:

@@ -19,6 +19,7 @@ from ..contact.solve import Keep, solve
 from ..contact.state import InterfaceState
 from ..contact.wet import solve_wet
 from ..contact.wet_result import WetContactResult
+from ..contact.wetting import LiquidFilm
 from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from ..io.build import Case, build, build_load
@@ -89,7 +90,7 @@ class _LoadPath:
         return replace(self._built, control=control, path=path)
 
     def _answer(self, case: Case) -> dict[str, Any]:
-        wet = _wet(case)
+        wet = None if case.film is None else self._wetted(case, case.film)
         result = self._solved(case) if wet is None else wet.contact
         stress = None
         if case.stress is not None:
@@ -114,27 +115,38 @@ class _LoadPath:
             return solve_sliding(
                 case.problem, case.control, stress.friction, direction=stress.direction, engine=engine
             ).contact
-        problem, engine = case.problem, CpuEngine(case.threads or 1)
-        if self._operator is None:
-            self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        options: dict[str, Any] = {"solver": case.solver, "keep": self._keep, "operator": self._operator}
         if case.path:
-            return deque(steps(problem, case.path, **options), maxlen=1)[0]
-        result = solve(problem, case.control, state=self._guess(case), **options)
+            options: dict[str, Any] = {"solver": case.solver, "keep": self._keep, "operator": self._prepared(case)}
+            return deque(steps(case.problem, case.path, **options), maxlen=1)[0]
+        return self._loaded(case, self._keep)
+
+    def _loaded(self, case: Case, keep: Keep) -> ContactResult:
+        """Dry contact under the load of ``case``, started from the cases before."""
+        options: dict[str, Any] = {"solver": case.solver, "keep": keep, "operator": self._prepared(case)}
+        result = solve(case.problem, case.control, state=self._guess(case), **options)
         self._last = [*self._last[-1:], result]
         return result
+
+    def _wetted(self, case: Case, film: LiquidFilm) -> WetContactResult:
+        """Contact of ``case`` with its ``film``, which starts from the dry one of the same load."""
+        start = _virgin(self._loaded(case, Keep(stiffness=False)).state)
+        options: dict[str, Any] = {"solver": case.solver, "operator": self._prepared(case), "state": start}
+        return solve_wet(case.problem, case.control, film, friction=case.friction, **options)
+
+    def _prepared(self, case: Case) -> Operator:
+        """Operator of all cases."""
+        if self._operator is None:
+            problem, engine = case.problem, CpuEngine(case.threads or 1)
+            self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        return self._operator
 
     def _guess(self, case: Case) -> InterfaceState | None:
         """Virgin interface with the pressures that the cases before suggest."""
         if not self._last:
             return None
-        state = predicted(case.problem, case.control, self._last)
-        return replace(state, permanent_indentation=np.zeros(case.problem.grid.shape))
+        return _virgin(predicted(case.problem, case.control, self._last))
 
 
-def _wet(case: Case) -> WetContactResult | None:
-    """Contact of ``case`` with its film of liquid; None if it has none."""
-    if case.film is None:
-        return None
-    engine = CpuEngine(case.threads or 1)
-    return solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver, engine=engine)
+def _virgin(state: InterfaceState) -> InterfaceState:
+    """An interface never loaded, with the pressures of ``state`` as a first guess."""
+    return InterfaceState(np.zeros(state.pressure.shape), state.pressure)

@@ -7,6 +7,7 @@ import pytest
 from study_cases import InProcess, plan
 
 import asperity as asp
+from asperity.contact.operators import prepare_operator
 from asperity.io.build import build
 from asperity.io.documents import checked
 from asperity.studies.collect import dataset, failures
@@ -45,6 +46,30 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
         alone = asp.solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver)
         assert float(data["meniscus_force"][number]) == alone.meniscus_force
         assert float(data["static_friction"][number]) == pytest.approx(alone.static_friction, rel=1e-12)
+
+
+def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path, monkeypatch):
+    """Loads start from those before: forces agree within the pixels that the error of a solve may flip."""
+    prepared = []
+
+    def counted(*arguments, **options):
+        prepared.append(prepare_operator(*arguments, **options))
+        return prepared[-1]
+
+    monkeypatch.setattr("asperity.studies.evaluate.prepare_operator", counted)
+    monkeypatch.setattr("asperity.contact.wet.prepare_operator", counted)
+    loads = ["1 MPa", "2 MPa", "4 MPa", "8 MPa"]
+    made = plan(problem=WET, axes=[{"path": "control.mean_pressure", "values": loads}], quantities=["meniscus_force"])
+    carry_out(made, tmp_path / "r.log", InProcess())
+    assert len(prepared) == 1
+    data = dataset(made, tmp_path / "r.log")
+    for number, load in enumerate(loads):
+        case = build(checked(replaced(WET, ("control", "mean_pressure"), load)))
+        alone = asp.solve_wet(case.problem, case.control, case.film, solver=case.solver, operator=prepared[0])
+        pixels = 2.0 * alone.suction * case.problem.grid.pixel_area
+        slack = 1e-4 * alone.external_force + pixels
+        assert float(data["meniscus_force"][number]) == pytest.approx(alone.meniscus_force, abs=slack, rel=0.0)
+    assert len(prepared) == 1
 
 
 def test_a_force_that_runs_away_is_a_record_with_its_reason(tmp_path):
