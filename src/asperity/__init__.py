@@ -21,6 +21,7 @@ from .contact.state import InterfaceState
 from .contact.wet import Friction, Steady, solve_wet
 from .contact.wet_advice import review_wet
 from .contact.wet_result import WetContactResult
+from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
 from .core.engine import ArrayEngine, CpuEngine
@@ -150,6 +151,7 @@ __all__ = [
     "Unloaded",
     "VonMises",
     "WetContactResult",
+    "WetTheory",
     "YieldReport",
     "__version__",
     "advise",
@@ -223,6 +225,7 @@ __all__ = [
     "theories",
     "tip_limited",
     "turned_over",
+    "wet_theory",
     "write_report",
     "write_roughness_report",
 ]

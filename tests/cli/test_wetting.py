@@ -33,6 +33,7 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0, result.stderr
     for text in ("Liquid film and menisci", "60° and 60°", "2.414 nm", "toe-dipping", "static friction coefficient"):
         assert text in result.stdout, text
+    assert "Statistical theory beside it" in result.stdout
     assert "Largest stresses inside" not in result.stdout, "the friction coefficient is that of the film alone"
     wet = asp.load_wet(out / "result.nc")
     film = asp.LiquidFilm.at_humidity(asp.liquid("water"), 0.8, contact_angles=(np.pi / 3.0, np.pi / 3.0))
@@ -46,7 +47,14 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
     assert float(rows["meniscus_force"]) == wet.meniscus_force
     assert float(rows["force"]) == pytest.approx(wet.external_force + wet.meniscus_force, rel=1e-3)
     html = (out / "report.html").read_text(encoding="utf-8")
-    for text in ("Liquid film and menisci", "The meniscus force is steady", "[TianBhushan1996]", "not redistributed"):
+    for text in (
+        "Liquid film and menisci",
+        "The meniscus force is steady",
+        "[TianBhushan1996]",
+        "not redistributed",
+        "beside it",
+        "[Gao1995]",
+    ):
         assert text in html, text
 
     again = run("contact", "--from", out / "problem.toml", "--humidity", "70%", "--csv", tmp_path / "again.csv")
@@ -55,6 +63,15 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
         drier = {row["name"]: row["value"] for row in csv.DictReader(file)}
     assert float(drier["meniscus_force"]) < wet.meniscus_force
     assert float(drier["static_friction"]) < wet.static_friction
+
+
+def test_without_summits_it_is_said_why_there_is_no_theory(run: Runner, tmp_path: Path) -> None:
+    ball = asp.generate.sphere(asp.Grid((32, 32), (6.0 * NM, 6.0 * NM)), radius=1e-6)
+    asp.save_surface(ball, tmp_path / "ball.nc")
+    loaded = ("--body", "E=100GPa,nu=0.3", "--pressure", "25MPa", "--boundary", "free")
+    found = run("contact", tmp_path / "ball.nc", *loaded, "--liquid", "PFPE", "--film", "1nm")
+    assert found.exit_code == 0, found.stderr
+    assert "must have at least 20 summits for the theory of summits" in " ".join(found.stdout.split())
 
 
 def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..contact.wet_result import WetContactResult
+    from ..contact.wet_theory import WetTheory
     from ..io.build import Case
     from ..io.documents import ProblemDocument
     from ..stress.request import StressRequest
@@ -37,7 +38,7 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..io.build import build
     from ..io.documents import relocated
     from .stress_run import output_folder, surveyed, write_volume
-    from .wet_run import wet_contact
+    from .wet_run import theory_of, wet_contact
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
@@ -50,7 +51,7 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
         found = _plastic_load(case) if output.plastic_load else None
         moved = document if output.out is None else relocated(document, base_folder, output.out)
         findings = (*before, *review(result), *(() if wet is None else review_wet(wet)))
-        run = Run(result, findings, moved, stress, path, wet, found)
+        run = Run(result, findings, moved, stress, path, wet, found, theory_of(wet))
         if folder is not None:
             _write_folder(run, folder)
     _write_files(wet or result, document, base_folder, output)
@@ -70,7 +71,7 @@ def _print(run: Run, written: Iterable[Path]) -> None:
     if run.path is not None:
         print_path(run.path)
     if run.wet is not None:
-        print_wet(run.wet)
+        print_wet(run.wet, run.wet_theory)
     if run.plastic_load is not None:
         print_plastic_load(run.plastic_load)
     if run.stress is not None:
@@ -182,6 +183,7 @@ class Run:
     path: LoadPath | None
     wet: WetContactResult | None
     plastic_load: PlasticLoad | None
+    wet_theory: WetTheory | str
 
 
 def _write_folder(run: Run, folder: Path) -> None:
@@ -200,7 +202,7 @@ def _write_folder(run: Run, folder: Path) -> None:
     if run.wet is None:
         save(result, folder / "result.nc", document=text)
     export_csv(run.wet or result, folder / "scalars.csv")
-    menisci = None if run.wet is None else write_wet(run.wet, folder, text)
+    menisci = None if run.wet is None else write_wet(run.wet, run.wet_theory, folder, text)
     part = None if run.stress is None else write_stress(run.stress, folder)
     if run.path is not None:
         _write_path(run.path, folder, text)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..contact.wet_result import WetContactResult
+    from ..contact.wet_theory import WetTheory
     from ..io.build import Case
     from ..report.wet import WetPart
 
@@ -36,7 +37,14 @@ def wet_contact(case: Case) -> WetContactResult | None:
         )
 
 
-def write_wet(result: WetContactResult, folder: Path, document: str) -> WetPart:
+def theory_of(result: WetContactResult | None) -> WetTheory | str:
+    """What the theory of summits says of ``result``, or why it says nothing; empty without a wet contact."""
+    from ..report.wet import theory_beside
+
+    return "" if result is None else theory_beside(result)
+
+
+def write_wet(result: WetContactResult, theory: WetTheory | str, folder: Path, document: str) -> WetPart:
     """Write result file and figures of ``result`` into the ``folder`` of a run; what its report is to show."""
     from ..io.wet_results import save_wet
     from ..plots.menisci import wet_figures
@@ -46,15 +54,17 @@ def write_wet(result: WetContactResult, folder: Path, document: str) -> WetPart:
     figures = wet_figures(result)
     for figure in figures:
         (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
-    return WetPart(result, figures)
+    return WetPart(result, figures, theory)
 
 
-def print_wet(result: WetContactResult) -> None:
-    """Print liquid, menisci, friction and whether the force is steady."""
-    from ..report.wet import film_rows, wet_rows
+def print_wet(result: WetContactResult, theory: WetTheory | str) -> None:
+    """Print liquid, menisci, friction, the theory beside them and whether the force is steady."""
+    from ..report.wet import film_rows, theory_rows, wet_rows
     from .show import console, say, table
 
     console().print(table("Liquid film and menisci", [*film_rows(result), *wet_rows(result)]))
+    if rows := theory_rows(theory, result):
+        console().print(table("Statistical theory beside it", rows))
     say(result.status.message, "green" if result.converged else "bold red")
     if result.status.remedy:
         say(result.status.remedy, "red")

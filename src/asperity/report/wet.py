@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 
 from ..contact.wet_result import WET_SCALARS, WetContactResult
+from ..contact.wet_theory import HAMAKER, WetTheory, wet_theory
+from ..core.errors import InputError
 from ..core.units import percent, show
 from ..plots.figure import Figure
 from .inputs import Rows
@@ -26,12 +28,67 @@ REMARK = (
 """What the model takes for granted."""
 
 
+THEORY_REMARK = (
+    "Statistical theory of the summits of this surface: independent Hertz contacts, their heights by skewness and kurtosis (Kotwal "
+    "and Bhushan), each summit in the film pulled by the full force of a touching sphere (Gao, Tian and Bhushan). The map above counts the "
+    "area at the meniscus height instead, leaves out the contact, and lets the summits push each other: an estimate beside it."
+)
+"""What the theory of summits is, and why it differs."""
+
+
 @dataclass(frozen=True, eq=False)
 class WetPart:
-    """The part of a report on the liquid: the wet contact and its figures."""
+    """The part of a report on the liquid: the wet contact, its figures and what the ``theory`` of summits says of it.
+
+    Instead of the theory there may be the sentence that says why there is none.
+    """
 
     result: WetContactResult
     figures: tuple[Figure, ...] = ()
+    theory: WetTheory | str = ""
+
+
+def theory_beside(result: WetContactResult) -> WetTheory | str:
+    """Statistical and kinetic menisci for ``result``, or the sentence that says why there are none."""
+    try:
+        return wet_theory(result)
+    except InputError as error:
+        return str(error)
+
+
+def theory_rows(found: WetTheory | str, result: WetContactResult) -> Rows:
+    """Statistical and kinetic menisci beside the ``result`` on the map."""
+    if isinstance(found, str):
+        return [("no statistical theory", found)] if found else []
+    contact, load = found.statistical.contact, result.external_force
+    rows = [
+        ("summits", f"{found.summits} of radius {show(contact.radius, 'm', 3)}"),
+        ("standard deviation of their heights", show(contact.height_deviation, "m", 3)),
+        ("meniscus force", show(found.meniscus_force, "N")),
+        ("meniscus force / external force", f"{found.meniscus_force / load:.4g}"),
+        ("meniscus force / that of the map", _over(found.meniscus_force, result.meniscus_force)),
+        ("growth of the force with the load, dF/dL", f"{found.feedback:.3g}"),
+    ]
+    if result.dry_friction > 0.0:
+        friction = result.dry_friction * (1.0 + found.meniscus_force / load)
+        rows.append(("static friction coefficient", f"{friction:.4g}"))
+    if found.growth is None:
+        why = (
+            "not known without a viscosity"
+            if math.isnan(result.film.viscosity)
+            else "none: the film holds its liquid back"
+        )
+        return [*rows, ("growth of the menisci with time", why)]
+    grown = show(found.growth.time_to(0.99), "s", 3)
+    return [
+        *rows,
+        ("meniscus force just after contact", show(found.first_force, "N")),
+        ("menisci grow to 99 % within", f"{grown} (Hamaker constant {HAMAKER:g} J, assumed)"),
+    ]
+
+
+def _over(force: float, other: float) -> str:
+    return f"{force / other:.3g}" if other > 0.0 else "–"
 
 
 def film_rows(result: WetContactResult) -> Rows:

@@ -34,7 +34,7 @@ from .stress import (
     yield_table,
 )
 from .stress import setting_rows as stress_rows
-from .wet import REMARK, WetPart, film_rows, wet_rows, wet_sentence
+from .wet import REMARK, THEORY_REMARK, WetPart, film_rows, theory_rows, wet_rows, wet_sentence
 
 TEMPLATE = "report.html"
 """Template in the folder ``templates``."""
@@ -196,14 +196,21 @@ def _wet(part: WetPart) -> dict[str, Any]:
         "film": film_rows(part.result),
         "results": wet_rows(part.result),
         "remark": REMARK,
+        "theory": theory_rows(part.theory, part.result),
+        "theory_remark": "" if isinstance(part.theory, str) else THEORY_REMARK,
         "figures": [_shown(figure.title, figure.caption, figure.picture) for figure in part.figures],
     }
 
 
 def _citation_keys(page: _Page) -> tuple[str, ...]:
     stress = () if page.stress is None else page.stress.survey.citation_keys
-    wet = () if page.wet is None else page.wet.result.citation_keys
-    return tuple(dict.fromkeys((*page.result.citation_keys, *stress, *wet)))
+    return tuple(dict.fromkeys((*page.result.citation_keys, *stress, *_wet_citations(page.wet))))
+
+
+def _wet_citations(part: WetPart | None) -> tuple[str, ...]:
+    if part is None:
+        return ()
+    return (*part.result.citation_keys, *(() if isinstance(part.theory, str) else part.theory.citation_keys))
 
 
 def _provenance_rows(described: dict[str, Any]) -> Rows:

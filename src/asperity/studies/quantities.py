@@ -10,6 +10,7 @@ from operator import attrgetter
 
 from ..contact.result import SCALARS, ContactResult
 from ..contact.wet_result import WET_SCALARS, WetContactResult
+from ..contact.wet_theory import wet_theory
 from ..core.errors import InputError
 from ..io.build import Case
 from ..io.documents import ProblemDocument
@@ -49,6 +50,16 @@ def _of_menisci(name: str) -> Callable[[Solved], float]:
     return lambda solved: float(getattr(solved.wet, name))
 
 
+def _of_theory(solved: Solved) -> float:
+    """Meniscus force in N of the theory of summits; NaN where it has none."""
+    if solved.wet is None:
+        return math.nan
+    try:
+        return wet_theory(solved.wet).meniscus_force
+    except InputError:
+        return math.nan
+
+
 def _largest(parts: str, peak: str) -> Callable[[Solved], float]:
     """Largest value of the ``peak`` in all ``parts`` of the survey of stresses; NaN where there are none."""
     found = attrgetter(parts)
@@ -61,6 +72,14 @@ STIFFNESS = "normal_stiffness"
 MEASURES = (
     *(Measure(q.attribute, q.unit, q.label, _of_result(q.attribute), costly=q.attribute == STIFFNESS) for q in SCALARS),
     *(Measure(q.attribute, q.unit, q.label, _of_menisci(q.attribute), "film") for q in WET_SCALARS),
+    Measure(
+        "statistical_meniscus_force",
+        "N",
+        "meniscus force of the theory of summits",
+        _of_theory,
+        "film",
+        costly=True,
+    ),
     Measure("max_displacement", "m", "largest displacement", lambda solved: float(solved.result.displacement.max())),
     Measure(
         "rms_height", "m", "rms height of the profile", lambda solved: float(solved.result.problem.profile().std())

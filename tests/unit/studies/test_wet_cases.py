@@ -35,7 +35,7 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
     made = plan(
         problem=WET,
         axes=[{"path": "film.humidity", "values": humidities}],
-        quantities=["meniscus_force", "static_friction", "n_menisci"],
+        quantities=["meniscus_force", "static_friction", "n_menisci", "statistical_meniscus_force"],
     )
     carry_out(made, tmp_path / "r.log", InProcess())
     data = dataset(made, tmp_path / "r.log")
@@ -45,6 +45,8 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
         case = build(checked(replaced(WET, ("film", "humidity"), humidity)))
         alone = asp.solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver)
         assert float(data["meniscus_force"][number]) == alone.meniscus_force
+        theory = asp.wet_theory(alone).meniscus_force
+        assert float(data["statistical_meniscus_force"][number]) == pytest.approx(theory, rel=1e-12)
         assert float(data["static_friction"][number]) == pytest.approx(alone.static_friction, rel=1e-12)
 
 
