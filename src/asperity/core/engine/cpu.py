@@ -76,12 +76,12 @@ class CpuEngine:
         s = np.zeros((len(squares), 3 if cap is None else 7))
         kernels, alone = self.blocks.kernels, _small(p.size)
         if cap is None:
-            self.blocks.share(kernels.survey, len(s), *flat, ny, s, squares, alone=alone)
+            self.blocks.share(kernels.survey, len(s), *flat, ny, SIDE, s, squares, alone=alone)
             pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
             lowest = float(s[:, 2].min())
             totals = Totals(pressure, work, pressure, work, lowest, -np.inf, lowest)
         else:
-            self.blocks.share(kernels.survey_capped, len(s), *flat, bound(cap), ny, s, squares, alone=alone)
+            self.blocks.share(kernels.survey_capped, len(s), *flat, bound(cap), ny, SIDE, s, squares, alone=alone)
             pressure, work, weight, weighted = (float(v) for v in s[:, :4].sum(axis=0))
             bounds = float(s[:, 4].min()), float(s[:, 5].max()), float(s[:, 6].min())
             totals = Totals(pressure, work, weight, weighted, *bounds)
@@ -124,14 +124,14 @@ class CpuSurvey:
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
         if self.cap is None:
-            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, levels, mask, counts)
+            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, SIDE, levels, mask, counts)
         else:
-            self._share(kernels.mark_face, self.p, self.u, self.h, bound(self.cap), row, levels, mask, counts)
+            self._share(kernels.mark_face, self.p, self.u, self.h, bound(self.cap), row, SIDE, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
         index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=dtype)
-        self._share(kernels.fill_face, self.u, self.h, level, scale, row, mask, starts, index, residual)
+        self._share(kernels.fill_face, self.u, self.h, level, scale, SIDE // 8 * row, mask, starts, index, residual)
         return CpuFace(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:

@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from .neighbourhood import SIDE
-
 BLOCK = 1 << 14
 """Elements per block."""
 
@@ -33,8 +31,8 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def survey(span, p, u, h, row, sums, squares):  # type: ignore[no-untyped-def]
-    """Without a cap, per band of SIDE rows: sum p, sum p·r, min r; per square: number of loaded points, and their sum r.
+def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
+    """Without a cap, per band of ``side`` rows: sum p, sum p·r, min r; per square: number of loaded points, and their sum r.
 
     No branches: it vectorises.
     """
@@ -42,12 +40,12 @@ def survey(span, p, u, h, row, sums, squares):  # type: ignore[no-untyped-def]
         total = 0.0
         pr = 0.0
         lowest = np.inf
-        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
             for square in range(squares.shape[1]):
-                first = start + square * SIDE
+                first = start + square * side
                 loaded = 0.0
                 level = 0.0
-                for i in range(first, min(first + SIDE, start + row)):
+                for i in range(first, min(first + side, start + row)):
                     pi = np.float64(p[i])
                     ri = u[i] - np.float64(h[i])
                     carries = 1.0 if pi > 0.0 else 0.0
@@ -64,7 +62,7 @@ def survey(span, p, u, h, row, sums, squares):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def survey_capped(span, p, u, h, cap, row, sums, squares):  # type: ignore[no-untyped-def]
+def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Per band: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
 
     Per square: number of points with 0 < p < cap, and their sum r.
@@ -78,23 +76,25 @@ def survey_capped(span, p, u, h, cap, row, sums, squares):  # type: ignore[no-un
         lowest = np.inf
         highest_capped = -np.inf
         lowest_open = np.inf
-        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
-            for i in range(start, start + row):
-                pi = np.float64(p[i])
-                ri = np.float64(u[i]) - h[i]
-                lowest = min(lowest, ri)
-                if pi > 0.0:
-                    total += pi
-                    pr += pi * ri
-                    if pi >= cap[i * each]:
-                        highest_capped = max(highest_capped, ri)
+        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
+            for square in range(squares.shape[1]):
+                first = start + square * side
+                for i in range(first, min(first + side, start + row)):
+                    pi = np.float64(p[i])
+                    ri = np.float64(u[i]) - h[i]
+                    lowest = min(lowest, ri)
+                    if pi > 0.0:
+                        total += pi
+                        pr += pi * ri
+                        if pi >= cap[i * each]:
+                            highest_capped = max(highest_capped, ri)
+                        else:
+                            weight += pi
+                            weighted += pi * ri
+                            squares[band, square, 0] += 1.0
+                            squares[band, square, 1] += ri
                     else:
-                        weight += pi
-                        weighted += pi * ri
-                        squares[band, (i - start) // SIDE, 0] += 1.0
-                        squares[band, (i - start) // SIDE, 1] += ri
-                else:
-                    lowest_open = min(lowest_open, ri)
+                        lowest_open = min(lowest_open, ri)
         sums[band, 0] = total
         sums[band, 1] = pr
         sums[band, 2] = weight
@@ -141,16 +141,16 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 
 @compiled
-def mark_elastic(span, p, u, h, row, levels, mask, counts):  # type: ignore[no-untyped-def]
+def mark_elastic(span, p, u, h, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
     """``mark_face`` without a cap. Numbers of points are sums of floats, which vectorise."""
     for band in range(span[0], span[1]):
         members = 0.0
         loaded = 0.0
-        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
+        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
             for square in range(levels.shape[1]):
-                first = start + square * SIDE
+                first = start + square * side
                 level = levels[band, square]
-                for i in range(first, min(first + SIDE, start + row)):
+                for i in range(first, min(first + side, start + row)):
                     carries = 1.0 if p[i] > 0.0 else 0.0
                     member = 1.0 if u[i] - np.float64(h[i]) < level else carries
                     loaded += carries
@@ -161,7 +161,7 @@ def mark_elastic(span, p, u, h, row, levels, mask, counts):  # type: ignore[no-u
 
 
 @compiled
-def mark_face(span, p, u, h, cap, row, levels, mask, counts):  # type: ignore[no-untyped-def]
+def mark_face(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
     """Mask of the working set by the ``levels`` of squares; per band: number of its points, and of those entering it.
 
     Without branches: which points belong is as random as the surface, and a processor cannot guess it.
@@ -170,24 +170,25 @@ def mark_face(span, p, u, h, cap, row, levels, mask, counts):  # type: ignore[no
     for band in range(span[0], span[1]):
         members = 0
         entering = 0
-        for start in range(band * SIDE * row, min((band + 1) * SIDE * row, p.size), row):
-            for i in range(start, start + row):
-                gap = u[i] - np.float64(h[i]) - levels[band, (i - start) // SIDE]
-                open_ = np.uint8(p[i] <= 0.0)
-                full = np.uint8(p[i] >= cap[i * each])
-                enters = (open_ & np.uint8(gap < 0.0)) | (full & np.uint8(gap > 0.0))
-                mask[i] = enters | (np.uint8(1) - (open_ | full))
-                entering += int(enters)
-                members += int(mask[i])
+        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
+            for square in range(levels.shape[1]):
+                first = start + square * side
+                for i in range(first, min(first + side, start + row)):
+                    gap = u[i] - np.float64(h[i]) - levels[band, square]
+                    open_ = np.uint8(p[i] <= 0.0)
+                    full = np.uint8(p[i] >= cap[i * each])
+                    enters = (open_ & np.uint8(gap < 0.0)) | (full & np.uint8(gap > 0.0))
+                    mask[i] = enters | (np.uint8(1) - (open_ | full))
+                    entering += int(enters)
+                    members += int(mask[i])
         counts[band, 0] = members
         counts[band, 1] = entering
 
 
 @compiled
-def fill_face(span, u, h, level, scale, row, mask, starts, index, residual):  # type: ignore[no-untyped-def]
-    """Indices of the points of the mask in order, and (level - r) / scale there."""
+def fill_face(span, u, h, level, scale, length, mask, starts, index, residual):  # type: ignore[no-untyped-def]
+    """Indices of the points of the mask in order, and (level - r) / scale there; a band has ``length`` words of the mask."""
     words = mask.view(np.uint64)
-    length = SIDE // 8 * row  # of a band, in words
     for band in range(span[0], span[1]):
         k = starts[band]
         for word in range(band * length, min((band + 1) * length, words.size)):

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..arrays import RealArray
 
-SIDE = 64
-"""Points along the side of a square."""
+SIDE = 16
+"""Points along the side of a square, a multiple of 8. Stiff films bend over a few pixels: squares of 64 take three times the steps."""
 
 _PRIOR = 4.0
 """Loaded points that the mean over a larger square counts for in that of a smaller one."""
