@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-import asperity as asp
+from asperity.studies.campaign import prepare_study
+from asperity.studies.executors import Task, call
+from asperity.studies.run import carry_out
 
 if TYPE_CHECKING:
     import xarray
@@ -30,7 +32,9 @@ def ready(name: str, *, points: int, seeds: int) -> dict[str, Any]:
 def without(table: Mapping[str, Any], key: str) -> dict[str, Any]:
     """``table`` without the table ``key`` of its problem; quantities of menisci go with the film."""
     problem = {name: value for name, value in table["problem"].items() if name != key}
-    kept = [name for name in table["quantities"] if key != "film" or name not in ("relative_meniscus_force", "feedback")]
+    kept = [
+        name for name in table["quantities"] if key != "film" or name not in ("relative_meniscus_force", "feedback")
+    ]
     return {**table, "problem": problem, "quantities": kept}
 
 
@@ -40,7 +44,17 @@ def axis(table: Mapping[str, Any], name: str) -> dict[str, Any]:
     return found
 
 
+class _Here:
+    """Executor that does everything in this process."""
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any]]:
+        for task in tasks:
+            yield task, call(function, task)
+
+
 def results(table: Mapping[str, Any]) -> xarray.Dataset:
     """Results of the study ``table``, by the names of its axes."""
     with TemporaryDirectory() as folder:
-        return asp.run_study(table, Path(folder) / "study").dataset().load()
+        campaign = prepare_study(table, Path(folder) / "study")
+        carry_out(campaign.plan, campaign.records, _Here())
+        return campaign.dataset().load()

@@ -22,7 +22,15 @@ def finished(name: str, tmp_path: Path):
 
 
 def test_every_ready_study_is_tested_here():
-    assert {path.stem for path in FOLDER.glob("*.toml")} == {"coating_thickness", "area_against_load"}
+    assert {path.stem for path in FOLDER.glob("*.toml")} == {
+        "coating_thickness",
+        "area_against_load",
+        "head_disk_interface",
+        "carbon_on_silicon",
+        "load_dependence",
+        "layer_thickness",
+        "normalised_laws",
+    }
 
 
 def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
