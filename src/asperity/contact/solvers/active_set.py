@@ -18,7 +18,7 @@ from .steepest_descent import descend, levelling_step
 from .workspace import Workspace, workspace
 
 _COARSE_ITERATIONS = 30
-_POOR = 0.2
+_POOR = 0.5
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 14
 _SETTLING_STEPS = 8
