@@ -14,6 +14,13 @@ from ..core.arrays import RealArray
 from .hertz import hertz_profile
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, checked, small_slope
+from .ways import Column
+
+ADHESION = (
+    Column("pull_off", "N", "force that separates the bodies"),
+    Column("tabor", "", "Tabor's parameter: JKR for large, DMT for small values"),
+)
+"""What adhesive spheres tell without a load."""
 
 
 def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -> float:
@@ -64,6 +71,7 @@ class JKR:
         Input("work", "J/m^2", "work of adhesion"),
         Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
     )
+    numbers: ClassVar[tuple[Column, ...]] = ADHESION
 
     def __post_init__(self) -> None:
         self.tabor  # noqa: B018 - checks all values
@@ -207,6 +215,7 @@ class DMT:
         Input("work", "J/m^2", "work of adhesion"),
         Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
     )
+    numbers: ClassVar[tuple[Column, ...]] = ADHESION
 
     def __post_init__(self) -> None:
         self.tabor  # noqa: B018 - checks all values

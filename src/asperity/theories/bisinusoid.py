@@ -18,6 +18,7 @@ from ..core.errors import InputError
 from .hertz import HertzPoint
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .single_contact import checked, small_slope
+from .ways import Column
 
 LOW_LOAD, HIGH_LOAD = 0.02, 0.95
 """p̄/p* up to which the area of Hertz is low by less than 5 %, and from which that of full contact is right to 0.05 %."""
@@ -49,6 +50,9 @@ class CrossedWaves:
         E_STAR,
         Input("amplitude", "m", "amplitude of the wave"),
         Input("wavelength", "m", "wavelength"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
 
     def __post_init__(self) -> None:
@@ -92,9 +96,9 @@ class CrossedWaves:
         q = 2.0 * np.pi / self.wavelength
         return np.asarray(p + 0.5 * full * (np.cos(q * np.asarray(x)) + np.cos(q * np.asarray(y))))
 
-    def at_pressure(self, mean_pressure: ArrayLike) -> Prediction:
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, positive: the area, NaN where neither end of the load is near."""
-        p = curve(mean_pressure, "mean pressures (Pa)", positive=True)
+        p = curve(pressure, "mean pressures (Pa)", positive=True)
         share = p / self.full_contact_pressure
         between = np.where(share >= HIGH_LOAD, self.area_fraction_at_high_load(p), np.nan)
         return prediction(p, area_fraction=np.where(share <= LOW_LOAD, self.area_fraction_at_low_load(p), between))

@@ -1,14 +1,20 @@
-"""All theories by name. A new theory is one more line."""
+"""All theories by name, in families. A new theory is one more line."""
 
 from __future__ import annotations
 
-from ..core import require
+import difflib
+from types import MappingProxyType
+
+from ..core.errors import InputError
 from .adhesive_sphere import DMT, JKR
 from .anisotropic_summits import AnisotropicSummits
 from .bisinusoid import CrossedWaves
 from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
 from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
+from .cone import Cone, Wedge
+from .design_guidance import LeastArea
 from .discrete_summits import DiscreteSummits
+from .effective_hardness import EffectiveHardness
 from .fuller_tabor import FullerTabor
 from .greenwood_tripp import GreenwoodTripp
 from .greenwood_williamson import GreenwoodWilliamson
@@ -16,6 +22,7 @@ from .greenwood_williamson_fits import FittedGreenwoodWilliamson
 from .hertz import HertzPoint
 from .hertz_ellipse import HertzEllipse
 from .hertz_line import HertzLine
+from .hertz_stress import HertzEllipseStress, HertzLineStress, HertzStress
 from .identical_asperities import IdenticalAsperities
 from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
 from .interacting_crests import InteractingCrests
@@ -27,53 +34,82 @@ from .majumdar_bhushan import MajumdarBhushan
 from .maugis import MaugisDugdale
 from .mccool import McCool
 from .mindlin import MindlinLine, MindlinPoint
+from .nayak import NayakSummits
+from .oliver_pharr import OliverPharr
 from .onions_archard import OnionsArchard
 from .persson import Persson
+from .plasticity import PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
 from .sinusoidal_asperity import SinusoidalAsperity
+from .sliding_yield import CylinderYield, SphereYield
+from .surface_forces import Boussinesq, Cerruti, Flamant, Strip
 from .wavy import Westergaard
+from .wet_summits import GrowingMenisci, WetSummits
+from .whitehouse_archard import SampledPeaks
 
-_CLASSES: tuple[type[Described], ...] = (
-    GreenwoodWilliamson,
-    FittedGreenwoodWilliamson,
-    KotwalBhushan,
-    ChangEtsionBogy,
-    KogutEtsion,
-    JacksonGreen,
-    FullerTabor,
-    IdenticalAsperities,
-    DiscreteSummits,
-    InteractingCrests,
-    GreenwoodTripp,
-    McCool,
-    OnionsArchard,
-    BushGibsonThomas,
-    GreenwoodElliptic,
-    AnisotropicSummits,
-    MajumdarBhushan,
-    Persson,
-    HertzPoint,
-    HertzLine,
-    HertzEllipse,
-    PowerLawIndenter,
-    FlatPunch,
-    SphericalIndenter,
-    LinePowerLawIndenter,
-    LineFlatPunch,
-    Westergaard,
-    CrossedWaves,
-    MindlinPoint,
-    MindlinLine,
-    JKR,
-    DMT,
-    MaugisDugdale,
-    ChangEtsionBogySphere,
-    KogutEtsionSphere,
-    JacksonGreenSphere,
-    SinusoidalAsperity,
+FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
+    {
+        "Rough surfaces": (
+            GreenwoodWilliamson,
+            FittedGreenwoodWilliamson,
+            KotwalBhushan,
+            ChangEtsionBogy,
+            KogutEtsion,
+            JacksonGreen,
+            FullerTabor,
+            IdenticalAsperities,
+            DiscreteSummits,
+            InteractingCrests,
+            GreenwoodTripp,
+            McCool,
+            OnionsArchard,
+            BushGibsonThomas,
+            GreenwoodElliptic,
+            AnisotropicSummits,
+            MajumdarBhushan,
+            Persson,
+        ),
+        "Waves": (Westergaard, CrossedWaves),
+        "One contact": (
+            HertzPoint,
+            HertzLine,
+            HertzEllipse,
+            PowerLawIndenter,
+            Cone,
+            FlatPunch,
+            SphericalIndenter,
+            LinePowerLawIndenter,
+            Wedge,
+            LineFlatPunch,
+            MindlinPoint,
+            MindlinLine,
+            JKR,
+            DMT,
+            MaugisDugdale,
+            ChangEtsionBogySphere,
+            KogutEtsionSphere,
+            JacksonGreenSphere,
+            SinusoidalAsperity,
+        ),
+        "Below the surface": (
+            HertzStress,
+            HertzLineStress,
+            HertzEllipseStress,
+            SphereYield,
+            CylinderYield,
+            Boussinesq,
+            Cerruti,
+            Flamant,
+            Strip,
+        ),
+        "Statistics of surfaces": (NayakSummits, SampledPeaks),
+        "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
+        "Menisci": (WetSummits, GrowingMenisci),
+    }
 )
+"""Theories by what they are about."""
 
-THEORIES: dict[str, type[Described]] = {theory.name: theory for theory in _CLASSES}
+THEORIES: dict[str, type[Described]] = {theory.name: theory for family in FAMILIES.values() for theory in family}
 """Class of each theory by its name."""
 
 
@@ -83,6 +119,27 @@ def theory(name: str) -> type[Described]:
     Raises
     ------
     InputError
-        If there is no such theory.
+        If there is no such theory; the message names those most like it.
     """
-    return THEORIES[require.one_of(name, THEORIES, "name of a theory")]
+    if name not in THEORIES:
+        near = nearest(name)
+        like = f"Did you mean {' or '.join(near)}?" if near else f"They are {', '.join(THEORIES)}."
+        raise InputError(f"name of a theory must be one of the catalogue, but is {name!r}. {like}")
+    return THEORIES[name]
+
+
+def nearest(name: str) -> list[str]:
+    """Up to three names of theories that ``name`` may mean: misspelt, a part, initials, or the name of the class."""
+    word = name.lower().replace("_", "-").replace(" ", "-")
+    squeezed = word.replace("-", "")
+    found = [
+        known
+        for known, kind in THEORIES.items()
+        if word and (word in known or squeezed in (_initials(known), kind.__name__.lower()))
+    ]
+    found += difflib.get_close_matches(word, THEORIES, n=3, cutoff=0.6)
+    return list(dict.fromkeys(found))[:3]
+
+
+def _initials(name: str) -> str:
+    return "".join(part[0] for part in name.split("-"))

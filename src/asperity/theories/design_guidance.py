@@ -6,7 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from ..core import require
+from ..core.arrays import RealArray
+from .protocol import Input, curve
+from .ways import PRESSURE, Column, Way, asked
 
 ELASTIC_INDEX = 0.6
 """Plasticity index ψ = (E*/H) sqrt(σ_s/R) below which a Gaussian rough contact is elastic at any realistic load."""
@@ -16,6 +22,22 @@ ELASTIC_PROFILE_INDEX = 0.25
 
 AREA_FACTOR = 3.2
 """A_r/A_a = 3.2 p_a/(E* sqrt(σ_s/R)), within 10 % for 1e-4 <= p_a/(η R σ_s E* sqrt(σ_s/R)) <= 1e-2."""
+
+
+@dataclass(frozen=True, eq=False)
+class RoughnessFor:
+    """Largest ratios for contact moduli (n,): ``summit_ratio`` σ_s/R and ``profile_ratio`` σ/β*."""
+
+    summit_ratio: RealArray
+    profile_ratio: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class LeastAreas:
+    """Real over nominal area at pressures (n,): ``elastic`` of the designed surface, ``plastic`` if everything flowed."""
+
+    elastic: RealArray
+    plastic: RealArray
 
 
 @dataclass(frozen=True)
@@ -43,7 +65,34 @@ class LeastArea:
 
     hardness: float
     plasticity_index: float = ELASTIC_INDEX
+    name: ClassVar[str] = "least-area"
+    title: ClassVar[str] = "Design for the least area without plasticity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1984", "Bhushan1998", "Greenwood1966", "Onions1973")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("hardness", "Pa", "hardness of the softer solid", of="bodies"),
+        Input("plasticity_index", "", "plasticity index that is still elastic", of="choice", default=ELASTIC_INDEX),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("mean_real_pressure", "Pa", "real pressure of the designed surface"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            PRESSURE,
+            "at_pressure",
+            (
+                Column("elastic", "", "real per nominal area of the designed surface"),
+                Column("plastic", "", "real per nominal area if everything flowed"),
+            ),
+        ),
+        Way(
+            asked("E_star", "Pa", "contact modulus"),
+            "at_modulus",
+            (
+                Column("summit_ratio", "", "largest height deviation over radius of the summits"),
+                Column("profile_ratio", "", "largest rms height over correlation length"),
+            ),
+        ),
+    )
 
     def __post_init__(self) -> None:
         require.positive(self.hardness, "hardness (Pa)")
@@ -66,6 +115,18 @@ class LeastArea:
         """
         modulus = require.positive(E_star, "contact modulus E* (Pa)")
         return require.positive(index, "plasticity index of a profile") * self.hardness / modulus
+
+    def at_modulus(self, E_star: ArrayLike) -> RoughnessFor:
+        """Largest roughness for the contact moduli ``E_star`` (n,) in Pa."""
+        moduli = curve(E_star, "contact moduli E* (Pa)", positive=True)
+        summit = np.array([self.summit_ratio(float(modulus)) for modulus in moduli])
+        return RoughnessFor(summit, np.array([self.profile_ratio(float(modulus)) for modulus in moduli]))
+
+    def at_pressure(self, pressure: ArrayLike) -> LeastAreas:
+        """Areas at nominal pressures (n,) in Pa, positive."""
+        pressures = curve(pressure, "pressures (Pa)", positive=True)
+        elastic = np.array([self.area_fraction(float(p)) for p in pressures])
+        return LeastAreas(elastic, np.array([self.plastic_area_fraction(float(p)) for p in pressures]))
 
     @property
     def mean_real_pressure(self) -> float:

@@ -11,6 +11,16 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from .protocol import Input
+from .ways import Column, Way, asked
+
+
+@dataclass(frozen=True, eq=False)
+class HardnessAnswer:
+    """``hardness`` in Pa and ``film_share`` of it, (n,)."""
+
+    hardness: RealArray
+    film_share: RealArray
 
 
 @dataclass(frozen=True)
@@ -49,7 +59,31 @@ class EffectiveHardness:
     substrate: float
     modulus_ratio: float
     yield_ratio: float | None = None
+    name: ClassVar[str] = "effective-hardness"
+    title: ClassVar[str] = "Effective hardness of a film on a substrate"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhattacharya1988", "Peng2001")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("film", "Pa", "hardness of the film", of="bodies"),
+        Input("substrate", "Pa", "hardness of the substrate", of="bodies"),
+        Input("modulus_ratio", "", "Young's modulus of the film over that of the substrate", of="bodies"),
+        Input(
+            "yield_ratio",
+            "",
+            "yield stress of film over substrate; that of the hardnesses by default",
+            of="bodies",
+            optional=True,
+        ),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("depth_ratio", "", "depth of the indentation over the thickness of the film"),
+            "at_depth_ratio",
+            (
+                Column("hardness", "Pa", "hardness that the indenter meets"),
+                Column("film_share", "", "weight of the film, from one down to zero"),
+            ),
+        ),
+    )
 
     def __post_init__(self) -> None:
         require.positive(self.film, "hardness of the film (Pa)")
@@ -68,6 +102,10 @@ class EffectiveHardness:
         """
         value: RealArray = self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
         return value
+
+    def at_depth_ratio(self, depth_ratio: ArrayLike) -> HardnessAnswer:
+        """Hardness and share of the film at h_c/h = ``depth_ratio`` (any shape, >= 0)."""
+        return HardnessAnswer(self.at(depth_ratio), self.film_share(depth_ratio))
 
     def film_share(self, depth_ratio: ArrayLike) -> RealArray:
         """Weight (H_e - H2)/(H1 - H2) of the film at h_c/h = ``depth_ratio`` (any shape, >= 0), from one down to zero."""

@@ -17,6 +17,7 @@ from .limits import area_limit, blunt_summits, constant_limit
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .roughness import Roughness
 from .single_contact import bisected
+from .ways import Column
 
 _NODES = 96  # over the 18 standard deviations that matter; 64 leave 1e-12
 _SIGMAS = 9.0
@@ -78,6 +79,9 @@ class FullerTabor:
         Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
         Input("parting", "", "way", of="choice", default=True, choices=(("parting", True), ("approaching", False))),
         Input("spacing", "m", "equilibrium spacing of the surfaces", of="bodies", default=0.3e-9),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("theta", "", "adhesion parameter: roughness wins for large values"),
     )
 
     def __post_init__(self) -> None:

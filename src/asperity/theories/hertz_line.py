@@ -13,6 +13,7 @@ from ..core.arrays import RealArray
 from .hertz import hertz_profile
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, checked, small_slope
+from .ways import LINE_LOAD, Way
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class HertzLine:
         E_STAR,
         Input("radius", "m", "relative radius of curvature"),
     )
+    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def __post_init__(self) -> None:
         require.positive(self.E_star, "contact modulus E_star (Pa)")

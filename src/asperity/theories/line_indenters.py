@@ -14,6 +14,7 @@ from ..core.arrays import RealArray
 from .indenters import convex, power_integral
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, checked, small_slope
+from .ways import LINE_LOAD, Way
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,7 @@ class LinePowerLawIndenter:
         Input("coefficient", "m^(1-n)", "B of the profile B |x|^n"),
         Input("exponent", "", "n of the profile"),
     )
+    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def __post_init__(self) -> None:
         require.positive(self.E_star, "contact modulus E_star (Pa)")
@@ -119,6 +121,7 @@ class LineFlatPunch:
         E_STAR,
         Input("half_width", "m", "half the width of the punch"),
     )
+    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def __post_init__(self) -> None:
         require.positive(self.E_star, "contact modulus E_star (Pa)")

@@ -12,6 +12,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from .protocol import E_STAR, Input, Limit
 from .single_contact import ContactAnswer, bisected, checked, small_slope
+from .ways import Column
 
 LENNARD_JONES = 1.157
 """λ/μ_T if the attraction is the largest of a Lennard-Jones surface, 16w/(9√3 z0)."""
@@ -107,6 +108,10 @@ class MaugisDugdale:
         Input("radius", "m", "relative radius of curvature"),
         Input("work", "J/m^2", "work of adhesion"),
         Input("attraction", "Pa", "attractive stress"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("pull_off", "N", "force that separates the bodies"),
+        Column("transition", "", "parameter λ: DMT for small, JKR for large values"),
     )
 
     def __post_init__(self) -> None:

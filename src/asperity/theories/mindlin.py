@@ -19,13 +19,23 @@ from ..core.errors import InputError
 from .hertz import HertzPoint
 from .hertz_line import HertzLine
 from .protocol import E_STAR, Input, Limit
-from .single_contact import checked
+from .single_contact import ContactAnswer, checked
+from .ways import Column, Way, asked
 
 
 def tangential_modulus(shear_0: float, nu_0: float, shear_1: float, nu_1: float) -> float:
     """G* in Pa, 1/G* = (2 - ν0)/4G0 + (2 - ν1)/4G1, from shear moduli (Pa) and Poisson's ratios of both bodies."""
     parts = [(shear_0, nu_0), (shear_1, nu_1)]
     return 1.0 / sum((2.0 - nu) / (4.0 * require.positive(G, "shear modulus (Pa)")) for G, nu in parts)
+
+
+SLIP = (
+    Column("normal.radius", "m", "radius (half-width) of the contact"),
+    Column("stick_radius", "m", "radius (half-width) of the stick zone"),
+    Column("displacement", "m", "tangential displacement of distant points"),
+    Column("stiffness", "N/m", "derivative of the tangential force by it"),
+)
+"""What a contact under a tangential force answers; the first two in plane strain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,11 +50,14 @@ class SlipAnswer:
         Tangential displacement of distant points relative to each other in m; NaN in plane strain.
     stiffness
         Derivative of the tangential force by that displacement in N/m; NaN in plane strain.
+    normal
+        The contact under the load alone.
     """
 
     stick_radius: RealArray
     displacement: RealArray
     stiffness: RealArray
+    normal: ContactAnswer
 
 
 @dataclass(frozen=True)
@@ -76,6 +89,9 @@ class MindlinPoint:
         Input("G_star", "Pa", "tangential modulus G*", of="bodies"),
         Input("friction", "", "friction coefficient"),
     )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(asked("tangential", "N", "tangential force"), "at_load", SLIP, (asked("load", "N", "normal force"),)),
+    )
 
     def __post_init__(self) -> None:
         self.normal  # noqa: B018 - checks modulus and radius
@@ -95,19 +111,20 @@ class MindlinPoint:
         InputError
             If Q exceeds the limit of friction.
         """
-        a = float(self.normal.at_load(require.positive(load, "load (N)")).radius)
+        normal = self.normal.at_load(require.positive(load, "load (N)"))
+        a = float(normal.radius)
         c = a * np.cbrt(_sticking(tangential, self.friction * load))
         ratio = self.E_star / self.G_star
         displacement = self.friction * ratio * (a - c) * (a + c) / self.radius
-        return SlipAnswer(c, displacement, 2.0 * self.G_star * c)
+        return SlipAnswer(c, displacement, 2.0 * self.G_star * c, normal)
 
     def traction(self, r: ArrayLike, load: float, tangential: float) -> RealArray:
         """Shear traction q in Pa at the distance ``r`` in m (any shape) from the axis."""
         return _difference(self.normal, r, load, tangential, self.friction)
 
-    def validity(self, load: ArrayLike) -> tuple[Limit, ...]:
-        """Conditions of the normal contact under ``load``."""
-        return self.normal.validity(self.normal.at_load(load))
+    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
+        """Conditions of the normal contact."""
+        return self.normal.validity(answer.normal)
 
 
 @dataclass(frozen=True)
@@ -135,6 +152,14 @@ class MindlinLine:
         Input("radius", "m", "relative radius of curvature"),
         Input("friction", "", "friction coefficient"),
     )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("tangential", "N/m", "tangential force per length"),
+            "at_load",
+            SLIP[:2],
+            (asked("load", "N/m", "normal force per length"),),
+        ),
+    )
 
     def __post_init__(self) -> None:
         self.normal  # noqa: B018 - checks modulus and radius
@@ -147,10 +172,11 @@ class MindlinLine:
 
     def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
         """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any shape."""
-        a = float(self.normal.at_load(require.positive(load, "load per length (N/m)")).radius)
+        normal = self.normal.at_load(require.positive(load, "load per length (N/m)"))
+        a = float(normal.radius)
         c = a * np.sqrt(_sticking(tangential, self.friction * load))
         unknown = np.full_like(c, np.nan)
-        return SlipAnswer(c, unknown, unknown)
+        return SlipAnswer(c, unknown, unknown, normal)
 
     def traction(self, x: ArrayLike, load: float, tangential: float) -> RealArray:
         """Shear traction q in Pa at the distance ``x`` in m (any shape) from the middle."""
@@ -174,9 +200,9 @@ class MindlinLine:
             )
         return shift
 
-    def validity(self, load: ArrayLike) -> tuple[Limit, ...]:
-        """Conditions of the normal contact under ``load``."""
-        return self.normal.validity(self.normal.at_load(load))
+    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
+        """Conditions of the normal contact."""
+        return self.normal.validity(answer.normal)
 
 
 def _sticking(tangential: ArrayLike, limit: float) -> RealArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from .protocol import Input
+from .roughness import Roughness
+from .ways import Column, Way, asked
 
 GEOMETRIC_CURVATURE = 1.35621131344399
 """<sqrt(κ1 κ2)>/sqrt(m4) over all summits, by quadrature of (t² - u)^(3/2) e^(-u) φ(t)."""
@@ -21,6 +24,14 @@ NARROWEST = 1.5
 
 ROUNDING = 1e-9
 """Share by which α of a computed narrow spectrum may lie below 1.5."""
+
+
+@dataclass(frozen=True, eq=False)
+class SummitsAt:
+    """Summits at heights (n,): ``probability`` density in 1/m, ``curvature`` the mean of κ in 1/m."""
+
+    probability: RealArray
+    curvature: RealArray
 
 
 @dataclass(frozen=True)
@@ -45,7 +56,36 @@ class NayakSummits:
     m0: float
     m2: float
     m4: float
+    name: ClassVar[str] = "nayak"
+    title: ClassVar[str] = "Nayak, summits of a Gaussian surface"
     citation_keys: ClassVar[tuple[str, ...]] = ("LonguetHiggins1957", "McCool1986", "Nayak1971")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("m0", "m^2", "mean square height"),
+        Input("m2", "", "mean square slope of a profile"),
+        Input("m4", "1/m^2", "mean square second derivative of a profile"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("alpha", "", "bandwidth m0 m4/m2²"),
+        Column("density", "1/m^2", "summits per area"),
+        Column("mean_height", "m", "mean height of the summits above the mean plane"),
+        Column("height_deviation", "m", "standard deviation of the summit heights"),
+        Column("height_skewness", "", "skewness of the summit heights"),
+        Column("height_kurtosis", "", "kurtosis of the summit heights"),
+        Column("radius", "m", "1/<κ>, κ the mean curvature"),
+        Column("mean_curvature", "1/m", "mean of κ"),
+        Column("curvature_deviation", "1/m", "standard deviation of κ"),
+        Column("height_curvature_correlation", "", "correlation of height and κ"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("height", "m", "height above the mean plane"),
+            "at_height",
+            (
+                Column("probability", "1/m", "probability density of the summit heights"),
+                Column("curvature", "1/m", "mean of κ over the summits of this height"),
+            ),
+        ),
+    )
 
     def __post_init__(self) -> None:
         require.positive(self.m0, "moment m0 (m^2)")
@@ -56,6 +96,11 @@ class NayakSummits:
                 f"moments of an isotropic surface must have m0 m4/m2^2 >= 1.5, but have {self.alpha:.6g}. "
                 "Finite differences on a coarse grid or an anisotropic surface can give less."
             )
+
+    @classmethod
+    def of_roughness(cls, roughness: Roughness) -> Self:
+        """Summits of a Gaussian surface with the moments of ``roughness``."""
+        return cls(roughness.m0, roughness.m2, roughness.m4)
 
     @property
     def alpha(self) -> float:
@@ -130,6 +175,10 @@ class NayakSummits:
         xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
         values: RealArray = self._curvature_unit * self._partial_moment(xi, 1) / self._partial_moment(xi, 0)
         return values
+
+    def at_height(self, height: ArrayLike) -> SummitsAt:
+        """Summits at ``height`` in m (any shape)."""
+        return SummitsAt(self.height_density(height), self.mean_curvature_at(height))
 
     @property
     def _curvature_unit(self) -> float:

@@ -8,6 +8,8 @@ from typing import ClassVar
 
 from ..core import require
 from ..core.errors import InputError
+from .protocol import Input
+from .ways import Column
 
 CONE, PARABOLOID, PUNCH = 0.72, 0.75, 1.0
 """ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the paraboloid."""
@@ -44,7 +46,22 @@ class OliverPharr:
     stiffness: float
     shape: float = PARABOLOID
     area_factor: float = BERKOVICH
+    name: ClassVar[str] = "oliver-pharr"
+    title: ClassVar[str] = "Oliver-Pharr, hardness and modulus from unloading"
     citation_keys: ClassVar[tuple[str, ...]] = ("Oliver1992",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("load", "N", "peak load", of="bodies"),
+        Input("depth", "m", "depth at peak load", of="bodies"),
+        Input("stiffness", "N/m", "slope of the unloading curve at its start", of="bodies"),
+        Input("shape", "", "ε: 0.72 cone, 0.75 paraboloid and Berkovich, 1 punch", of="bodies", default=PARABOLOID),
+        Input("area_factor", "", "area over contact depth squared", of="bodies", default=BERKOVICH),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("hardness", "Pa", "hardness"),
+        Column("contact_modulus", "Pa", "reduced modulus of indenter and body"),
+        Column("contact_depth", "m", "depth of the contact"),
+        Column("area", "m^2", "area of the contact"),
+    )
 
     def __post_init__(self) -> None:
         require.positive(self.load, "peak load (N)")

@@ -38,6 +38,8 @@ class Input:
         Words that name the allowed values, each with its value; empty for numbers.
     many
         Whether it is an array of numbers.
+    optional
+        Whether it may be left out although its default is None.
     """
 
     name: str
@@ -47,6 +49,12 @@ class Input:
     default: Any = None
     choices: tuple[tuple[str, Any], ...] = ()
     many: bool = False
+    optional: bool = False
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return self.default is None and not self.optional
 
 
 E_STAR = Input("E_star", "Pa", "contact modulus E*, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2", of="bodies")

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
@@ -19,7 +20,9 @@ from ..core.deviator import second_invariant
 from ..core.tensor import StressTensor
 from .hertz_fields import hertz_normal, hertz_shear
 from .hertz_line_fields import hertz_line_normal, hertz_line_shear
+from .protocol import Input, curve
 from .single_contact import poissons_ratio
+from .ways import Column, Way, asked
 
 _ROUNDS = 14  # of refinement by 5 each: past the square root of the rounding, which the place of a maximum is known to
 
@@ -58,6 +61,85 @@ class YieldOnset:
     def at_surface(self) -> bool:
         """Whether yield starts on the surface."""
         return self.z == 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class OnsetCurve:
+    """First yield at friction coefficients (n,): see ``YieldOnset``."""
+
+    peak_over_Y: RealArray
+    peak_over_k: RealArray
+    x: RealArray
+    z: RealArray
+
+    @classmethod
+    def of(cls, onsets: list[YieldOnset]) -> OnsetCurve:
+        """The curve through ``onsets``."""
+        names = ("peak_over_Y", "peak_over_k", "x", "z")
+        return cls(*(np.array([getattr(onset, name) for onset in onsets]) for name in names))
+
+
+ONSET: tuple[Way, ...] = (
+    Way(
+        asked("friction", "", "friction coefficient"),
+        "at_friction",
+        (
+            Column("peak_over_Y", "", "peak pressure at first yield over the tensile yield stress"),
+            Column("peak_over_k", "", "peak pressure at first yield over the yield stress in shear"),
+            Column("x", "", "place along the sliding direction in contact radii"),
+            Column("z", "", "depth in contact radii; 0 is the surface"),
+        ),
+    ),
+)
+YIELDING = (Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),)
+
+
+@dataclass(frozen=True)
+class SphereYield:
+    """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion.
+
+    Parameters
+    ----------
+    nu
+        Poisson's ratio, 0 to 0.5.
+    """
+
+    nu: float = 0.3
+    name: ClassVar[str] = "first-yield"
+    title: ClassVar[str] = "First yield below a sphere, with friction"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Hamilton1983", "Johnson1985")
+    inputs: ClassVar[tuple[Input, ...]] = YIELDING
+    ways: ClassVar[tuple[Way, ...]] = ONSET
+
+    def __post_init__(self) -> None:
+        poissons_ratio(self.nu)
+
+    def at_friction(self, friction: ArrayLike) -> OnsetCurve:
+        """First yield at friction coefficients (n,), >= 0."""
+        return OnsetCurve.of(
+            [sphere_yield_onset(self.nu, float(mu)) for mu in curve(friction, "friction coefficients")]
+        )
+
+
+@dataclass(frozen=True)
+class CylinderYield:
+    """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``."""
+
+    nu: float = 0.3
+    name: ClassVar[str] = "first-yield-line"
+    title: ClassVar[str] = "First yield below a cylinder, with friction"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "McEwen1949")
+    inputs: ClassVar[tuple[Input, ...]] = YIELDING
+    ways: ClassVar[tuple[Way, ...]] = ONSET
+
+    def __post_init__(self) -> None:
+        poissons_ratio(self.nu)
+
+    def at_friction(self, friction: ArrayLike) -> OnsetCurve:
+        """First yield at friction coefficients (n,), >= 0."""
+        return OnsetCurve.of(
+            [cylinder_yield_onset(self.nu, float(mu)) for mu in curve(friction, "friction coefficients")]
+        )
 
 
 def sphere_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:

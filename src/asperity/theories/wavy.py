@@ -12,6 +12,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .single_contact import checked, small_slope
+from .ways import Column
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,9 @@ class Westergaard:
         E_STAR,
         Input("amplitude", "m", "amplitude of the wave"),
         Input("wavelength", "m", "wavelength"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
 
     def __post_init__(self) -> None:
@@ -96,9 +100,9 @@ class Westergaard:
         open_ = np.maximum(p / full - np.sin(psi) ** 2, 0.0)
         return np.asarray(2.0 * full * np.abs(np.cos(psi)) * np.sqrt(open_))
 
-    def at_pressure(self, mean_pressure: ArrayLike) -> Prediction:
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of the mean planes."""
-        p = curve(mean_pressure, "mean pressures (Pa)", positive=True)
+        p = curve(pressure, "mean pressures (Pa)", positive=True)
         gap = self.mean_gap(p)
         return prediction(
             p, area_fraction=self.area_fraction(p), separation=gap, mean_gap=gap, stiffness=self.stiffness(p)

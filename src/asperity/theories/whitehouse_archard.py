@@ -8,6 +8,8 @@ from typing import ClassVar
 
 from ..core import require
 from ..core.errors import InputError
+from .protocol import Input
+from .ways import Column
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,22 @@ class SampledPeaks:
 
     rho_1: float
     rho_2: float
+    name: ClassVar[str] = "sampled-peaks"
+    title: ClassVar[str] = "Whitehouse-Archard, peaks of a sampled profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Whitehouse1970", "Whitehouse1978")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("rho_1", "", "correlation of neighbouring points"),
+        Input("rho_2", "", "correlation of next neighbours"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("fraction", "", "peaks per point"),
+        Column("mean_height", "", "mean height of the peaks in rms heights"),
+        Column("height_deviation", "", "standard deviation of their heights in rms heights"),
+        Column("mean_curvature", "", "mean curvature of the peaks in rms heights per squared interval"),
+        Column("curvature_deviation", "", "standard deviation of their curvature in the same unit"),
+        Column("height_curvature_correlation", "", "correlation of height and curvature"),
+        Column("zero_crossings", "", "crossings of the mean line per point"),
+    )
 
     def __post_init__(self) -> None:
         require.between(self.rho_1, -1.0, 1.0, "correlation of neighbours")
