@@ -54,12 +54,13 @@ def info(
     from ..surfaces.characterise.summary import characterise
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
+    from .reading import level_of, read_surface
     from .show import console
 
     _check(answer)
     radius = None if answer.tip_radius is None else parse(answer.tip_radius, "length", "--tip-radius")
-    surface = _read(file, reading)
-    level = answer.level if answer.level != "auto" else "mean" if surface.periodic else "plane"
+    surface = read_surface(file, reading)
+    level = level_of(surface, answer.level)
     found, flat = channels(file), levelled(surface, int(level) if level.isdigit() else level)
     whole = characterise(flat, tip_radius=radius) if answer.full or answer.report or answer.plots else None
     shown = whole if answer.full else None
@@ -87,19 +88,6 @@ def _check(answer: AnswerOptions) -> None:
             kind = suffix[1:].upper()
             raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
         require_new_file(path, overwrite=answer.force)
-
-
-def _read(file: Path, reading: ReadingOptions) -> Surface:
-    from ..core.units import parse, parse_size
-    from ..surfaces.read import read
-
-    return read(
-        file,
-        channel=reading.channel,
-        size=None if reading.size is None else parse_size(reading.size, "--size"),
-        height_unit=reading.height_unit,
-        z_scale=None if reading.z_scale is None else parse(reading.z_scale, "length", "--z-scale"),
-    )
 
 
 def _write(answer: AnswerOptions, level: str, flat: Surface, found: Characterisation | None) -> None:

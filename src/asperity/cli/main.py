@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from . import campaigns, contact, generate, info, materials, results, stress
+from . import campaigns, contact, generate, info, materials, results, stress, theory
 from .failures import Reporting
 from .groups import grouped
 
@@ -42,6 +42,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
 for _command in COMMANDS:
     app.command()(grouped(_command))
 app.add_typer(generate.app)
+app.add_typer(theory.app)
 
 
 def _version(wanted: bool) -> None:

@@ -57,14 +57,41 @@ def parse(text: str, kind: str, what: str) -> float:
         If number or unit is missing, unknown, or of another dimension.
     """
     unit = DIMENSIONS[kind]
-    example = _EXAMPLES.get(kind, f"1 {unit}")
+    number, name = _split(text, _EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
+    return number * unit_factor(name, kind, what)
+
+
+def parse_in(text: str, unit: str, what: str) -> float:
+    """Return the value in ``unit`` of a quantity such as ``"3 um**-2"``, for ``unit`` = ``"1/m^2"``; no unit is a plain number.
+
+    Raises
+    ------
+    UnitError
+        If number or unit is missing, unknown, or of another dimension.
+    """
+    import pint
+
+    known = {DIMENSIONS[kind]: example for kind, example in _EXAMPLES.items()}
+    number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, plain=not unit)
+    try:
+        return number * _factor(name or "dimensionless", unit or "dimensionless")
+    except pint.DimensionalityError:
+        like = f"in a unit such as {unit}" if unit else "a plain number"
+        raise UnitError(f"{what} must be {like}, but its unit is {name!r}.") from None
+    except Exception:  # pint raises many types on malformed unit text
+        raise UnitError(f"{what} has the unknown unit {name!r}; use for example {unit or 'none'}.") from None
+
+
+def _split(text: str, example: str, what: str, *, plain: bool) -> tuple[float, str]:
+    """Number and name of the unit in ``text``; a ``plain`` number needs none."""
     match = _NUMBER.fullmatch(str(text))
     if match is None:
-        raise UnitError(f'{what} must be a number with a unit, such as "{example}", but is {text!r}.')
+        wanted = "a number" if plain else f'a number with a unit, such as "{example}"'
+        raise UnitError(f"{what} must be {wanted}, but is {text!r}.")
     number, name = float(match.group(1)), match.group(2).strip()
-    if not name and kind != "number":
+    if not name and not plain:
         raise UnitError(f'{what} must have a unit, such as "{example}", but is {text!r} without one.')
-    return number * unit_factor(name, kind, what)
+    return number, name
 
 
 def unit_factor(name: str, kind: str, what: str) -> float:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pydantic import ValidationError
+
 from ..core import units
+from ..core.errors import InputError
 from ..solids.body import Body
 from ..solids.elastic import Elastic, Rigid
 from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGrading, graded
@@ -13,6 +16,8 @@ from ..solids.layers import Base, Layer, Layered, RigidBase
 from ..solids.library import material
 from ..solids.strength import Strength
 from .schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable
+from .schemas.body_text import body_from_text
+from .schemas.wording import problems
 
 
 def build_body(table: BodyTable, folder: Path) -> Body:
@@ -22,6 +27,23 @@ def build_body(table: BodyTable, folder: Path) -> Body:
         layers = [layer for part in table.layers for layer in _layers(part, library)]
         return Layered(layers, _base(table.base, library), table.name or "")
     return Rigid() if table.rigid else _elastic(table, library)
+
+
+def body_of_text(text: str, what: str) -> Body:
+    """Body from its one line of text, such as ``"DLC"`` or ``"E=140GPa,nu=0.25,H=15GPa"``; ``what`` names it in messages.
+
+    Raises
+    ------
+    InputError
+        If it is not understood.
+    """
+    try:
+        table = BodyTable.model_validate(body_from_text(text))
+    except InputError as error:
+        raise InputError(f"{what}{error}") from None
+    except ValidationError as error:
+        raise InputError(f"{what}: {'; '.join(problems(error, BodyTable.model_json_schema(), {}))}") from None
+    return build_body(table, Path())
 
 
 def _layers(table: LayerTable | GradedTable, library: Path | None) -> tuple[Layer, ...]:

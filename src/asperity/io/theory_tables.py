@@ -1,0 +1,111 @@
+"""Answers of theories for other programs: a record for JSON, a table as CSV; and the catalogue as records."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.citations import reference
+from ..theories.protocol import Described, Input
+from ..theories.ways import Evaluation, numbers_of, ways_of
+from .atomic import atomic_file
+
+
+def answer_record(found: Evaluation) -> dict[str, Any]:
+    """What ``found`` says as plain values in SI; None stands for what is undefined or infinite."""
+    theory = found.theory
+    return {
+        "theory": theory.name,
+        "title": theory.title,
+        "inputs": {
+            item.name: {"value": _input(item, getattr(theory, item.name)), "unit": item.unit} for item in theory.inputs
+        },
+        "numbers": {column.name: {"value": _plain(value), "unit": column.unit} for column, value in found.numbers},
+        "columns": {
+            column.name: {"unit": column.unit, "meaning": column.meaning, "values": [_plain(v) for v in values]}
+            for column, values in found.columns
+        },
+        "limits": [
+            {
+                "criterion": limit.criterion,
+                "low": _plain(limit.low),
+                "high": _plain(limit.high),
+                "values": [_plain(v) for v in limit.value],
+                "holds": [bool(v) for v in limit.holds],
+                "message": limit.message,
+                "source": reference(limit.citation),
+            }
+            for limit in found.limits
+        ],
+        "sources": [reference(key) for key in theory.citation_keys],
+    }
+
+
+def catalogue_record(kind: type[Described]) -> dict[str, Any]:
+    """What the catalogue says of a theory."""
+    return {
+        "name": kind.name,
+        "title": kind.title,
+        "inputs": [
+            {
+                "name": item.name,
+                "unit": item.unit,
+                "meaning": item.meaning,
+                "of": item.of,
+                "required": item.required,
+                "choices": [word for word, _ in item.choices],
+                "many": item.many,
+            }
+            for item in kind.inputs
+        ],
+        "ways": [
+            {"along": way.axis.name, "unit": way.axis.unit, "given": [item.name for item in way.given]}
+            for way in ways_of(kind)
+        ],
+        "numbers": [column.name for column in numbers_of(kind)],
+        "from_surface": hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness"),
+        "sources": [reference(key) for key in kind.citation_keys],
+    }
+
+
+def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write the columns of ``found`` as CSV with a heading of names and units, and whether all limits hold; SI, exact.
+
+    Without columns the numbers are written: name, value, unit, meaning.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        if not found.columns:
+            writer.writerow(("name", "value", "unit", "meaning"))
+            writer.writerows((column.name, value, column.unit, column.meaning) for column, value in found.numbers)
+            return
+        units = [f"{column.name} ({column.unit})" if column.unit else column.name for column, _ in found.columns]
+        writer.writerow((*units, "valid"))
+        valid = np.all([np.broadcast_to(limit.holds, found.columns[0][1].shape) for limit in found.limits], axis=0)
+        valid = np.broadcast_to(valid, found.columns[0][1].shape)
+        writer.writerows(zip(*(values.tolist() for _, values in found.columns), valid.tolist(), strict=True))
+
+
+def _plain(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _input(item: Input, value: Any) -> Any:
+    """Value of an input: its word where it has one, a list of many."""
+    for word, choice in item.choices:
+        if choice == value:
+            return word
+    if item.many:
+        return [_plain(number) for number in np.asarray(value, dtype=float)]
+    if isinstance(value, int | float):
+        return _plain(float(value))
+    return None if value is None else str(getattr(value, "name", value))
