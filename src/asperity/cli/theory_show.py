@@ -82,7 +82,7 @@ def _print_columns(found: Evaluation) -> None:
     left = np.zeros(size, dtype=bool)
     for limit in found.limits:
         left |= ~np.broadcast_to(limit.holds, size)
-    headings = ("", *(column.name.rpartition(".")[2].replace("_", " ") for column, _ in found.columns))
+    headings = ("", *(column.name.replace(".", " ").replace("_", " ") for column, _ in found.columns))
     rows = [
         (LEFT if left[n] else "", *(show(float(values[n]), column.unit) for column, values in found.columns))
         for n in range(size)

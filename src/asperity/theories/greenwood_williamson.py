@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import require
@@ -145,8 +146,12 @@ class GreenwoodWilliamson:
         D: RealArray = (separation - self.mean_height) / self.height_deviation + self.heights.mean
         return D
 
+    def borne(self, separation: RealArray) -> RealArray:
+        """Pressure in Pa that the summits carry at ``separation`` in m, of any shape."""
+        D = self.standardised(separation)
+        return np.asarray(4.0 / 3.0 * self.pressure_unit * self.heights.tail_moment(D, 1.5))
+
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D = self.standardised(h)
-        pressure = 4.0 / 3.0 * self.pressure_unit * self.heights.tail_moment(D, 1.5)
+        D, pressure = self.standardised(h), self.borne(h)
         stiffness = 2.0 * self.pressure_unit / self.height_deviation * self.heights.tail_moment(D, 0.5)
         return pressure, stiffness

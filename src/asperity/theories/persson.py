@@ -17,9 +17,18 @@ from .isotropic_spectrum import IsotropicSpectrum
 from .persson_gap import CALIBRATED, PerssonGap
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .roughness import Roughness
+from .ways import PRESSURE, ROUGH, Column, Way, asked
 
 LOW_LOAD_SLOPE = math.sqrt(8.0 / math.pi)
 """κ = (A/A_n) E* h'_rms/p at vanishing load."""
+
+
+@dataclass(frozen=True, eq=False)
+class LocalPressures:
+    """Distribution at local pressures (n,): probability ``density`` in 1/Pa, ``area_above`` the share with more."""
+
+    density: RealArray
+    area_above: RealArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +73,19 @@ class Persson:
         Input("psd", "m^4", "power spectrum at those wavenumbers, m0 = (1/2π) ∫ q C dq", default=(), many=True),
         Input(
             "gamma", "", "weight of the elastic energy in the mean gap, 1 in the original form", "choice", CALIBRATED
+        ),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(PRESSURE, "at_pressure", ROUGH),
+        Way(
+            asked("local", "Pa", "pressure at a point"),
+            "at_local",
+            (
+                Column("density", "1/Pa", "probability density of the pressure at a point"),
+                Column("area_above", "", "share of the nominal area with more pressure"),
+            ),
+            (PRESSURE,),
+            checked=False,
         ),
     )
 
@@ -146,6 +168,10 @@ class Persson:
         front = np.exp(-((p - nominal) ** 2) / (2.0 * s**2)) / (math.sqrt(2.0 * math.pi) * s)
         values: RealArray = front * -np.expm1(-2.0 * p * nominal / s**2)
         return values
+
+    def at_local(self, local: ArrayLike, pressure: float) -> LocalPressures:
+        """Distribution of the pressure at ``local`` pressures in Pa (>= 0, any shape) under the mean ``pressure`` in Pa."""
+        return LocalPressures(self.pressure_density(local, pressure), self.area_fraction_above(local, pressure))
 
     def area_fraction_above(self, local: ArrayLike, pressure: float) -> RealArray:
         """Share of the nominal area on which the pressure exceeds ``local`` in Pa (>= 0, any shape)."""

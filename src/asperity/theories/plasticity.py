@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..core import require
 from ..core.arrays import RealArray
-from .greenwood_williamson_plastic import plastic_area_share, plastic_number_share, separation_at_plastic_onset
+from .greenwood_williamson_plastic import plastic_area_share, plastic_number_share
 from .plasticity_index import (
     critical_interference,
     hardness_coefficient,
@@ -120,17 +120,6 @@ class PlasticityIndex:
     def critical_index(self) -> float:
         """ψ_c = sqrt(σ_s/ω_c)."""
         return summit_plasticity_index(self.height_deviation, self.critical_interference)
-
-    @property
-    def onset(self) -> float:
-        """Standardised separation below which 2 % of the area flow.
-
-        Raises
-        ------
-        NoSolutionError
-            If that is at no separation.
-        """
-        return separation_at_plastic_onset(self.index)
 
     def at_D(self, D: ArrayLike) -> PlasticShares:
         """What flows at the standardised separations ``D`` (n,), for Gaussian heights."""

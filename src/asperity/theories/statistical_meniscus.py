@@ -17,8 +17,10 @@ from .meniscus import film_force
 from .protocol import Prediction, curve
 
 Pull: TypeAlias = Callable[[RealArray], RealArray]
-"""Meniscus force per nominal area in Pa at separations (n,) in m."""
+"""Meniscus force per nominal area in Pa at separations in m, (1, m) for all loads or (n, 1), one for each."""
 
+_STEPS = 100  # ten are the rule
+_CLOSE = 1e-14  # standard deviations; the error is less than the last step
 _STEP = 0.1  # of the search for the first balance, in standard deviations; all curves change over about one
 
 
@@ -87,12 +89,15 @@ class StatisticalMeniscus:
 
     def meniscus_pressure(self, separation: ArrayLike) -> RealArray:
         """Meniscus force per nominal area in Pa at separations (n,) in m from the mean plane of the surface."""
-        reached = self.contact.standardised(curve(separation, "separations (m)") - self.film_thickness)
+        return self._pull(curve(separation, "separations (m)"))
+
+    def _pull(self, separation: RealArray) -> RealArray:
+        reached = self.contact.standardised(separation - self.film_thickness)
         return np.asarray(self.largest * self.contact.heights.tail_moment(reached, 0.0))
 
     def at_pressure(self, pressure: ArrayLike) -> WetPrediction:
         """Balance under external pressures (n,) in Pa, > 0."""
-        return balance(self.contact, self.meniscus_pressure, curve(pressure, "pressures (Pa)", positive=True))
+        return balance(self.contact, self._pull, curve(pressure, "pressures (Pa)", positive=True))
 
     def feedback(self, separation: ArrayLike) -> RealArray:
         """dF_m/dL at separations (n,) in m: the load settles by repeated solution only where this is below one."""
@@ -105,7 +110,7 @@ class StatisticalMeniscus:
     def pull_off(self) -> float:
         """Largest tension per nominal area in Pa that the menisci hold against the summits, >= 0."""
         h = _separations(self.contact)
-        rest = self.contact.at_separation(h).pressure - self.meniscus_pressure(h)
+        rest = self.contact.borne(h) - self.meniscus_pressure(h)
         lowest = int(np.argmin(rest))
         if lowest in (0, h.size - 1):
             return 0.0
@@ -113,7 +118,7 @@ class StatisticalMeniscus:
 
         def net(separation: float) -> float:
             at = np.array([separation])
-            return float((self.contact.at_separation(at).pressure - self.meniscus_pressure(at))[0])
+            return float((self.contact.borne(at) - self.meniscus_pressure(at))[0])
 
         found = minimize_scalar(net, bounds=(h[lowest - 1], h[lowest + 1]), method="bounded", options={"xatol": 0.0})
         return max(0.0, -float(found.fun))
@@ -127,26 +132,39 @@ def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> We
     NoSolutionError
         If the summits do not carry load and menisci at any separation.
     """
-    from scipy.optimize import brentq
+    h, loads = _separations(contact), pressure[:, None]
 
-    h = _separations(contact)
-    table = contact.at_separation(h).pressure - pull(h)
+    def rest(separation: RealArray) -> RealArray:
+        return np.asarray(contact.borne(separation) - pull(separation))
 
-    def rest(separation: float, load: float) -> float:
-        at = np.array([separation])
-        return float((contact.at_separation(at).pressure - pull(at))[0]) - load
+    table = rest(h[None, :])
+    short = table < loads
+    first = np.argmax(short, axis=1)
+    unborne = (first == 0) | ~short.any(axis=1)
+    if unborne.any():
+        densest = float(np.broadcast_to(table, short.shape)[unborne, 0][0])
+        raise NoSolutionError(
+            f"load (Pa) with its menisci must be within what the summits carry, at most {densest:.4g} Pa at "
+            f"{-LOWEST:g} standard deviations below their mean, but is {pressure[unborne][0]:g}."
+        )
+    ends = h[first - 1][:, None], h[first][:, None]
+    separations = _crossing(lambda separation: rest(separation) - loads, *ends, _CLOSE * contact.height_deviation)
+    return WetPrediction(pressure, pull(separations)[:, 0], contact.at_separation(separations[:, 0]))
 
-    separations = np.empty_like(pressure)
-    for number, load in enumerate(pressure):
-        short = np.flatnonzero(table < load)
-        if short.size == 0 or short[0] == 0:
-            raise NoSolutionError(
-                f"load (Pa) with its menisci must be within what the summits carry, at most {table[0]:.4g} Pa at "
-                f"{-LOWEST:g} standard deviations below their mean, but is {load:g}."
-            )
-        ends = h[short[0] - 1], h[short[0]]
-        separations[number] = brentq(rest, *ends, args=(load,), xtol=1e-15 * contact.height_deviation, rtol=1e-15)
-    return WetPrediction(pressure, pull(separations), contact.at_separation(separations))
+
+def _crossing(function: Pull, low: RealArray, high: RealArray, close: float) -> RealArray:
+    """Where ``function`` falls through zero between ``low`` and ``high``, to a step of ``close``: false position (Illinois)."""
+    at_low, at_high = function(low), function(high)
+    for _ in range(_STEPS):
+        fall = at_high - at_low
+        x = high - np.divide(at_high * (high - low), fall, out=np.zeros_like(high), where=fall != 0.0)
+        step, value = np.abs(x - high), function(x)
+        passed = value * at_high < 0.0
+        low, at_low = np.where(passed, high, low), np.where(passed, at_high, 0.5 * at_low)
+        high, at_high = x, value
+        if np.all((step <= close) | (value == 0.0)):
+            break
+    return high
 
 
 def _separations(contact: GreenwoodWilliamson) -> RealArray:

@@ -40,12 +40,15 @@ class Way:
         What the answer holds.
     given
         Further arguments, one number each.
+    checked
+        Whether the validity of the theory is checked on the answer.
     """
 
     axis: Input
     method: str
     columns: tuple[Column, ...]
     given: tuple[Input, ...] = ()
+    checked: bool = True
 
 
 def asked(name: str, unit: str, meaning: str, default: float | None = None) -> Input:
@@ -152,15 +155,22 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
         return Evaluation(theory, numbers)
     way = _way(theory, set(arguments))
     values = curve(arguments[way.axis.name], f"{way.axis.meaning} ({way.axis.unit or 'number'})")
-    given = {item.name: float(np.asarray(arguments.get(item.name, item.default))) for item in way.given}
+    given = {item.name: _one(item, arguments.get(item.name, item.default)) for item in way.given}
     answer = getattr(theory, way.method)(**{way.axis.name: values}, **given)
     columns = [(Column(way.axis.name, way.axis.unit, way.axis.meaning), values)]
     for column in way.columns:
         found = np.broadcast_to(np.asarray(attrgetter(column.name)(answer), dtype=float), values.shape)
         if column.name != way.axis.name and not np.isnan(found).all():
             columns.append((column, found))
-    limits = theory.validity(answer) if hasattr(theory, "validity") else ()
+    limits = theory.validity(answer) if way.checked and hasattr(theory, "validity") else ()
     return Evaluation(theory, numbers, tuple(columns), tuple(limits))
+
+
+def _one(item: Input, value: ArrayLike) -> float:
+    numbers = curve(value, f"{item.meaning} ({item.unit or 'number'})")
+    if numbers.size != 1:
+        raise InputError(f"{item.name} must be one number beside the range, but has {numbers.size}.")
+    return float(numbers[0])
 
 
 def _way(theory: Described, names: set[str]) -> Way:

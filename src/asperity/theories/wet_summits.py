@@ -8,7 +8,6 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import require
 from ..core.arrays import RealArray
 from .greenwood_williamson import GreenwoodWilliamson
 from .kinetic_meniscus import KineticMeniscus
@@ -209,11 +208,6 @@ class GrowingMenisci:
 
     def at_time(self, time: ArrayLike, pressure: float) -> GrownMenisci:
         """Balance at ``time`` (n,) in s, >= 0, under the external ``pressure`` in Pa, > 0."""
-        load = np.array([require.positive(pressure, "pressure (Pa)")])
         times = np.atleast_1d(np.asarray(time, dtype=float))
-        found = [self.theory.at(float(t), load) for t in times]
-        return GrownMenisci(
-            height=self.theory.growth.height(times),
-            meniscus_pressure=np.array([state.meniscus_pressure[0] for state in found]),
-            area_fraction=np.array([state.contact.area_fraction[0] for state in found]),
-        )
+        found = self.theory.at(times, pressure)
+        return GrownMenisci(self.theory.growth.height(times), found.meniscus_pressure, found.contact.area_fraction)
