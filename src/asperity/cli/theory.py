@@ -31,7 +31,7 @@ class Theories(TyperGroup):
         return command(theory(cmd_name.replace("_", "-")))
 
 
-app = typer.Typer(name="theory", cls=Theories, no_args_is_help=True, invoke_without_command=True, add_completion=False)
+app = typer.Typer(name="theory", cls=Theories, invoke_without_command=True, add_completion=False)
 
 
 @app.callback()

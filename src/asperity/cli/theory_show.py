@@ -14,6 +14,8 @@ from ..theories.protocol import Described, Input, Limit
 from .show import console, say, table
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from ..core.arrays import RealArray
     from ..theories.ways import Evaluation
 
@@ -64,10 +66,10 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
         return
     theory = found.theory
     rows = [(item.meaning, _input_text(item, getattr(theory, item.name))) for item in theory.inputs]
-    console().print(table(theory.title, rows))
+    _print_table(theory.title, table("", rows))
     if found.numbers:
         numbers = [(column.meaning, show(value, column.unit)) for column, value in found.numbers]
-        console().print(table("Numbers", numbers))
+        _print_table("Numbers", table("", numbers))
     if found.columns:
         _print_columns(found)
     for limit in found.limits:
@@ -82,14 +84,28 @@ def _print_columns(found: Evaluation) -> None:
     left = np.zeros(size, dtype=bool)
     for limit in found.limits:
         left |= ~np.broadcast_to(limit.holds, size)
-    headings = ("", *(column.name.replace(".", " ").replace("_", " ") for column, _ in found.columns))
+    names = [column.name.replace(".", " ").replace("_", " ") for column, _ in found.columns]
+    if size == 1:  # one point is read downwards
+        point = [
+            (name, show(float(values[0]), column.unit), column.meaning)
+            for name, (column, values) in zip(names, found.columns, strict=True)
+        ]
+        _print_table("Answer", table("", point))
+        return
     rows = [
         (LEFT if left[n] else "", *(show(float(values[n]), column.unit) for column, values in found.columns))
         for n in range(size)
     ]
-    made = table("Answer", rows, headings)
+    made = table("", rows, ("", *names))
     for row, beyond in zip(made.rows, left, strict=True):
         row.style = "red" if beyond else None
+    _print_table("Answer", made)
+
+
+def _print_table(title: str, made: Table) -> None:
+    """Print a table below its ``title``, however narrow it is."""
+    made.title = None
+    say(title, "bold")
     console().print(made)
 
 

@@ -31,28 +31,28 @@ class Boussinesq:
 
     Parameters
     ----------
-    force
-        In N.
+    load
+        Force in N.
     shear, nu
         Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
     """
 
-    force: float
+    load: float
     shear: float
     nu: float = 0.3
     name: ClassVar[str] = "boussinesq"
     title: ClassVar[str] = "Boussinesq, normal force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (Input("force", "N", "normal force", of="bodies"), SHEAR, NU)
+    inputs: ClassVar[tuple[Input, ...]] = (Input("load", "N", "normal force", of="bodies"), SHEAR, NU)
     ways: ClassVar[tuple[Way, ...]] = SPACE
 
     def __post_init__(self) -> None:
-        _check(self.force, self.shear, self.nu)
+        _check(self.load, self.shear, self.nu)
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
         z = _away(depth, x, y)
-        return _fields(boussinesq(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.force)
+        return _fields(boussinesq(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.load)
 
 
 @dataclass(frozen=True)
@@ -61,28 +61,28 @@ class Cerruti:
 
     Parameters
     ----------
-    force
-        In N.
+    tangential
+        Force in N.
     shear, nu
         Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
     """
 
-    force: float
+    tangential: float
     shear: float
     nu: float = 0.3
     name: ClassVar[str] = "cerruti"
     title: ClassVar[str] = "Cerruti, tangential force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (Input("force", "N", "tangential force", of="bodies"), SHEAR, NU)
+    inputs: ClassVar[tuple[Input, ...]] = (Input("tangential", "N", "tangential force", of="bodies"), SHEAR, NU)
     ways: ClassVar[tuple[Way, ...]] = SPACE
 
     def __post_init__(self) -> None:
-        _check(self.force, self.shear, self.nu)
+        _check(self.tangential, self.shear, self.nu)
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
         z = _away(depth, x, y)
-        return _fields(cerruti(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.force)
+        return _fields(cerruti(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.tangential)
 
 
 @dataclass(frozen=True)

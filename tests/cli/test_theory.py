@@ -1,0 +1,224 @@
+"""The command ``theory``: the list, every theory by its options, surfaces, tables and files, and refusals."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import Runner
+
+import asperity as asp
+from asperity.cli.theory_command import command, read_range
+from asperity.core.citations import reference
+from asperity.theories import THEORIES, HertzPoint, theory
+from asperity.theories.protocol import E_STAR
+
+HERTZ = ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm")
+SUMMITS = ("--E-star", "100GPa", "--density", "1um**-2", "--radius", "1um", "--height-deviation", "10nm")
+
+
+@pytest.fixture(scope="module")
+def rough(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, asp.Surface]:
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(5e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=1.6e-7
+    )
+    surface = asp.generate.gaussian(asp.Grid((64, 64), (4e-8, 4e-8)), spectrum, seed=1)
+    path = tmp_path_factory.mktemp("rough") / "rough.nc"
+    asp.save_surface(surface, path)
+    return path, surface
+
+
+def test_the_list_names_every_theory_with_inputs_and_sources(run: Runner) -> None:
+    text = run("theory", "--list").stdout
+    lines = [line.strip(" *") for line in text.splitlines()]
+    for name, kind in THEORIES.items():
+        assert name in lines
+        assert all(item.meaning in text for item in kind.inputs)
+        assert all(reference(key) in text for key in kind.citation_keys)
+
+
+def test_the_list_as_json(run: Runner) -> None:
+    records = json.loads(run("theory", "--list", "--json").stdout)
+    assert [record["name"] for record in records] == list(THEORIES)
+    (hertz,) = (record for record in records if record["name"] == "hertz")
+    assert hertz["inputs"][1] == {
+        "name": "radius",
+        "unit": "m",
+        "meaning": "relative radius of curvature",
+        "of": "surface",
+        "required": True,
+        "choices": [],
+        "many": False,
+    }
+    assert hertz["ways"][0] == {"along": "load", "unit": "N", "given": []}
+    assert not hertz["from_surface"]
+
+
+@pytest.mark.parametrize("name", THEORIES)
+def test_every_theory_has_an_option_for_each_input(name: str) -> None:
+    made = command(theory(name))
+    options = {option: parameter.help for parameter in made.params for option in parameter.opts}
+    for item in theory(name).inputs:
+        assert options["--" + item.name.replace("_", "-")].startswith(item.meaning[0].upper() + item.meaning[1:])
+    assert theory(name).title in made.help
+
+
+def test_the_help_of_one_theory(run: Runner) -> None:
+    text = run("theory", "greenwood-williamson", "--help").stdout
+    assert "Summits per area, in 1/m^2." in text
+    assert "Measure them on this file." in text
+    assert "--bins" in text
+    assert "--bins" not in run("theory", "mccool", "--help").stdout
+
+
+def test_a_number_a_list_and_a_range(run: Runner) -> None:
+    record = json.loads(run(*HERTZ, "--load", "1N..100N", "--points", "3", "--json").stdout)
+    answer = HertzPoint(115e9, 5e-3).at_load([1.0, 10.0, 100.0])
+    assert record["inputs"]["radius"] == {"value": 5e-3, "unit": "m"}
+    assert record["columns"]["load"]["values"] == pytest.approx([1.0, 10.0, 100.0])
+    assert record["columns"]["approach"]["values"] == pytest.approx(answer.approach.tolist())
+    assert record["columns"]["max_pressure"]["unit"] == "Pa"
+    assert record["limits"][0]["holds"] == [True] * 3
+    assert record["sources"][0].startswith("Hertz, H.")
+    text = run(*HERTZ, "--load", "1N,2N").stdout
+    assert "2 N" in text
+    assert "valid: contact radius over radius of curvature goes from" in text
+    assert "[Sneddon1965]" in text
+
+
+def test_rows_beyond_a_limit_are_marked(run: Runner) -> None:
+    text = run("theory", "greenwood-williamson", *SUMMITS, "--pressure", "10MPa,10GPa").stdout
+    (light,) = (line for line in text.splitlines() if " 10 MPa " in line)
+    (heavy,) = (line for line in text.splitlines() if " 10 GPa " in line)
+    assert not light.strip().startswith("!")
+    assert heavy.strip().startswith("!")
+    assert "! left at 1 of 2 points: area fraction goes from" in text
+    assert "Contacts deform each other and merge" in text
+
+
+def test_words_choose_and_nothing_infinite_is_in_json(run: Runner) -> None:
+    made = run(
+        "theory", "greenwood-williamson", *SUMMITS, "--heights", "exponential", "--separation", "0nm..30nm", "--json"
+    )
+    record = json.loads(made.stdout)
+    assert record["inputs"]["heights"]["value"] == "exponential"
+    # exponential heights have one real pressure
+    real = record["columns"]["mean_real_pressure"]["values"]
+    assert real == pytest.approx([real[0]] * 11, rel=1e-9)
+    punch = json.loads(
+        run("theory", "flat-punch", "--e-star", "1GPa", "--radius", "1mm", "--load", "1N", "--json").stdout
+    )
+    assert punch["columns"]["max_pressure"]["values"] == [None]
+
+
+def test_csv(run: Runner, tmp_path: Path) -> None:
+    path = tmp_path / "curve.csv"
+    assert run(*HERTZ, "--load", "1N,1kN", "--csv", path).exit_code == 0
+    rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
+    assert rows[0][:2] == ["load (N)", "approach (m)"]
+    assert rows[0][-1] == "valid"
+    assert float(rows[2][1]) == HertzPoint(115e9, 5e-3).at_load(1000.0).approach
+    again = run(*HERTZ, "--load", "1N", "--csv", path)
+    assert again.exit_code == 2
+    assert "--force" in again.stderr
+    assert run(*HERTZ, "--load", "1N", "--csv", path, "--force").exit_code == 0
+    numbers = tmp_path / "numbers.csv"
+    run("theory", "sampled-peaks", "--rho-1", "0.8", "--rho-2", "0.6", "--csv", numbers)
+    assert numbers.read_text(encoding="utf-8").startswith("name,value,unit,meaning\nfraction,")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("plasticity-index", *SUMMITS[:2], *SUMMITS[4:], "--hardness", "8GPa"), "below 0.6 elastic"),
+        (("least-area", "--hardness", "6GPa", "--pressure", "1MPa"), "0.0008889"),
+        (("least-area", "--hardness", "6GPa", "--E-star", "100GPa"), "summit ratio"),
+        (("nayak", "--m0", "100nm**2", "--m2", "0.01", "--m4", "4um**-2"), "summits per area"),
+        (
+            (*("effective-hardness", "--film", "15GPa", "--substrate", "9GPa"), "--modulus-ratio", "0.7", "--depth-ratio", "0..1"),
+            "film share",
+        ),
+        (("first-yield", "--friction", "0"), "1.613"),
+        (("boussinesq", "--load", "1N", "--shear", "80GPa", "--depth", "1um"), "von mises"),
+        (("mindlin", *SUMMITS[:2], "--radius", "1mm", "--G-star", "80GPa", "--friction", "0.3", "--load", "1N", "--tangential", "0.1N"), "stick radius"),
+        (("power-law-indenter", *SUMMITS[:2], "--coefficient", "500 1/m", "--exponent", "2", "--load", "1N"), "approach"),
+        (("power-law-indenter", *SUMMITS[:2], "--coefficient", "0.1", "--exponent", "1", "--load", "1N"), "approach"),
+        (
+            ("kinetic-meniscus", *SUMMITS, "--surface-tension", "25mN/m", "--film-thickness", "1nm", "--viscosity", "0.1Pa*s",
+             "--hamaker-constant", "5e-20J", "--pressure", "1MPa", "--time", "0s..1ms"),
+            "meniscus pressure",
+        ),
+        (("persson", *SUMMITS[:2], "--rms-gradient", "0.1", "--local", "1GPa", "--pressure", "10MPa"), "area above"),
+    ],
+)  # fmt: skip
+def test_what_has_no_load_is_asked_in_its_own_way(run: Runner, arguments: tuple[str, ...], words: str) -> None:
+    result = run("theory", *arguments)
+    assert result.exit_code == 0, result.output
+    assert words in result.stdout
+    assert "source:" in result.stdout
+
+
+def test_a_surface_and_bodies_by_name(run: Runner, rough: tuple[Path, asp.Surface]) -> None:
+    path, surface = rough
+    ask = ("--surface", path, "--body", "E=91GPa,nu=0.3,H=8GPa", "--pressure", "10MPa", "--json")
+    modulus = asp.contact_modulus(asp.Elastic(91e9, 0.3), asp.Rigid())
+    roughness = asp.roughness_of(asp.levelled(surface, "mean"))
+    record = json.loads(run("theory", "bush-gibson-thomas", *ask).stdout)
+    expected = theory("bush-gibson-thomas").from_roughness(roughness, modulus).at_pressure(1e7)
+    assert record["columns"]["area_fraction"]["values"] == pytest.approx(expected.area_fraction.tolist())
+    record = json.loads(run("theory", "chang-etsion-bogy", *ask).stdout)
+    assert record["inputs"]["hardness"]["value"] == 8e9
+    record = json.loads(run("theory", "greenwood-williamson", *ask, "--bins", "8").stdout)
+    assert record["inputs"]["heights"]["value"] == "histogram"
+    record = json.loads(run("theory", "nayak", "--surface", path, "--json").stdout)
+    assert record["numbers"]["alpha"]["value"] == pytest.approx(roughness.alpha)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((), "NAME of a theory or --list must be given"),
+        (("gw",), "Did you mean greenwood-williamson?"),
+        (("herz",), "Did you mean hertz"),
+        (("hertz", "--radius", "5mm", "--load", "1N"), "hertz must be given --E-star (contact modulus"),
+        ((*HERTZ[1:4], "--radius", "5", "--load", "1N"), "must have a unit, such as \"5 nm\", but is '5' without one"),
+        ((*HERTZ[1:4], "--radius", "5s", "--load", "1N"), "--radius must be in a unit such as m, but its unit is 's'"),
+        ((*HERTZ[1:4], "--radius", "5 furlongz", "--load", "1N"), "unknown unit 'furlongz'"),
+        ((*HERTZ[1:4], "--radius", "-5mm", "--load", "1N"), "greater than zero, but is -0.005"),
+        ((*HERTZ[1:], "--load", "-1N"), "load (N) must be finite and at least 0, but is -1"),
+        ((*HERTZ[1:], "--load", "1N..2N..3N"), 'a range such as "1..10"'),
+        ((*HERTZ[1:], "--load", "1N..2N", "--points", "1"), "--points must be at least 2"),
+        (HERTZ[1:], "hertz must be asked by load, or by approach"),
+        ((*HERTZ[1:], "--load", "1N", "--approach", "1nm"), "is asked by approach, load"),
+        (("nayak", "--m0", "1nm**2", "--m2", "1", "--m4", "1um**-2"), "moments of an isotropic surface"),
+        (("greenwood-williamson", *SUMMITS, "--heights", "odd", "--pressure", "1MPa"), "one of gaussian, exponential"),
+        (("greenwood-williamson", *SUMMITS, "--size", "1um", "--pressure", "1MPa"), "together with --surface"),
+        (
+            ("hertz", "--counter", "steel", "--radius", "1um", "--load", "1N"),
+            "--counter must be given together with --body",
+        ),
+        (("hertz", "--body", "phlogiston", "--radius", "1um", "--load", "1N"), "phlogiston"),
+        (("mccool", "--surface", "SCAN", "--pressure", "1MPa"), "must also be given --E-star"),
+        (("mccool", "--surface", "SCAN", "--body", "DLC", "--m0", "1nm**2"), "--m0 must be left out with --surface"),
+        (
+            ("jackson-green", "--surface", "SCAN", "--body", "E=1GPa,nu=0.3", "--pressure", "1MPa"),
+            "states its yield stress",
+        ),
+    ],
+)
+def test_refusals(run: Runner, rough: tuple[Path, asp.Surface], arguments: tuple[str, ...], words: str) -> None:
+    result = run("theory", *(rough[0] if word == "SCAN" else word for word in arguments))
+    assert result.exit_code == 2
+    assert words in " ".join(result.stderr.split())
+    assert not result.stdout
+
+
+def test_ranges() -> None:
+    assert read_range(E_STAR, "1GPa..100GPa", points=3, linear=False) == pytest.approx([1e9, 1e10, 1e11])
+    assert read_range(E_STAR, "1GPa..3GPa", points=3, linear=True) == pytest.approx([1e9, 2e9, 3e9])
+    assert read_range(E_STAR, "-1GPa..1GPa", points=3, linear=False) == pytest.approx([-1e9, 0.0, 1e9])
+    assert read_range(E_STAR, "-100GPa..-1GPa", points=3, linear=False) == pytest.approx([-1e11, -1e10, -1e9])
+    assert np.all(read_range(E_STAR, "1GPa, 2GPa", points=3, linear=False) == [1e9, 2e9])
