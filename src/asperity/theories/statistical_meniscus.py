@@ -73,7 +73,7 @@ class StatisticalMeniscus:
     film_thickness: float
     contact_angle: float = 0.0
     molecular_layer: float = 0.0
-    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Gao1995", "Greenwood1966")
+    citation_keys: ClassVar[tuple[str, ...]] = ("McFarlane1950", "Bhushan1998", "Gao1995", "Greenwood1966")
 
     def __post_init__(self) -> None:
         require.positive(self.film_thickness, "film thickness (m)")
