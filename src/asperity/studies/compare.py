@@ -1,0 +1,200 @@
+"""Every theory of rough contact beside the numerical solution, on one surface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..contact.boundary import Periodic
+from ..contact.problem import ContactProblem
+from ..contact.roughness import roughness_of
+from ..contact.solvers.protocol import Solver
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.engine import Engine
+from ..core.errors import AsperityError, InputError
+from ..core.progress import Progress
+from ..solids.body import Body
+from ..solids.elastic import Rigid
+from ..surfaces.pair import composite
+from ..surfaces.surface import Surface
+from ..theories.discrete_summits import DiscreteSummits
+from ..theories.interacting_crests import InteractingCrests
+from ..theories.protocol import QUANTITIES, Prediction, SurfaceTheory
+from ..theories.roughness import Roughness
+from .comparison import Comparison, TheoryCurve
+from .comparison_numerical import solved
+from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodies
+from .comparison_validity import holds, limits, notes, remarks
+
+MOST_CONTACTS = 1000
+"""Contacts up to which interacting crests are solved: a load takes some 25 ms with a thousand of them, eight times that with twice as many."""
+
+LIGHTEST, HEAVIEST, LOADS = 0.004, 0.25, 12
+"""Lowest and highest p/(E* h'_rms), and number of loads, where none are given: about 1 % to 45 % of the area."""
+
+
+def compare(
+    surface: Surface | ContactProblem,
+    bodies: Body | tuple[Body, Body] | None = None,
+    pressures: ArrayLike | None = None,
+    *,
+    theories: Iterable[str | SurfaceTheory] | None = None,
+    inputs: Mapping[str, float] | None = None,
+    numerical: bool = True,
+    most_contacts: int = MOST_CONTACTS,
+    solver: Solver | None = None,
+    progress: Progress | None = None,
+    engine: Engine | None = None,
+) -> Comparison:
+    """Compare the theories of the catalogue with each other and with the boundary-element solution.
+
+    Theories are made from what ``roughness_of`` measures on the surface, or on the sum of two. One that cannot be made
+    is listed with its reason, one that cannot carry the highest loads has NaN there and says so.
+
+    Parameters
+    ----------
+    surface
+        Surface that is pressed against a rigid flat plane, prepared as it is to be; or a whole ``ContactProblem``.
+    bodies
+        Its body, or body and counter body; left out with a problem.
+    pressures
+        Nominal pressures in Pa, positive, in any order; a dozen from 0.004 to 0.25 E* h'_rms if not given.
+    theories
+        Names of theories, or theories made already, which may be any with ``at_pressure`` and ``validity``; every theory
+        of the catalogue that is made from a surface if not given.
+    inputs
+        Parameters of theories that the bodies do not state, in SI units: ``work`` of adhesion (J/m²), ``spacing`` (m),
+        ``hardness`` and ``yield_stress`` (Pa), ``nu``.
+    numerical
+        Whether the contact is solved too, on one load path.
+    most_contacts
+        Loads at which more crests touch are left out for the theory of interacting crests, whose time grows with the cube.
+    solver, progress, engine
+        See ``solve``.
+
+    Raises
+    ------
+    InputError
+        If bodies are missing or given twice, a pressure is not positive, a theory is unknown, the surface flat or has
+        missing points.
+    """
+    problem = _problem(surface, bodies)
+    whole = _whole(problem)
+    roughness = roughness_of(whole)
+    loads = _loads(pressures, problem.contact_modulus * roughness.rms_gradient)
+    known = known_of_bodies(problem) | dict(inputs or {})
+    chosen = chosen_theories(roughness, problem.contact_modulus, theories=theories, known=known)
+    found = [
+        _curve(name, theory, loads, roughness=roughness, most_contacts=most_contacts, periodic=_periodic(problem))
+        for name, theory in chosen.theories.items()
+    ]
+    curves = tuple(curve for curve in found if isinstance(curve, TheoryCurve))
+    lost = tuple(curve for curve in found if isinstance(curve, LeftOut))
+    exact = solved(problem, loads, solver=solver, progress=progress, engine=engine) if numerical else None
+    return Comparison(
+        problem=problem,
+        surface=whole,
+        roughness=roughness,
+        pressures=loads,
+        curves=curves,
+        left_out=(*chosen.left_out, *lost),
+        numerical=None if exact is None else exact.curve,
+        remarks=remarks(problem, chosen.theories, np.nan if exact is None else exact.mean_radius),
+        findings=() if exact is None else exact.findings,
+    )
+
+
+def _problem(surface: Surface | ContactProblem, bodies: Body | tuple[Body, Body] | None) -> ContactProblem:
+    if isinstance(surface, ContactProblem):
+        if bodies is not None:
+            raise InputError("bodies must be left out with a ContactProblem, which has its own, but are given.")
+        return surface
+    if bodies is None:
+        raise InputError('bodies must be given with a surface, such as asperity.material("DLC"), but are not.')
+    body, counter_body = bodies if isinstance(bodies, tuple) else (bodies, Rigid())
+    return ContactProblem(surface, body, counter_body=counter_body)
+
+
+def _whole(problem: ContactProblem) -> Surface:
+    counter = problem.counter_surface
+    return composite(problem.surface, counter) if isinstance(counter, Surface) else problem.surface
+
+
+def _periodic(problem: ContactProblem) -> bool:
+    return isinstance(problem.boundary, Periodic)
+
+
+def _loads(pressures: ArrayLike | None, unit: float) -> RealArray:
+    if pressures is None:
+        return np.geomspace(LIGHTEST, HEAVIEST, LOADS) * unit
+    given = np.unique(np.asarray(pressures, dtype=float))
+    if given.size == 0:
+        raise InputError("pressures (Pa) of a comparison must hold at least one, but are empty.")
+    for value in given:
+        require.positive(value, "pressure (Pa) of a comparison")
+    return given
+
+
+def _curve(
+    name: str, theory: SurfaceTheory, loads: RealArray, *, roughness: Roughness, most_contacts: int, periodic: bool
+) -> TheoryCurve | LeftOut:
+    """Curve of one theory as far as it goes along ``loads``."""
+    count, first_notes = _reach(theory, loads, most_contacts)
+    found, reason = _leading(theory, loads[:count]) if count else (None, "")
+    if found is None:
+        return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
+    bounds = limits(theory, found, roughness)
+    reached = loads[: len(found)]
+    valid = np.zeros(loads.size, dtype=bool)
+    valid[: reached.size] = holds(bounds, reached.size)
+    return TheoryCurve(
+        name=name,
+        title=theory.title,
+        family=family(theory),
+        prediction=_filled(found, loads),
+        valid=valid,
+        notes=(*first_notes, *((reason,) if reason else ()), *notes(bounds, reached)),
+        comparable_gap=not (periodic and isinstance(theory, InteractingCrests)),
+        citation_keys=tuple(theory.citation_keys),
+    )
+
+
+def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple[int, tuple[str, ...]]:
+    """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not all."""
+    if not isinstance(theory, InteractingCrests):
+        return loads.size, ()
+    radius = np.asarray(theory.wavelength) ** 2 / (2.0 * np.pi**2 * np.asarray(theory.depth))
+    alone = DiscreteSummits(theory.E_star, theory.height, radius, theory.area)
+    contacts = np.rint(alone.at_pressure(loads).contact_density * theory.area).astype(int)
+    count = int(np.count_nonzero(contacts <= most_contacts))
+    if count == loads.size:
+        return count, ()
+    note = (
+        f"Computed at {count} of {loads.size} loads: beyond, {contacts[count]} crests and more touch, and the time grows "
+        f"with their cube; most_contacts ({most_contacts}) sets the limit."
+    )
+    return count, (note,)
+
+
+def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None, str]:
+    """Prediction at as many of the rising ``loads`` as the theory can carry, and what it says of the others."""
+    low, high, found, reason = 0, loads.size, None, ""
+    middle = high
+    while low < high:
+        try:
+            found = theory.at_pressure(loads[:middle])
+            low = middle
+        except AsperityError as error:
+            high, reason = middle - 1, f"Computed at {{}} of {loads.size} loads: {error}"
+        middle = (low + high + 1) // 2
+    return found, reason.format(low) if low else reason.partition(": ")[2]
+
+
+def _filled(found: Prediction, loads: RealArray) -> Prediction:
+    """``found`` at all ``loads``, NaN behind its last one."""
+    beyond = np.full(loads.size - len(found), np.nan)
+    values = {name: np.concatenate([getattr(found, name), beyond]) for name, _, _ in QUANTITIES}
+    return Prediction(**values | {"pressure": loads})

@@ -1,0 +1,257 @@
+"""What a comparison holds: the curves of the theories and of the numerical solution on the same loads."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.finding import Advice
+from ..contact.problem import ContactProblem
+from ..core.arrays import BoolArray, RealArray
+from ..io.provenance import software, surface_provenance
+from ..io.results import FORMAT_VERSION
+from ..surfaces.surface import Surface
+from ..theories.protocol import QUANTITIES, Prediction
+from ..theories.roughness import Roughness
+from .comparison_theories import LeftOut
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True, eq=False)
+class TheoryCurve:
+    """One theory along the loads of a comparison.
+
+    Parameters
+    ----------
+    name, title, family
+        Name in the comparison, title, and ``elastic``, ``elastic-plastic`` or ``adhesive``.
+    prediction
+        Its prediction at every load, NaN where it has none.
+    valid
+        (n,) where all its limits hold.
+    notes
+        Where it leaves its limits, and by which numbers.
+    comparable_gap
+        Whether its separation means the same as the mean gap of the numerical solution.
+    citation_keys
+        The papers behind it.
+    """
+
+    name: str
+    title: str
+    family: str
+    prediction: Prediction
+    valid: BoolArray
+    notes: tuple[str, ...]
+    comparable_gap: bool
+    citation_keys: tuple[str, ...]
+
+    @property
+    def gap(self) -> RealArray:
+        """(n,) mean gap in m, or the separation of the mean planes where the theory knows no other; NaN if it knows none."""
+        found: RealArray = np.where(
+            np.isfinite(self.prediction.mean_gap), self.prediction.mean_gap, self.prediction.separation
+        )
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class NumericalCurve:
+    """The boundary-element solution along the loads of a comparison; every field (n,), NaN where it did not converge.
+
+    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is freed of their bias (Yastrebov et al. 2017) and is what
+    theories are compared with; ``contact_density`` spots per nominal area in 1/m², ``mean_gap`` in m, ``seconds`` of the
+    whole path, ``solver`` its method.
+    """
+
+    area_fraction: RealArray
+    area_fraction_corrected: RealArray
+    contact_density: RealArray
+    mean_gap: RealArray
+    seconds: float
+    solver: str
+    notes: tuple[str, ...]
+    citation_keys: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Theories of rough contact beside the numerical solution, on one surface.
+
+    Parameters
+    ----------
+    problem
+        The contact that was solved.
+    surface
+        The surface the theories know: that of the problem, or the sum of both.
+    roughness
+        What was measured on it for the theories.
+    pressures
+        (n,) nominal pressures in Pa, rising.
+    curves
+        The theories.
+    left_out
+        Theories without a curve, each with its reason.
+    numerical
+        The boundary-element solution, None if it was not asked for.
+    remarks
+        What bodies, law and boundary mean for the comparison.
+    findings
+        Checks of resolution and regime at the lowest and the highest load.
+    """
+
+    problem: ContactProblem
+    surface: Surface
+    roughness: Roughness
+    pressures: RealArray
+    curves: tuple[TheoryCurve, ...]
+    left_out: tuple[LeftOut, ...]
+    numerical: NumericalCurve | None
+    remarks: tuple[str, ...]
+    findings: tuple[Advice, ...]
+
+    @property
+    def E_star(self) -> float:
+        """Contact modulus in Pa of the materials at the surfaces, that of all theories."""
+        return self.problem.contact_modulus
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """The papers behind all curves."""
+        parts = [self.surface.origin.citation_keys, *(curve.citation_keys for curve in self.curves)]
+        if self.numerical is not None:
+            parts.append(self.numerical.citation_keys)
+        return tuple(dict.fromkeys(key for keys in parts for key in keys))
+
+    def curve(self, name: str) -> TheoryCurve:
+        """Curve of the theory called ``name``; KeyError if there is none."""
+        return {curve.name: curve for curve in self.curves}[name]
+
+    def kappa(self, area_fraction: RealArray) -> RealArray:
+        """κ = (A/A_n) E* h'_rms/p (n,) of ``area_fraction`` (n,) at the pressures of the comparison."""
+        scaled: RealArray = area_fraction * (self.E_star * self.roughness.rms_gradient) / self.pressures
+        return scaled
+
+    def slope(self, area_fraction: RealArray) -> RealArray:
+        """Local slope d(A/A_n)/d(p/(E* h'_rms)) (n,) by differences of the logarithms; NaN beside loads without area."""
+        if area_fraction.size < 2:
+            return np.full_like(area_fraction, np.nan)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            exponent = np.gradient(np.log(area_fraction), np.log(self.pressures))
+            steep: RealArray = self.kappa(area_fraction) * exponent
+        return np.where(np.isfinite(steep), steep, np.nan)
+
+    def deviation(self, name: str, quantity: str = "area_fraction") -> RealArray:
+        """Deviation (n,) of the theory ``name`` from the numerical solution; NaN where one of them has no value.
+
+        ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative, ``gap`` in rms heights.
+        """
+        curve = self.curve(name)
+        if self.numerical is None or (quantity == "gap" and not curve.comparable_gap):
+            return np.full_like(self.pressures, np.nan)
+        found = curve.gap if quantity == "gap" else getattr(curve.prediction, quantity)
+        exact = getattr(self.numerical, _EXACT[quantity])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            scale = self.roughness.rms_height if quantity == "gap" else exact
+            apart: RealArray = (found - exact) / scale
+        return np.where(np.isfinite(apart), apart, np.nan)
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """All of it as a labelled dataset with dimensions ``theory`` and ``pressure``, units and provenance."""
+        return _dataset(self)
+
+
+_EXACT = {"area_fraction": "area_fraction_corrected", "contact_density": "contact_density", "gap": "mean_gap"}
+"""Field of the numerical solution that stands for the truth of a quantity."""
+
+_DERIVED = {
+    "kappa": "slope from the origin, area fraction x E* h'_rms / p",
+    "slope": "local slope, d(area fraction) / d(p / (E* h'_rms))",
+}
+
+
+def _dataset(comparison: Comparison) -> xarray.Dataset:
+    import xarray
+
+    curves = comparison.curves
+    variables: dict[str, Any] = {}
+    for name, unit, meaning in QUANTITIES[1:]:
+        values = [getattr(curve.prediction, name) for curve in curves]
+        variables[name] = _of_theories(comparison, values, unit, meaning)
+    gaps = [curve.gap for curve in curves]
+    variables["gap"] = _of_theories(comparison, gaps, "m", "mean gap, or separation where the theory knows no gap")
+    for name, meaning in _DERIVED.items():
+        values = [getattr(comparison, name)(curve.prediction.area_fraction) for curve in curves]
+        variables[name] = _of_theories(comparison, values, "1", meaning)
+    valid = np.array([curve.valid for curve in curves]).reshape(len(curves), comparison.pressures.size)
+    variables["valid"] = (("theory", "pressure"), valid, _labels("1", "whether all limits of the theory hold"))
+    if comparison.numerical is not None:
+        variables |= _numerical_variables(comparison, comparison.numerical)
+    pressures = comparison.pressures
+    coordinates = {
+        "theory": ("theory", np.array([curve.name for curve in curves], dtype=object)),
+        "title": ("theory", np.array([curve.title for curve in curves], dtype=object)),
+        "family": ("theory", np.array([curve.family for curve in curves], dtype=object)),
+        "pressure": ("pressure", pressures, _labels("Pa", "nominal pressure")),
+        "relative_pressure": ("pressure", pressures / comparison.E_star, _labels("1", "nominal pressure / E*")),
+    }
+    return xarray.Dataset(variables, coordinates, _attributes(comparison))
+
+
+def _numerical_variables(comparison: Comparison, numerical: NumericalCurve) -> dict[str, Any]:
+    area = numerical.area_fraction_corrected
+    columns = {
+        "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
+        "area_fraction_corrected": (area, "1", "real area per nominal area, perimeter-corrected"),
+        "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
+        "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
+        **{name: (getattr(comparison, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},
+    }
+    found: dict[str, Any] = {
+        f"numerical_{name}": ("pressure", values, _labels(unit, f"boundary elements: {meaning}"))
+        for name, (values, unit, meaning) in columns.items()
+    }
+    for quantity, exact in _EXACT.items():
+        rows = [comparison.deviation(curve.name, quantity) for curve in comparison.curves]
+        unit = "rms height" if quantity == "gap" else f"numerical_{exact}"
+        label = f"({quantity} of the theory - numerical_{exact}) / {unit}"
+        found[f"{quantity}_deviation"] = _of_theories(comparison, rows, "1", label)
+    return found
+
+
+def _attributes(comparison: Comparison) -> dict[str, Any]:
+    roughness = comparison.roughness
+    described = {"software": software(), "surface": surface_provenance(comparison.surface)}
+    described["created"] = datetime.now(UTC).isoformat(timespec="seconds")
+    notes = {curve.name: list(curve.notes) for curve in comparison.curves}
+    if comparison.numerical is not None:
+        notes["numerical"] = list(comparison.numerical.notes)
+    return {
+        "title": "theories of rough contact beside the numerical solution",
+        "asperity_format": FORMAT_VERSION,
+        "contact_modulus_Pa": comparison.E_star,
+        "rms_gradient": roughness.rms_gradient,
+        "rms_height_m": roughness.rms_height,
+        "nayak_parameter": roughness.alpha,
+        "notes": json.dumps(notes),
+        "left_out": json.dumps({item.name: item.reason for item in comparison.left_out}),
+        "remarks": json.dumps(list(comparison.remarks)),
+        "provenance": json.dumps(described),
+        "citation_keys": " ".join(comparison.citation_keys),
+    }
+
+
+def _of_theories(comparison: Comparison, rows: list[RealArray], unit: str, label: str) -> Any:
+    values = np.array(rows, dtype=float).reshape(len(rows), comparison.pressures.size)
+    return ("theory", "pressure"), values, _labels(unit or "1", label)
+
+
+def _labels(unit: str, label: str) -> dict[str, str]:
+    return {"units": unit, "long_name": label}

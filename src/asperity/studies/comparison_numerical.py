@@ -1,0 +1,75 @@
+"""The boundary-element solution of a comparison: one load path, of which a few numbers a load are kept."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..contact.advice import advise, review
+from ..contact.control import MeanPressure
+from ..contact.finding import Advice
+from ..contact.path import steps
+from ..contact.problem import ContactProblem
+from ..contact.result import ContactResult
+from ..contact.solvers.choose import default_solver
+from ..contact.solvers.protocol import Solver
+from ..core.arrays import RealArray
+from ..core.engine import Engine
+from ..core.errors import NoSolutionError
+from ..core.progress import Progress
+from .comparison import NumericalCurve
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """The ``curve``, the ``findings`` at the lowest and highest load, the mean radius in m of the spots at the highest."""
+
+    curve: NumericalCurve
+    findings: tuple[Advice, ...]
+    mean_radius: float
+
+
+def solved(
+    problem: ContactProblem,
+    pressures: RealArray,
+    *,
+    solver: Solver | None = None,
+    progress: Progress | None = None,
+    engine: Engine | None = None,
+) -> Solved:
+    """Solution of ``problem`` at rising ``pressures`` (n,) in Pa, each from the interface the last one left.
+
+    Loads that do not converge, or that the law cannot bear, are NaN and noted.
+    """
+    method = solver or default_solver(problem)
+    area = problem.grid.n_points * problem.grid.pixel_area
+    columns = np.full((4, pressures.size), np.nan)
+    faults: list[str] = []
+    findings: dict[str, Advice] = {}
+    keys, radius, started = problem.citation_keys, math.nan, time.perf_counter()
+    path = steps(
+        problem, map(MeanPressure, pressures), solver=method, progress=progress, engine=engine, on_failure="return"
+    )
+    try:
+        for number, result in enumerate(path):
+            keys = result.citation_keys
+            if not result.converged:
+                faults.append(f"At {pressures[number]:.4g} Pa: {result.status.message}")
+                continue
+            columns[:, number] = _numbers(result, area)
+            radius = math.sqrt(result.mean_spot_area / math.pi) if result.n_spots else math.nan
+            if number in (0, pressures.size - 1):
+                checks = (*advise(problem, result.control), *review(result))
+                findings |= {item.criterion: item for item in checks}
+    except NoSolutionError as error:
+        faults.append(str(error))
+    curve = NumericalCurve(*columns, time.perf_counter() - started, method.name, tuple(faults), keys)
+    return Solved(curve, tuple(findings.values()), radius)
+
+
+def _numbers(result: ContactResult, area: float) -> tuple[float, ...]:
+    """Fields of a ``NumericalCurve`` at one load, in its order."""
+    return result.area_fraction, result.area_fraction_corrected, result.n_spots / area, result.mean_gap

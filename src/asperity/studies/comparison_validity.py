@@ -1,0 +1,134 @@
+"""Where the theories of a comparison leave their validity, with the numbers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..contact.boundary import Periodic
+from ..contact.laws import HardWall
+from ..contact.problem import ContactProblem
+from ..core.arrays import BoolArray, RealArray
+from ..core.units import show
+from ..solids.layers import Layered
+from ..theories.limits import constant_limit
+from ..theories.protocol import Limit, Prediction, SurfaceTheory
+from ..theories.roughness import Roughness
+from .comparison_theories import family
+
+ISOTROPIC = ("mccool", "bush-gibson-thomas", "greenwood-elliptic", "greenwood-tripp", "persson")
+"""Theories of isotropic surfaces that are made from moments or the radial spectrum, blind to direction."""
+
+ANISOTROPY = 2.0
+"""Ratio of the principal mean square slopes up to which mean moments put the area of high summits off by less than 2 %
+(Bush, Gibson & Keogh 1979: 1.3 % at 2, 6 % at 5, 11 % at 10)."""
+
+
+def limits(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> tuple[Limit, ...]:
+    """Limits of ``theory`` along its ``prediction``, with the isotropy that it takes for granted."""
+    own = tuple(theory.validity(prediction))
+    if theory.name not in ISOTROPIC or roughness.moments is None:
+        return own
+    steep, gentle = roughness.moments.principal_slopes
+    ratio = steep / gentle if gentle > 0.0 else math.inf
+    isotropy = constant_limit(
+        "ratio of the principal mean square slopes",
+        ratio,
+        (1.0, ANISOTROPY),
+        prediction=prediction,
+        citation="Bush1979",
+        message="The surface is anisotropic, and the theory knows the mean over all directions only.",
+    )
+    return (*own, isotropy)
+
+
+def holds(found: tuple[Limit, ...], count: int) -> BoolArray:
+    """(n,) whether all limits hold."""
+    inside: BoolArray = np.ones(count, dtype=bool)
+    for limit in found:
+        inside &= limit.holds
+    return inside
+
+
+def notes(found: tuple[Limit, ...], pressures: RealArray) -> tuple[str, ...]:
+    """One sentence for each limit that is left at some of the ``pressures`` (n,) in Pa."""
+    return tuple(_sentence(limit, pressures) for limit in found if not limit.holds.all())
+
+
+def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
+    """What bodies, law and boundary mean for the comparison.
+
+    ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is not known.
+    """
+    found = [*_of_layers(problem, largest_spot), *_of_law(problem, theories)]
+    adhesive = [name for name, theory in theories.items() if family(theory) == "adhesive"]
+    if adhesive:
+        found.append(f"The numerical solution has no adhesion; in {_listed(adhesive)} it adds to the area.")
+    if not isinstance(problem.boundary, Periodic):
+        found.append(
+            f"The boundary is {problem.boundary.name}: the contact is that of a patch whose borders carry more than "
+            "its middle; theories know an endless surface. Compare with a periodic boundary."
+        )
+    elif "interacting-crests" in theories:
+        found.append(
+            "The separation of interacting-crests includes the sinking of the whole patch under its load, which a periodic "
+            "contact does not have: it is no mean gap and is not compared as one."
+        )
+    return tuple(found)
+
+
+def _of_layers(problem: ContactProblem, spot: float) -> list[str]:
+    coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
+    if not coated:
+        return []
+    thin = min(body.reduced.layers[0].thickness for body in coated)
+    size = f" (at the highest load their mean radius is {show(spot, 'm', 3)})" if math.isfinite(spot) else ""
+    return [
+        "A body is layered. The numerical solution knows its layers; every theory is one of homogeneous half-spaces and takes "
+        f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
+        f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
+    ]
+
+
+def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list[str]:
+    plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
+    if isinstance(problem.law, HardWall):
+        flows = f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
+        return [flows] if plastic else []
+    known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
+    return [f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories know no limit."]
+
+
+def _listed(names: list[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _sentence(limit: Limit, pressures: RealArray) -> str:
+    outside = ~limit.holds
+    value = limit.value[outside]
+    finite = value[np.isfinite(value)]
+    worst = float(finite[np.argmax(np.abs(finite - _nearest(limit)))]) if finite.size else math.nan
+    if outside.all():
+        where = "at every load"
+    elif outside[-1] and outside[: int(np.argmax(outside))].sum() == 0 and outside[int(np.argmax(outside)) :].all():
+        where = f"from {show(float(pressures[int(np.argmax(outside))]), 'Pa', 3)} on"
+    elif outside[0] and outside[: int(np.argmin(outside))].all() and not outside[int(np.argmin(outside)) :].any():
+        where = f"below {show(float(pressures[int(np.argmin(outside))]), 'Pa', 3)}"
+    else:
+        where = f"at {int(outside.sum())} of {outside.size} loads"
+    return f"{limit.criterion} {worst:.3g}, not {_bounds(limit)}, {where}: {limit.message} [{limit.citation}]"
+
+
+def _nearest(limit: Limit) -> float:
+    """A bound from which excess is measured."""
+    return limit.high if math.isfinite(limit.high) else limit.low
+
+
+def _bounds(limit: Limit) -> str:
+    if not math.isfinite(limit.low) or (limit.low == 0.0 and math.isfinite(limit.high)):
+        return f"at most {limit.high:.3g}"
+    if not math.isfinite(limit.high):
+        return f"at least {limit.low:.3g}"
+    return f"{limit.low:.3g} to {limit.high:.3g}"
