@@ -47,6 +47,7 @@ from .io.wet_results import load_wet, save_wet
 from .plots.figures import save_plots, save_surface_plot
 from .plots.path_figures import save_path_plots
 from .plots.surface_figures import save_roughness_plots
+from .report.comparison import write_comparison_report
 from .report.roughness import write_roughness_report
 from .report.write import write_report
 from .solids.body import contact_modulus
@@ -66,6 +67,9 @@ from .stress.tractions import ShearTraction, Sliding
 from .stress.where import DepthProfile, Everywhere, Section
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
+from .studies.compare import compare
+from .studies.comparison import Comparison
+from .studies.comparison_files import export_comparison_csv, save_comparison
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
@@ -96,6 +100,7 @@ __all__ = [
     "Campaign",
     "CampaignState",
     "Characterisation",
+    "Comparison",
     "ContactProblem",
     "ContactResult",
     "ConvergenceError",
@@ -158,12 +163,14 @@ __all__ = [
     "channels",
     "characterise",
     "cite",
+    "compare",
     "composite",
     "contact_modulus",
     "cropped",
     "depths_through",
     "despiked",
     "energy_balance",
+    "export_comparison_csv",
     "export_csv",
     "export_path_csv",
     "export_stress_vtk",
@@ -203,6 +210,7 @@ __all__ = [
     "roughness_of",
     "run_study",
     "save",
+    "save_comparison",
     "save_endless",
     "save_gaussian",
     "save_path",
@@ -226,6 +234,7 @@ __all__ = [
     "tip_limited",
     "turned_over",
     "wet_theory",
+    "write_comparison_report",
     "write_report",
     "write_roughness_report",
 ]

@@ -8,6 +8,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.core.engine.kernels.survey_capped": "one pass over memory for all sums; splitting it would read the fields twice",
         "asperity.contact.assemble.assemble": "one line for each field of the result",
         "asperity.contact.wet.solve_wet": "one line for each field of the result; no loop and no nesting",
+        "asperity.studies.compare.compare": "one line for each field of the comparison; no loop and no nesting",
         "asperity.contact.solve.solve": "one call per stage, laid out by the formatter; no loop and no nesting",
         "asperity.contact.solvers.conjugate_gradient._conjugate_step": (
             "one iteration in the order of the paper; its parts share seven arrays"
@@ -38,6 +39,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "asperity.contact.solve.solve": "independent keyword-only choices of the user, each with a default",
         "asperity.contact.sliding.solve_sliding": "the choices of solve, with friction and its direction",
         "asperity.contact.wet.solve_wet": "the choices of solve, with a film, friction and when to stop",
+        "asperity.studies.compare.compare": "independent keyword-only choices of the user, each with a default",
         "asperity.stress.compute.stress": "independent keyword-only choices of the user, each with a default",
         "asperity.stress.compute.stress_planes": "independent keyword-only choices of the user, each with a default",
         "asperity.io.disk_surface.save_gaussian": "independent keyword-only choices of the user, most with a default",

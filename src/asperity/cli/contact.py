@@ -41,8 +41,8 @@ def contact(
         table, names = _from_options(source.file, reading, preparation, bodies, solve)
         where, base = "command line", Path()
     else:
-        _require_no_surface(source.file, reading, preparation, bodies)
-        table, names = _from_document(source.from_, bodies, solve), {}
+        require_no_surface(source.file, reading, preparation, bodies)
+        table, names = table_of_document(source.from_, bodies, solve), {}
         where, base = f"problem document {source.from_}", source.from_.parent
     table = with_film(table, film, stress)
     table = with_stress(table, without_shared_friction(stress, table), wanted=output.wants_stress)
@@ -88,7 +88,8 @@ def _from_options(
     return table, {**NAMES, **body_names(table), **path_names(table), **step_names(table["surface"]["prepare"])}
 
 
-def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:
+def table_of_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:
+    """The document at ``path`` with what the options replace in it."""
     from dataclasses import replace
 
     from ..io.documents import read_table
@@ -102,9 +103,16 @@ def _from_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict
     return table
 
 
-def _require_no_surface(
+def require_no_surface(
     file: Path | None, reading: ReadingOptions, preparation: PreparationOptions, bodies: BodyOptions
 ) -> None:
+    """Refuse a surface given beside that of a document.
+
+    Raises
+    ------
+    InputError
+        If a file, or an option for its reading, preparation or pairing, is given.
+    """
     from ..core.errors import InputError
 
     if (

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from . import campaigns, contact, generate, info, materials, results, stress, theory
+from . import campaigns, compare, contact, generate, info, materials, results, stress, theory
 from .failures import Reporting
 from .groups import grouped
 
@@ -27,6 +27,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     contact.contact,
     contact.demo,
     stress.stress,
+    compare.compare,
     campaigns.run,
     campaigns.status,
     campaigns.collect,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,24 +89,30 @@ def compare(
     loads = _loads(pressures, problem.contact_modulus * roughness.rms_gradient)
     known = known_of_bodies(problem) | dict(inputs or {})
     chosen = chosen_theories(roughness, problem.contact_modulus, theories=theories, known=known)
-    found = [
-        _curve(name, theory, loads, roughness=roughness, most_contacts=most_contacts, periodic=_periodic(problem))
-        for name, theory in chosen.theories.items()
-    ]
-    curves = tuple(curve for curve in found if isinstance(curve, TheoryCurve))
-    lost = tuple(curve for curve in found if isinstance(curve, LeftOut))
+    context = _Context(loads, roughness, most_contacts, isinstance(problem.boundary, Periodic))
+    found = [_curve(name, theory, context) for name, theory in chosen.theories.items()]
     exact = solved(problem, loads, solver=solver, progress=progress, engine=engine) if numerical else None
     return Comparison(
         problem=problem,
         surface=whole,
         roughness=roughness,
         pressures=loads,
-        curves=curves,
-        left_out=(*chosen.left_out, *lost),
+        curves=tuple(curve for curve in found if isinstance(curve, TheoryCurve)),
+        left_out=(*chosen.left_out, *(curve for curve in found if isinstance(curve, LeftOut))),
         numerical=None if exact is None else exact.curve,
-        remarks=remarks(problem, chosen.theories, np.nan if exact is None else exact.mean_radius),
+        remarks=remarks(problem, chosen.theories, math.nan if exact is None else exact.mean_radius),
         findings=() if exact is None else exact.findings,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Context:
+    """What all theories share: ``loads`` (n,) in Pa, ``roughness``, the limit of contacts, whether the surface repeats."""
+
+    loads: RealArray
+    roughness: Roughness
+    most_contacts: int
+    periodic: bool
 
 
 def _problem(surface: Surface | ContactProblem, bodies: Body | tuple[Body, Body] | None) -> ContactProblem:
@@ -123,10 +131,6 @@ def _whole(problem: ContactProblem) -> Surface:
     return composite(problem.surface, counter) if isinstance(counter, Surface) else problem.surface
 
 
-def _periodic(problem: ContactProblem) -> bool:
-    return isinstance(problem.boundary, Periodic)
-
-
 def _loads(pressures: ArrayLike | None, unit: float) -> RealArray:
     if pressures is None:
         return np.geomspace(LIGHTEST, HEAVIEST, LOADS) * unit
@@ -138,15 +142,14 @@ def _loads(pressures: ArrayLike | None, unit: float) -> RealArray:
     return given
 
 
-def _curve(
-    name: str, theory: SurfaceTheory, loads: RealArray, *, roughness: Roughness, most_contacts: int, periodic: bool
-) -> TheoryCurve | LeftOut:
-    """Curve of one theory as far as it goes along ``loads``."""
-    count, first_notes = _reach(theory, loads, most_contacts)
+def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve | LeftOut:
+    """Curve of one theory as far as it goes along the loads."""
+    loads = context.loads
+    count, first_notes = _reach(theory, loads, context.most_contacts)
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
         return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
-    bounds = limits(theory, found, roughness)
+    bounds = limits(theory, found, context.roughness)
     reached = loads[: len(found)]
     valid = np.zeros(loads.size, dtype=bool)
     valid[: reached.size] = holds(bounds, reached.size)
@@ -157,7 +160,7 @@ def _curve(
         prediction=_filled(found, loads),
         valid=valid,
         notes=(*first_notes, *((reason,) if reason else ()), *notes(bounds, reached)),
-        comparable_gap=not (periodic and isinstance(theory, InteractingCrests)),
+        comparable_gap=not (context.periodic and isinstance(theory, InteractingCrests)),
         citation_keys=tuple(theory.citation_keys),
     )
 

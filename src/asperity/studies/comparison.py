@@ -54,10 +54,11 @@ class TheoryCurve:
 
     @property
     def gap(self) -> RealArray:
-        """(n,) mean gap in m, or the separation of the mean planes where the theory knows no other; NaN if it knows none."""
-        found: RealArray = np.where(
-            np.isfinite(self.prediction.mean_gap), self.prediction.mean_gap, self.prediction.separation
-        )
+        """(n,) mean gap in m, or the separation of the mean planes where the theory knows no other; NaN if it is none."""
+        own = self.prediction
+        if not self.comparable_gap:
+            return np.full_like(own.mean_gap, np.nan)
+        found: RealArray = np.where(np.isfinite(own.mean_gap), own.mean_gap, own.separation)
         return found
 
 
@@ -153,7 +154,7 @@ class Comparison:
         ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative, ``gap`` in rms heights.
         """
         curve = self.curve(name)
-        if self.numerical is None or (quantity == "gap" and not curve.comparable_gap):
+        if self.numerical is None:
             return np.full_like(self.pressures, np.nan)
         found = curve.gap if quantity == "gap" else getattr(curve.prediction, quantity)
         exact = getattr(self.numerical, _EXACT[quantity])
@@ -228,8 +229,11 @@ def _numerical_variables(comparison: Comparison, numerical: NumericalCurve) -> d
 
 def _attributes(comparison: Comparison) -> dict[str, Any]:
     roughness = comparison.roughness
-    described = {"software": software(), "surface": surface_provenance(comparison.surface)}
-    described["created"] = datetime.now(UTC).isoformat(timespec="seconds")
+    described = {
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "software": software(),
+        "surface": surface_provenance(comparison.surface),
+    }
     notes = {curve.name: list(curve.notes) for curve in comparison.curves}
     if comparison.numerical is not None:
         notes["numerical"] = list(comparison.numerical.notes)

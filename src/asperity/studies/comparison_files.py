@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..core.arrays import BoolArray, RealArray
 from ..io.atomic import atomic_file
 from ..io.results import write
 from .comparison import Comparison
@@ -60,16 +61,21 @@ def export_comparison_csv(comparison: Comparison, path: str | Path, *, overwrite
 
 
 def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
-    nothing = np.full_like(comparison.pressures, np.nan)
+    nothing: RealArray = np.full_like(comparison.pressures, np.nan)
     if comparison.numerical is not None:
         solved = comparison.numerical
         areas = (solved.area_fraction_corrected, solved.area_fraction)
-        rest = (solved.mean_gap, solved.contact_density, np.isfinite(solved.mean_gap), nothing, nothing, nothing)
+        rest: tuple[RealArray | BoolArray, ...] = (
+            solved.mean_gap,
+            solved.contact_density,
+            np.isfinite(solved.mean_gap),
+            nothing,
+            nothing,
+            nothing,
+        )
         yield from _curve_rows(comparison, NUMERICAL, areas, rest)
     for curve in comparison.curves:
-        deviations = [
-            comparison.deviation(curve.name, name) for name in ("area_fraction", "contact_density", "gap")
-        ]
+        deviations = [comparison.deviation(curve.name, name) for name in ("area_fraction", "contact_density", "gap")]
         areas = (curve.prediction.area_fraction, nothing)
         rest = (curve.gap, curve.prediction.contact_density, curve.valid, *deviations)
         yield from _curve_rows(comparison, curve.name, areas, rest)
@@ -78,8 +84,8 @@ def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
 def _curve_rows(
     comparison: Comparison,
     name: str,
-    areas: tuple[np.ndarray, np.ndarray],
-    rest: tuple[np.ndarray, ...],
+    areas: tuple[RealArray, RealArray],
+    rest: tuple[RealArray | BoolArray, ...],
 ) -> Iterator[tuple[object, ...]]:
     area, p = areas[0], comparison.pressures
     columns = (p, p / comparison.E_star, *areas, comparison.kappa(area), comparison.slope(area), *rest)

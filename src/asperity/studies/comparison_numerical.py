@@ -45,31 +45,36 @@ def solved(
     Loads that do not converge, or that the law cannot bear, are NaN and noted.
     """
     method = solver or default_solver(problem)
-    area = problem.grid.n_points * problem.grid.pixel_area
     columns = np.full((4, pressures.size), np.nan)
     faults: list[str] = []
     findings: dict[str, Advice] = {}
-    keys, radius, started = problem.citation_keys, math.nan, time.perf_counter()
-    path = steps(
-        problem, map(MeanPressure, pressures), solver=method, progress=progress, engine=engine, on_failure="return"
-    )
+    last: ContactResult | None = None
+    started = time.perf_counter()
+    controls = map(MeanPressure, pressures)
+    path = steps(problem, controls, solver=method, progress=progress, engine=engine, on_failure="return")
     try:
         for number, result in enumerate(path):
-            keys = result.citation_keys
             if not result.converged:
                 faults.append(f"At {pressures[number]:.4g} Pa: {result.status.message}")
                 continue
-            columns[:, number] = _numbers(result, area)
-            radius = math.sqrt(result.mean_spot_area / math.pi) if result.n_spots else math.nan
-            if number in (0, pressures.size - 1):
-                checks = (*advise(problem, result.control), *review(result))
-                findings |= {item.criterion: item for item in checks}
+            columns[:, number], last = _numbers(result), result
+            findings |= _checks(result) if number in (0, pressures.size - 1) else {}
     except NoSolutionError as error:
         faults.append(str(error))
-    curve = NumericalCurve(*columns, time.perf_counter() - started, method.name, tuple(faults), keys)
+    seconds, keys = time.perf_counter() - started, problem.citation_keys if last is None else last.citation_keys
+    radius = math.sqrt(last.mean_spot_area / math.pi) if last is not None and last.n_spots else math.nan
+    pixels, area, spots, gap = columns
+    curve = NumericalCurve(pixels, area, spots, gap, seconds, method.name, tuple(faults), keys)
     return Solved(curve, tuple(findings.values()), radius)
 
 
-def _numbers(result: ContactResult, area: float) -> tuple[float, ...]:
-    """Fields of a ``NumericalCurve`` at one load, in its order."""
-    return result.area_fraction, result.area_fraction_corrected, result.n_spots / area, result.mean_gap
+def _numbers(result: ContactResult) -> tuple[float, ...]:
+    """Area by pixels and corrected, spots per nominal area in 1/m², mean gap in m."""
+    nominal = math.prod(result.problem.grid.size)
+    return result.area_fraction, result.area_fraction_corrected, result.n_spots / nominal, result.mean_gap
+
+
+def _checks(result: ContactResult) -> dict[str, Advice]:
+    """Findings before and after the solve by their criterion."""
+    found = (*advise(result.problem, result.control), *review(result))
+    return {item.criterion: item for item in found}

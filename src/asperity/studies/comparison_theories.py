@@ -64,7 +64,9 @@ def chosen_theories(
         If a name is unknown or something is no theory.
     """
     if isinstance(theories, str):
-        raise InputError(f"theories of a comparison must be a list of names, but is {theories!r}. Write [{theories!r}].")
+        raise InputError(
+            f"theories of a comparison must be a list of names, but is {theories!r}. Write [{theories!r}]."
+        )
     made: dict[str, SurfaceTheory] = {}
     left_out: list[LeftOut] = []
     for item in SURFACE_THEORIES if theories is None else theories:

@@ -97,7 +97,9 @@ def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list
         flows = f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
         return [flows] if plastic else []
     known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
-    return [f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories know no limit."]
+    return [
+        f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories know no limit."
+    ]
 
 
 def _listed(names: list[str]) -> str:

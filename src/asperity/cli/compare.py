@@ -1,0 +1,163 @@
+"""The command ``compare``: every theory of rough contact beside the numerical solution."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from .comparing import CompareOptions, CompareSource
+from .failures import NOT_CONVERGED, OK
+from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions
+from .preparing import PreparationOptions
+
+if TYPE_CHECKING:
+    from ..core.arrays import RealArray
+    from ..io.build import Case
+    from ..io.documents import ProblemDocument
+    from ..studies.comparison import Comparison
+
+NAMES_IN_FOLDER = ("report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml")
+"""What a comparison leaves in its folder."""
+
+
+def compare(
+    source: CompareSource,
+    reading: ReadingOptions,
+    preparation: PreparationOptions,
+    bodies: BodyOptions,
+    options: CompareOptions,
+) -> None:
+    """Compare every theory of rough contact with the boundary-element solution, on one surface.
+
+    Examples: asperity compare scan.di --body DLC --out run;
+    asperity compare scan.di --body steel --pressures 1MPa..1GPa --loads 20 --theories persson,bush-gibson-thomas
+
+    Exit code 0: done; 1: a load did not converge (it is empty and named); 2: input that cannot be used; 130: interrupted.
+    """
+    from ..io.build import build
+    from ..io.documents import checked, relocated
+    from .show import print_files
+    from .stress_run import output_folder
+
+    table, names, base = _table(source, reading, preparation, bodies, options)
+    document = checked(table, str(source.from_ or "command line"), names)
+    values, case = _pressures(options), build(document, base)
+    with output_folder(OutputOptions(out=options.out, force=options.force)) as folder:
+        comparison = _compared(case, values, options)
+        if folder is not None and options.out is not None:
+            _write(comparison, relocated(document, base, options.out), folder)
+    _print(comparison, document.title)
+    print_files([] if options.out is None else [options.out / name for name in NAMES_IN_FOLDER])
+    solved = comparison.numerical
+    raise typer.Exit(NOT_CONVERGED if solved is not None and solved.notes else OK)
+
+
+def _table(
+    source: CompareSource,
+    reading: ReadingOptions,
+    preparation: PreparationOptions,
+    bodies: BodyOptions,
+    options: CompareOptions,
+) -> tuple[dict[str, Any], dict[str, str], Path]:
+    """Document without a load of its own, what the user calls its keys, and the folder its paths start at."""
+    from ..core.errors import InputError
+    from .compose import NAMES, body_names, composed, overlaid
+    from .contact import require_no_surface, table_of_document
+    from .preparing import step_names
+
+    solve = SolveOptions(tolerance=options.tolerance, threads=options.threads)
+    if source.from_ is not None:
+        require_no_surface(source.file, reading, preparation, bodies)
+        table = table_of_document(source.from_, bodies, solve)
+        return {**table, "control": dict(_PLACEHOLDER)}, {}, source.from_.parent
+    if source.file is None:
+        raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
+    table = overlaid(
+        {**composed(source.file, reading, preparation, bodies), "control": dict(_PLACEHOLDER)}, bodies, solve
+    )
+    return table, {**NAMES, **body_names(table), **step_names(table["surface"]["prepare"])}, Path()
+
+
+_PLACEHOLDER = MappingProxyType({"mean_pressure": "1 Pa"})
+
+
+def _pressures(options: CompareOptions) -> RealArray | None:
+    from ..core.errors import InputError
+    from ..io.ranges import RANGE, parse_values
+    from ..studies.compare import LOADS
+
+    if options.pressures is None:
+        if options.loads is not None:
+            raise InputError("--loads must be given together with a range --pressures 1MPa..1GPa only.")
+        return None
+    if options.loads is not None and RANGE not in options.pressures:
+        raise InputError("--loads must be left out with a list of --pressures, which has as many as it holds.")
+    count = LOADS if options.loads is None else options.loads
+    return parse_values(options.pressures, "pressure", "--pressures", count=count)
+
+
+def _compared(case: Case, pressures: RealArray | None, options: CompareOptions) -> Comparison:
+    from ..core import units
+    from ..core.engine import CpuEngine
+    from ..studies.compare import MOST_CONTACTS
+    from ..studies.compare import compare as compare_theories
+    from .interrupt import interruptible
+    from .progress import shown
+
+    names = None if options.theories is None else [name.strip() for name in options.theories.split(",")]
+    inputs = {} if options.work is None else {"work": units.parse(options.work, "surface tension", "--work")}
+    with shown("solving every load") as bar, interruptible(bar) as progress:
+        return compare_theories(
+            case.problem,
+            pressures=pressures,
+            theories=names,
+            inputs=inputs,
+            numerical=not options.no_numerical,
+            most_contacts=MOST_CONTACTS if options.most_contacts is None else options.most_contacts,
+            solver=case.solver,
+            progress=progress,
+            engine=CpuEngine(case.threads),
+        )
+
+
+def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> None:
+    """Write everything into ``folder``; the load of the document is the highest."""
+    from ..io.documents import save_document
+    from ..io.schemas.problem import ControlTable
+    from ..plots.comparison import comparison_figures, save_comparison_plots
+    from ..report.comparison import write_comparison_report
+    from ..studies.comparison_files import export_comparison_csv, save_comparison
+
+    highest = ControlTable(mean_pressure=f"{float(comparison.pressures[-1])!r} Pa")
+    save_document(document.model_copy(update={"control": highest}), folder / "problem.toml")
+    save_comparison(comparison, folder / "comparison.nc")
+    export_comparison_csv(comparison, folder / "comparison.csv")
+    figures = comparison_figures(comparison.dataset)
+    save_comparison_plots(figures, folder / "plots")
+    write_comparison_report(comparison, folder / "report.html", title=document.title, figures=figures)
+
+
+def _print(comparison: Comparison, title: str) -> None:
+    """Print setup, table, limits, what was left out, remarks and findings."""
+    from ..report.comparison_tables import comparison_sentence, left_out_rows, limit_rows, setup_rows, slope_table
+    from .show import console, print_advice, say, table
+
+    out, found = console(), slope_table(comparison)
+    out.print(table(title or "Comparison", setup_rows(comparison)))
+    shown = table("Theories and numerical solution", found.cells, found.headings)
+    for column in (shown.columns[0], shown.columns[-1]):
+        column.no_wrap = True  # names and ranges are read whole, numbers fit anyway
+    out.print(shown)
+    for heading, rows in (
+        ("Where each leaves its validity", limit_rows(comparison)),
+        ("Left out", left_out_rows(comparison)),
+    ):
+        if rows:
+            out.print(table(heading, rows))
+    for remark in comparison.remarks:
+        say(remark, "cyan")
+    print_advice(comparison.findings)
+    say(comparison_sentence(comparison))

@@ -1,0 +1,185 @@
+"""Curves of theories beside the numerical solution: area, its slope, gap, deviations; from the dataset of a comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from .figure import Figure
+from .picture import CURVE_SIZE, png, save_pictures
+from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, scale
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+"""Colours of theories in turn."""
+
+LINES = ("-", "--", ":", "-.")
+"""Lines of theories, each for one turn of the colours."""
+
+FAINT = 0.3
+"""Opacity of a curve where its theory is beyond its limits."""
+
+TEXTS = {
+    "area": (
+        "Area against pressure",
+        "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected for the pixels "
+        "(small points: pixels counted). Curves are faint where a theory is beyond its limits.",
+    ),
+    "kappa": (
+        "Slope of the area",
+        "κ = (A/A₀) E* h'/p, with the rms gradient h', is constant where the area is proportional to the load. "
+        "Limits at vanishing load: √(2π) of Bush, Gibson and Thomas, √(8/π) of Persson. The axis ends at 5.",
+    ),
+    "local_slope": (
+        "Local slope of the area",
+        "d(A/A₀)/d(p/(E* h')) by differences between neighbouring loads.",
+    ),
+    "gap": (
+        "Mean gap against pressure",
+        "Mean gap of the deformed surfaces; of theories that know no other, the separation of the mean planes.",
+    ),
+    "deviation": (
+        "Deviation of the area from the numerical solution",
+        "Area of the theory over that of the boundary elements, less one; the axis ends at 100 %.",
+    ),
+}
+"""Title and caption of each figure by its name."""
+
+STEEPEST = 5.0
+"""Slope at which the axes of slopes end: twice the largest limit of an elastic theory."""
+
+LARGEST_DEVIATION = 1.0
+"""Deviation beyond which the axis of deviations ends."""
+
+
+def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both logarithmic."""
+    _draw(data, "area_fraction", ax)
+    if "numerical_area_fraction" in data:
+        pixels = _values(data["numerical_area_fraction"])
+        ax.plot(_pressure(data), pixels, color=BLACK, linestyle="", marker=".", markersize=2.0)
+        _points(data, "numerical_area_fraction_corrected", ax)
+    ax.set(xscale="log", yscale="log", xlabel="p/E*", ylabel="real area / nominal area")
+    ax.set_ylim(top=1.3)
+    return _legend(ax)
+
+
+def plot_comparison_kappa(data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw κ of every curve of ``data`` against p/E* on ``ax``."""
+    return _slopes(data, "kappa", "κ = (A/A₀) E* h'/p", ax)
+
+
+def plot_comparison_slope(data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw the local slope of the area of every curve of ``data`` against p/E* on ``ax``."""
+    return _slopes(data, "slope", "d(A/A₀)/d(p/(E* h'))", ax)
+
+
+def plot_comparison_gap(data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw the mean gap of every curve of ``data`` against p/E* on ``ax``, in rms heights."""
+    rms = float(data.attrs["rms_height_m"])
+    _draw(data, "gap", ax, unit=rms)
+    _points(data, "numerical_mean_gap", ax, unit=rms)
+    in_m = scale(rms, "m")
+    label = f"mean gap / rms height ({float(in_m(rms)):.3g} {in_m.symbol})"
+    ax.set(xscale="log", xlabel="p/E*", ylabel=label)
+    ax.axhline(0.0, color=BLACK, linewidth=0.5)
+    if "numerical_mean_gap" in data:
+        highest = float(np.nanmax(_values(data["numerical_mean_gap"]))) / rms
+        ax.set_ylim(-0.4 * highest, 1.25 * highest)
+    return _legend(ax)
+
+
+def plot_comparison_deviation(data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw the relative deviation of the area of every theory of ``data`` against the numerical area on ``ax``."""
+    area = 100.0 * _values(data["numerical_area_fraction_corrected"])
+    _draw(data, "area_fraction_deviation", ax, unit=0.01, against=area)
+    ax.axhline(0.0, color=BLACK, linewidth=0.8)
+    ax.set(
+        xscale="log", xlabel="real area of the numerical solution (% of nominal)", ylabel="deviation of the area (%)"
+    )
+    low, high = ax.get_ylim()
+    ax.set_ylim(max(low, -100.0 * LARGEST_DEVIATION), min(high, 100.0 * LARGEST_DEVIATION))
+    return _legend(ax)
+
+
+def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
+    """The figures of a comparison from its dataset, drawn."""
+    draws = {
+        "area": plot_comparison_area,
+        "kappa": plot_comparison_kappa,
+        "local_slope": plot_comparison_slope,
+        "gap": plot_comparison_gap,
+    }
+    if "numerical_area_fraction" in data:
+        draws["deviation"] = plot_comparison_deviation
+    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), CURVE_SIZE)) for name, draw in draws.items())
+
+
+def save_comparison_plots(
+    figures: Iterable[Figure], folder: str | Path, *, overwrite: bool = False
+) -> tuple[Path, ...]:
+    """Write ``figures`` of a comparison as PNG into ``folder`` (made if missing) and return their paths.
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    pictures = {figure.name: partial(_picture, figure) for figure in figures}
+    return save_pictures(pictures, folder, overwrite=overwrite)
+
+
+def _picture(figure: Figure) -> bytes:
+    return figure.picture
+
+
+def _slopes(data: xarray.Dataset, name: str, label: str, ax: Axes) -> Axes:
+    _draw(data, name, ax)
+    _points(data, f"numerical_{name}", ax)
+    ax.set(xscale="log", xlabel="p/E*", ylabel=label)
+    ax.set_ylim(0.0, min(STEEPEST, ax.get_ylim()[1]))
+    return _legend(ax)
+
+
+def _draw(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0, against: RealArray | None = None) -> None:
+    """Curves of ``data[name]`` in ``unit``, faint where the theory is beyond its limits."""
+    x = _pressure(data) if against is None else against
+    for number, theory in enumerate(data["theory"].values):
+        row = data.sel(theory=theory)
+        values, valid = _values(row[name]) / unit, np.asarray(row["valid"].values, dtype=bool)
+        if not np.isfinite(values).any():
+            continue
+        look: dict[str, Any] = {
+            "color": COLOURS[number % len(COLOURS)],
+            "linestyle": LINES[number // len(COLOURS) % len(LINES)],
+        }
+        ax.plot(x, values, alpha=FAINT, linewidth=1.0, **look)
+        ax.plot(x, np.where(valid, values, np.nan), **look)
+        ax.plot([], [], label=str(theory), **look)
+
+
+def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> None:
+    if name in data:
+        values = _values(data[name]) / unit
+        ax.plot(_pressure(data), values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8, label="numerical")
+
+
+def _legend(ax: Axes) -> Axes:
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=6.5, handlelength=2.6, labelspacing=0.35)
+    return ax
+
+
+def _pressure(data: xarray.Dataset) -> RealArray:
+    return _values(data["relative_pressure"])
+
+
+def _values(variable: xarray.DataArray) -> RealArray:
+    return np.asarray(variable.values, dtype=float)
