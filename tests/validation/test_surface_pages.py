@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import figure_10
 import gallery
 import gold_film
 import pytest
@@ -15,11 +16,15 @@ FOLDER = Path(gold_film.__file__).parent
 RUNS = {
     "gold_film": lambda: gold_film.page(realisations=6),
     "standard_surface": lambda: standard_surface.page(realisations=8),
+    "figure_10": lambda: figure_10.page(realisations=1, loads=(0.008, 0.03, 0.1)),
     "scan_size": lambda: scan_size.page(count=8, sides=(4e-6, 64e-6)),
 }
 
 
-@pytest.mark.parametrize("name", RUNS)
+SLOW = ("figure_10",)
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in RUNS])
 def test_what_is_claimed_holds(name):
     page = RUNS[name]()
     for claim in page.claims:
@@ -31,6 +36,18 @@ def test_what_is_claimed_holds(name):
     assert "| NO |" not in written
     for claim in page.claims:
         assert f"| {claim.text} |" in written
+
+
+def test_the_written_figure_10_is_the_scripts():
+    written = (FOLDER / "figure_10.md").read_text(encoding="utf-8")
+    for text in (figure_10.ABOUT, *figure_10.READING):
+        assert text in written
+    for load in figure_10.LOADS:
+        assert f"p = {load:g} E* h'" in written
+    rows = [
+        line for line in written.splitlines() if line.startswith(tuple(f"| {name} " for name in figure_10.THEORIES))
+    ]
+    assert [row.split("|")[2].strip() for row in rows] == 2 * [figure_10.REPORTED[name] for name in figure_10.THEORIES]
 
 
 def test_moments_of_the_printed_spectrum_are_the_reference(reference):

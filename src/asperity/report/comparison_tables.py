@@ -69,15 +69,15 @@ def slope_table(comparison: Comparison) -> Table:
     headings = [
         "Theory",
         *(f"κ at {load}" for load in loads),
-        *(f"area at {load}" for load in loads),
-        "area, rms",
-        "gap, rms",
+        *(f"area (%) at {load}" for load in loads),
+        "area (%), rms",
+        "gap (σ), rms",
         "holds",
     ]
     cells: list[tuple[str, ...]] = []
     if comparison.numerical is not None:
         area = comparison.numerical.area_fraction_corrected
-        shares = [percent(float(area[number])) for number in at]
+        shares = [_share(area[number]) for number in at]
         kappas = [_number(comparison.kappa(area)[number]) for number in at]
         cells.append(("numerical", *kappas, *shares, NONE, NONE, NONE))
     cells += [_theory_cells(comparison, curve, at) for curve in comparison.curves]
@@ -114,7 +114,7 @@ def _theory_cells(comparison: Comparison, curve: TheoryCurve, at: list[int]) -> 
         *(_number(kappas[number]) for number in at),
         *(_share(shown[number], signed=solved) for number in at),
         _share(_rms_where_valid(comparison, curve)),
-        NONE if math.isnan(gap) else f"{gap:.2g} σ",
+        NONE if math.isnan(gap) else f"{gap:.2g}",
         _range(comparison, curve),
     )
 
@@ -145,10 +145,10 @@ def _root_mean_square(deviations: RealArray) -> float:
 
 
 def _number(value: float) -> str:
-    return f"{value:.3f}" if math.isfinite(value) else NONE
+    return f"{value:.2f}" if math.isfinite(value) else NONE
 
 
 def _share(value: float, *, signed: bool = False) -> str:
     if not math.isfinite(value):
         return NONE
-    return f"{100.0 * value:+.1f} %" if signed else percent(value)
+    return f"{100.0 * value:+.1f}" if signed else f"{100.0 * value:.3g}"

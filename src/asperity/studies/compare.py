@@ -29,7 +29,7 @@ from ..theories.roughness import Roughness
 from .comparison import Comparison, TheoryCurve
 from .comparison_numerical import solved
 from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodies
-from .comparison_validity import holds, limits, notes, remarks
+from .comparison_validity import check, remarks
 
 MOST_CONTACTS = 1000
 """Contacts up to which interacting crests are solved: a load takes some 25 ms with a thousand of them, eight times that with twice as many."""
@@ -149,17 +149,16 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
         return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
-    bounds = limits(theory, found, context.roughness)
-    reached = loads[: len(found)]
+    checked = check(theory, found, context.roughness)
     valid = np.zeros(loads.size, dtype=bool)
-    valid[: reached.size] = holds(bounds, reached.size)
+    valid[: len(found)] = checked.valid
     return TheoryCurve(
         name=name,
         title=theory.title,
         family=family(theory),
         prediction=_filled(found, loads),
         valid=valid,
-        notes=(*first_notes, *((reason,) if reason else ()), *notes(bounds, reached)),
+        notes=(*first_notes, *((reason,) if reason else ()), *checked.notes),
         comparable_gap=not (context.periodic and isinstance(theory, InteractingCrests)),
         citation_keys=tuple(theory.citation_keys),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from ..contact.boundary import Periodic
 from ..contact.laws import HardWall
 from ..contact.problem import ContactProblem
 from ..core.arrays import BoolArray, RealArray
+from ..core.errors import AsperityError
 from ..core.units import show
 from ..solids.layers import Layered
 from ..theories.limits import constant_limit
@@ -25,35 +27,39 @@ ANISOTROPY = 2.0
 (Bush, Gibson & Keogh 1979: 1.3 % at 2, 6 % at 5, 11 % at 10)."""
 
 
-def limits(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> tuple[Limit, ...]:
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """Where all limits of a theory hold, (n,), and one sentence for each that is left somewhere."""
+
+    valid: BoolArray
+    notes: tuple[str, ...]
+
+
+def check(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> Checked:
     """Limits of ``theory`` along its ``prediction``, with the isotropy that it takes for granted."""
-    own = tuple(theory.validity(prediction))
+    try:
+        limits = (*theory.validity(prediction), *_isotropy(theory, prediction, roughness))
+    except AsperityError as error:  # a theory that has to solve again for its limits
+        return Checked(np.zeros(len(prediction), dtype=bool), (f"Its limits could not be checked: {error}",))
+    valid: BoolArray = np.ones(len(prediction), dtype=bool)
+    for limit in limits:
+        valid &= limit.holds
+    return Checked(valid, tuple(_sentence(limit, prediction.pressure) for limit in limits if not limit.holds.all()))
+
+
+def _isotropy(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> tuple[Limit, ...]:
     if theory.name not in ISOTROPIC or roughness.moments is None:
-        return own
+        return ()
     steep, gentle = roughness.moments.principal_slopes
-    ratio = steep / gentle if gentle > 0.0 else math.inf
     isotropy = constant_limit(
         "ratio of the principal mean square slopes",
-        ratio,
+        steep / gentle if gentle > 0.0 else math.inf,
         (1.0, ANISOTROPY),
         prediction=prediction,
         citation="Bush1979",
         message="The surface is anisotropic, and the theory knows the mean over all directions only.",
     )
-    return (*own, isotropy)
-
-
-def holds(found: tuple[Limit, ...], count: int) -> BoolArray:
-    """(n,) whether all limits hold."""
-    inside: BoolArray = np.ones(count, dtype=bool)
-    for limit in found:
-        inside &= limit.holds
-    return inside
-
-
-def notes(found: tuple[Limit, ...], pressures: RealArray) -> tuple[str, ...]:
-    """One sentence for each limit that is left at some of the ``pressures`` (n,) in Pa."""
-    return tuple(_sentence(limit, pressures) for limit in found if not limit.holds.all())
+    return (isotropy,)
 
 
 def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
@@ -94,8 +100,11 @@ def _of_layers(problem: ContactProblem, spot: float) -> list[str]:
 def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list[str]:
     plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
     if isinstance(problem.law, HardWall):
-        flows = f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
-        return [flows] if plastic else []
+        if not plastic:
+            return []
+        return [
+            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
+        ]
     known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
     return [
         f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories know no limit."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import ClassVar, Self, TypeAlias
@@ -27,6 +28,9 @@ SHALLOW = 0.15
 
 APART = 0.5
 """Contact radius over distance up to which a point force stands for a contact to 2.7 %."""
+
+_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25
+"""Largest ratio of a load, and of an approach, to the one before from which the steps still settle where crests crowd."""
 
 
 State: TypeAlias = tuple[CrestSystem, RealArray]
@@ -208,26 +212,29 @@ class InteractingCrests:
         Spheres without interaction carry it at a smaller approach; what is lacking grows slowly with the load, so that
         the last one starts the next. With the method of least squares the radii are solved for once more.
         """
+        path = graded(pressure, _LOAD_STEP)
         depths = self.highest - np.asarray(self.height)
         spheres = DiscreteSummits(
             self.E_star, self.height, np.asarray(self.wavelength) ** 2 / self._twice_depth, self.area
         )
-        alone = self.highest - spheres.at_pressure(pressure).separation
-        loads, approaches, more = pressure * self.area / self.E_star, np.empty_like(pressure), 1.0
-        system, order = self._system(0), np.argsort(pressure)
-        w = self._system(depths.size, alone=True).isolated(float(alone[order[0]]) - depths)
-        states: list[State] = [(system, w)] * pressure.size
-        for n in order:
+        alone = self.highest - spheres.at_pressure(path).separation
+        loads, approaches, more = path * self.area / self.E_star, np.empty_like(path), 1.0
+        system = self._system(0)
+        w = self._system(depths.size, alone=True).isolated(float(alone[0]) - depths)
+        states: list[State] = [(system, w)] * path.size
+        for n, load in enumerate(loads):
             delta, solved = more * float(alone[n]), 0
             # crests that the approach uncovers take part in the next round
             while solved < (count := int(np.searchsorted(depths, delta, side="left"))):
                 if count > system.count:
                     system = self._system(min(2 * count, depths.size))
                 part, solved = system.leading(count), count
-                delta, w[:count] = solve_load(part, depths[:count], float(loads[n]), delta=delta, start=w[:count])
+                delta, w[:count] = solve_load(part, depths[:count], float(load), delta=delta, start=w[:count])
                 states[n] = part, w[:count].copy()
             approaches[n], more = delta, delta / float(alone[n])
-        return approaches, self._states(approaches) if self.method == "least squares" else states
+        found = np.searchsorted(path, pressure)
+        wanted = approaches[found]
+        return wanted, self._states(wanted) if self.method == "least squares" else [states[n] for n in found]
 
     @property
     def _twice_depth(self) -> RealArray:
@@ -236,17 +243,24 @@ class InteractingCrests:
         return values
 
     def _states(self, deltas: RealArray) -> list[State]:
-        """The crests that may touch at each approach in m, and the squares of their radii."""
-        z = np.asarray(self.height)
-        counts = np.searchsorted(-z, deltas - z[0], side="left")
+        """The crests that may touch at each approach in m, and the squares of their radii.
+
+        Approaches are taken as they rise, each from the radii at the one before: close crests pressed deep at once, each
+        from its radius alone, make the steps swing.
+        """
+        z, path = np.asarray(self.height), graded(deltas, _APPROACH_STEP)
+        counts = np.searchsorted(-z, path - z[0], side="left")
         system = self._system(int(counts.max()))
         solve = solve_complementarity if self.method == "complementarity" else solve_least_squares
-        states = []
-        for delta, count in zip(deltas, counts, strict=True):
+        states: list[State] = []
+        last: RealArray = np.empty(0)
+        for delta, count in zip(path, counts, strict=True):
             own, part = delta - (z[0] - z[:count]), system.leading(int(count))
-            alone = part.isolated(own)
-            states.append((part, solve(part, own, alone) if count else alone))
-        return states
+            start = part.isolated(own)
+            start[: last.size] = last
+            last = solve(part, own, start) if count else start
+            states.append((part, last))
+        return [states[n] for n in np.searchsorted(path, deltas)]
 
     def _system(self, count: int, *, alone: bool = False) -> CrestSystem:
         """Equations of the ``count`` highest crests, ``alone`` without what they do to each other."""
@@ -282,3 +296,13 @@ class InteractingCrests:
             separation=h,
             stiffness=sums[1],
         )
+
+
+def graded(values: RealArray, ratio: float) -> RealArray:
+    """The ``values`` (n,) as they rise, with others between positive ones that are farther apart than ``ratio``."""
+    rising = np.unique(values)
+    parts = [rising[:1]]
+    for low, high in itertools.pairwise(rising):
+        count = math.ceil(math.log(high / low) / math.log(ratio)) if low > 0.0 else 1
+        parts.append(np.append(low * (high / low) ** (np.arange(1, count) / count), high))
+    return np.concatenate(parts)
