@@ -216,3 +216,20 @@ def test_what_crests_cannot_do_is_refused():
         DiscreteSummits(1e11, [0.0], [1e-6, 1e-6], 1e-12)
     with pytest.raises(InputError, match="its summits"):
         DiscreteSummits.from_roughness(Roughness(1e-18, 1e-3, 1e13), 1e11)
+
+
+def test_crowded_crests_settle_at_loads_far_apart():
+    """Contact radii up to the distances, as on a map that is rough down to its pixels: at once, from single crests, nothing settles."""
+    rng = np.random.default_rng(3)
+    side, count, radius = 1e-6, 400, 8e-8
+    places = side / 20 * (np.divmod(np.arange(count), 20) + 0.8 * rng.random((2, count)))
+    depth = np.full(count, 2e-9)
+    wavelength = math.pi * np.sqrt(2.0 * radius * depth)
+    heights = 2e-9 * rng.standard_normal(count)
+    theory = InteractingCrests(1e11, *places, heights, depth, wavelength, side**2, shape="paraboloid")
+    loads = np.array([1e7, 8e9])
+    coarse, fine = theory.at_pressure(loads), theory.at_pressure(np.geomspace(*loads, 40))
+    np.testing.assert_allclose(coarse.area_fraction, fine.area_fraction[[0, -1]], rtol=1e-9)
+    np.testing.assert_allclose(theory.at_pressure(8e9).area_fraction, coarse.area_fraction[1:], rtol=1e-9)
+    for separation, load in zip(coarse.separation, loads, strict=True):
+        assert theory.at_separation(separation).pressure == pytest.approx(load, rel=1e-9)

@@ -9,7 +9,9 @@ a crest touches, or the others have pressed it below the plane. Displacements be
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +24,9 @@ _STEPS = 200
 _TOLERANCE = 1e-13  # of the residual over the approach
 _LIFTED = 1e-9  # share of the approach above which a residual is not rounding of the optimiser
 _SELF_TERM = math.pi  # F_i/(π E* a_i)
+
+_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25  # ratios to the value before from which steps settle where crests crowd
+_FIRST_SHARE = 0.03  # of a load or an approach with so few contacts that the steps settle from any start
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,3 +216,44 @@ def _not_solved(system: CrestSystem, w: RealArray) -> InputError | ConvergenceEr
             "is pressed deeper. Lower the pressure or the approach."
         )
     return ConvergenceError(f"interacting crests did not settle in {_STEPS} steps; the crests may be too close.")
+
+
+def settled(
+    solve: Callable[[CrestSystem, RealArray, RealArray], RealArray],
+    system: CrestSystem,
+    delta: RealArray,
+    start: RealArray,
+) -> RealArray:
+    """w (n,) by ``solve`` from ``start``, or where its steps swing, from a small approach upwards.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As for ``solve_complementarity``.
+    """
+    try:
+        return solve(system, delta, start)
+    except ConvergenceError:
+        w, top = np.zeros_like(start), float(delta.max())
+        for approach in _graded(np.array([_FIRST_SHARE * top, top]), _APPROACH_STEP):
+            w = solve(system, approach - (top - delta), w)
+        return w
+
+
+def graded_loads(loads: RealArray) -> RealArray:
+    """The ``loads`` (n,) as they rise, with lighter ones to begin with and others between those that are too far apart."""
+    return _graded(np.append(loads, _FIRST_SHARE * loads.min()), _LOAD_STEP)
+
+
+def graded_approaches(approaches: RealArray) -> RealArray:
+    """The ``approaches`` (n,) as they rise, with others between those that are too far apart."""
+    return _graded(approaches, _APPROACH_STEP)
+
+
+def _graded(values: RealArray, ratio: float) -> RealArray:
+    rising = np.unique(values)
+    parts = [rising[:1]]
+    for low, high in itertools.pairwise(rising):
+        count = math.ceil(math.log(high / low) / math.log(ratio)) if low > 0.0 else 1
+        parts.append(np.append(low * (high / low) ** (np.arange(1, count) / count), high))
+    return np.concatenate(parts)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass, field
 from typing import ClassVar, Self, TypeAlias
@@ -13,7 +12,15 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from .crest_system import CrestSystem, solve_complementarity, solve_least_squares, solve_load
+from .crest_system import (
+    CrestSystem,
+    graded_approaches,
+    graded_loads,
+    settled,
+    solve_complementarity,
+    solve_least_squares,
+    solve_load,
+)
 from .discrete_summits import DiscreteSummits
 from .limits import area_limit
 from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
@@ -28,10 +35,6 @@ SHALLOW = 0.15
 
 APART = 0.5
 """Contact radius over distance up to which a point force stands for a contact to 2.7 %."""
-
-_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25
-"""Largest ratio of a load, and of an approach, to the one before from which the steps still settle where crests crowd."""
-
 
 State: TypeAlias = tuple[CrestSystem, RealArray]
 """The crests that may touch, the highest first, and the squares of their contact radii in m²."""
@@ -212,7 +215,7 @@ class InteractingCrests:
         Spheres without interaction carry it at a smaller approach; what is lacking grows slowly with the load, so that
         the last one starts the next. With the method of least squares the radii are solved for once more.
         """
-        path = graded(pressure, _LOAD_STEP)
+        path = graded_loads(pressure)
         depths = self.highest - np.asarray(self.height)
         spheres = DiscreteSummits(
             self.E_star, self.height, np.asarray(self.wavelength) ** 2 / self._twice_depth, self.area
@@ -243,12 +246,8 @@ class InteractingCrests:
         return values
 
     def _states(self, deltas: RealArray) -> list[State]:
-        """The crests that may touch at each approach in m, and the squares of their radii.
-
-        Approaches are taken as they rise, each from the radii at the one before: close crests pressed deep at once, each
-        from its radius alone, make the steps swing.
-        """
-        z, path = np.asarray(self.height), graded(deltas, _APPROACH_STEP)
+        """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one before."""
+        z, path = np.asarray(self.height), graded_approaches(deltas)
         counts = np.searchsorted(-z, path - z[0], side="left")
         system = self._system(int(counts.max()))
         solve = solve_complementarity if self.method == "complementarity" else solve_least_squares
@@ -258,7 +257,7 @@ class InteractingCrests:
             own, part = delta - (z[0] - z[:count]), system.leading(int(count))
             start = part.isolated(own)
             start[: last.size] = last
-            last = solve(part, own, start) if count else start
+            last = settled(solve, part, own, start) if count else start
             states.append((part, last))
         return [states[n] for n in np.searchsorted(path, deltas)]
 
@@ -296,13 +295,3 @@ class InteractingCrests:
             separation=h,
             stiffness=sums[1],
         )
-
-
-def graded(values: RealArray, ratio: float) -> RealArray:
-    """The ``values`` (n,) as they rise, with others between positive ones that are farther apart than ``ratio``."""
-    rising = np.unique(values)
-    parts = [rising[:1]]
-    for low, high in itertools.pairwise(rising):
-        count = math.ceil(math.log(high / low) / math.log(ratio)) if low > 0.0 else 1
-        parts.append(np.append(low * (high / low) ** (np.arange(1, count) / count), high))
-    return np.concatenate(parts)
