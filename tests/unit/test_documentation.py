@@ -139,6 +139,28 @@ def test_the_examples_of_scaling_theories(capsys):
     assert len(capsys.readouterr().out.splitlines()) == 2
 
 
+def test_the_examples_of_comparing(scan, tmp_path, monkeypatch, capsys):
+    """The commands as printed, but for the loads of the first, whose dozen add nothing."""
+    monkeypatch.chdir(tmp_path)
+    page, names = ROOT / "docs/how-to/compare.md", {"scan": scan}
+    for number, code in enumerate(blocks(page, "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    printed = capsys.readouterr().out
+    assert "fuller-tabor left out: It needs the work of adhesion" in printed
+    assert "greenwood-williamson - height deviation" in printed
+    assert [curve.name for curve in names["mine"].curves] == ["persson", "bush-gibson-thomas"]
+    assert asp.open_dataset("comparison.nc").sizes["pressure"] == 5
+    asp.save_surface(scan, "scan.nc")
+    (console,) = blocks(page, "console")
+    lines = [line.removeprefix("$ ").split("  #")[0] for line in console.splitlines()]
+    assert len(lines) == 3
+    for line in lines[1:]:
+        result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
+        assert result.exit_code == 0, result.output
+        assert "Theories and numerical solution" in result.stdout
+    assert "--out" in lines[0]
+
+
 def test_the_examples_of_single_contacts(capsys):
     names = {}
     for number, code in enumerate(blocks(ROOT / "docs/theory/single-contacts.md", "python")):

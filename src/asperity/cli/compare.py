@@ -82,21 +82,24 @@ def _table(
 
 
 _PLACEHOLDER = MappingProxyType({"mean_pressure": "1 Pa"})
+"""Load that a document must have until the loads of the comparison are known."""
+
+_HEADING = "Theories and numerical solution (area of a theory: deviation from the numerical one; rms: where it holds)"
 
 
 def _pressures(options: CompareOptions) -> RealArray | None:
     from ..core.errors import InputError
-    from ..io.ranges import RANGE, parse_values
     from ..studies.compare import LOADS
+    from ..theories.protocol import Input
+    from .theory_command import read_range
 
-    if options.pressures is None:
-        if options.loads is not None:
-            raise InputError("--loads must be given together with a range --pressures 1MPa..1GPa only.")
-        return None
-    if options.loads is not None and RANGE not in options.pressures:
-        raise InputError("--loads must be left out with a list of --pressures, which has as many as it holds.")
-    count = LOADS if options.loads is None else options.loads
-    return parse_values(options.pressures, "pressure", "--pressures", count=count)
+    text, count = options.pressures, LOADS if options.loads is None else options.loads
+    if options.loads is not None and (text is None or ".." not in text):
+        raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
+    if count < 2:
+        raise InputError(f"--loads must be at least 2 for a range, but is {count}.")
+    asked = Input("pressures", "Pa", "nominal pressures", many=True)
+    return None if text is None else read_range(asked, text, points=count, linear=False)
 
 
 def _compared(case: Case, pressures: RealArray | None, options: CompareOptions) -> Comparison:
@@ -108,7 +111,7 @@ def _compared(case: Case, pressures: RealArray | None, options: CompareOptions) 
     from .progress import shown
 
     names = None if options.theories is None else [name.strip() for name in options.theories.split(",")]
-    inputs = {} if options.work is None else {"work": units.parse(options.work, "surface tension", "--work")}
+    inputs = {} if options.work is None else {"work": units.parse_in(options.work, "J/m^2", "--work")}
     with shown("solving every load") as bar, interruptible(bar) as progress:
         return compare_theories(
             case.problem,
@@ -147,7 +150,7 @@ def _print(comparison: Comparison, title: str) -> None:
 
     out, found = console(), slope_table(comparison)
     out.print(table(title or "Comparison", setup_rows(comparison)))
-    shown = table("Theories and numerical solution", found.cells, found.headings)
+    shown = table(_HEADING, found.cells, found.headings)
     for column in (shown.columns[0], shown.columns[-1]):
         column.no_wrap = True  # names and ranges are read whole, numbers fit anyway
     out.print(shown)

@@ -137,7 +137,7 @@ def _loads(pressures: ArrayLike | None, unit: float) -> RealArray:
     given = np.unique(np.asarray(pressures, dtype=float))
     if given.size == 0:
         raise InputError("pressures (Pa) of a comparison must hold at least one, but are empty.")
-    for value in given:
+    for value in given.tolist():
         require.positive(value, "pressure (Pa) of a comparison")
     return given
 

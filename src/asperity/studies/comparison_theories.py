@@ -117,7 +117,7 @@ def _or_infinite(value: float) -> float:
 def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, float]) -> SurfaceTheory | LeftOut:
     kind = THEORIES[require.one_of(name, SURFACE_THEORIES, "name of a theory to compare")]
     wanted = [item for item in kind.inputs if item.of == "bodies" and item.name != "E_star"]
-    missing = [item for item in wanted if item.default is None and item.name not in known]
+    missing = [item for item in wanted if item.required and item.name not in known]
     if missing:
         needs = " and ".join(f"the {item.meaning} ({item.name}, {item.unit})" for item in missing)
         return LeftOut(name, kind.title, f"It needs {needs}, which is not known as one number.")

@@ -1,0 +1,102 @@
+"""``asperity compare``: what is printed and written, documents, loads, what is refused."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli.conftest import BODY, SCALE, Runner
+
+import asperity as asp
+from asperity.io.documents import load_document
+
+FILES = {"report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml"}
+
+
+def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    chosen = ("--theories", "persson, kogut-etsion,jackson-green", "--pressures", "1MPa..100MPa", "--loads", "3")
+    result = run("compare", matrix, *SCALE, *BODY, *chosen, "--out", out)
+    assert result.exit_code == 0, result.stderr
+    for text in (
+        "persson",
+        "kogut-etsion",
+        "Left out",
+        "yield_stress, Pa",
+        "numerical",
+        "κ at 1",
+        "summits flow",
+        "wrote",
+    ):
+        assert text in result.stdout
+    assert {path.name for path in out.iterdir()} == FILES
+    plots = sorted(path.name for path in (out / "plots").iterdir())
+    assert plots == ["area.png", "deviation.png", "gap.png", "kappa.png", "local_slope.png"]
+    data = asp.open_dataset(out / "comparison.nc")
+    np.testing.assert_allclose(data["pressure"], [1e6, 1e7, 1e8])
+    assert list(data["theory"].values) == ["persson", "kogut-etsion"]
+    assert list(json.loads(data.attrs["left_out"])) == ["jackson-green"]
+    with (out / "comparison.csv").open(encoding="utf-8") as file:
+        assert len(list(csv.DictReader(file))) == 9
+    page = (out / "report.html").read_text(encoding="utf-8")
+    for text in ("Where each leaves its validity", "Theories left out", "jackson-green", "Slope of the area", "Yang"):
+        assert text in page
+    assert len(re.findall(r'src="data:image/png', page)) == 5
+    assert not re.search(r'(src|href)="(?!data:)', page)
+    document = load_document(out / "problem.toml")
+    assert float(document.control.mean_pressure.split()[0]) == pytest.approx(1e8)
+
+    again = run("compare", "--document", out / "problem.toml", *chosen)
+    assert again.exit_code == 0, again.stderr
+    assert "contact modulus E*" in again.stdout
+    assert "wrote" not in again.stdout
+
+
+def test_theories_alone_are_quick_and_have_no_numerical_curve(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    words = ("--no-numerical", "--pressures", "1MPa,5MPa", "--work", "50mJ/m^2", "--theories", "fuller-tabor,mccool")
+    result = run("compare", matrix, *SCALE, *BODY, *words, "--out", out)
+    assert result.exit_code == 0, result.stderr
+    assert "without the numerical solution" in result.stdout
+    data = asp.open_dataset(out / "comparison.nc")
+    assert "numerical_area_fraction" not in data
+    assert set(data["theory"].values) <= {"fuller-tabor", "mccool"}
+    assert not (out / "plots" / "deviation.png").exists()
+
+
+def test_a_load_beyond_the_hardness_is_named_and_the_exit_code_tells(run: Runner, matrix: Path) -> None:
+    words = ("--theories", "persson", "--pressures", "1MPa,6GPa", "--hardness", "body")
+    result = run("compare", matrix, *SCALE, *BODY, *words)
+    assert result.exit_code == 1, result.output
+    assert "5 GPa" in result.stdout
+    assert "–" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (("--pressures", "5"), "--pressures must have a unit"),
+        (("--pressures", "1MPa..2nm"), "--pressures must be in a unit such as Pa"),
+        (("--pressures", "1MPa,0Pa"), "pressure (Pa) of a comparison must be greater than zero, but is 0.0."),
+        (("--loads", "5"), "--loads must be given together with a range only"),
+        (("--pressures", "1MPa,2MPa", "--loads", "5"), "--loads must be given together with a range only"),
+        (("--pressures", "1MPa..2MPa", "--loads", "1"), "--loads must be at least 2 for a range, but is 1."),
+        (("--theories", "gw"), "name of a theory to compare must be one of greenwood-williamson"),
+        (("--work", "5 Pa"), "--work"),
+        (("--from", "a.toml"), "must be left out together with --from"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(run: Runner, matrix: Path, options: tuple[str, ...], expected: str) -> None:
+    result = run("compare", matrix, *SCALE, *BODY, *options)
+    assert result.exit_code == 2, result.output
+    assert result.stderr.startswith("asperity: ")
+    assert expected in result.stderr
+
+
+def test_a_surface_and_a_body_are_needed(run: Runner, matrix: Path) -> None:
+    assert "FILE with the rough surface must be given" in run("compare").stderr
+    assert "--body must be given" in run("compare", matrix, *SCALE).stderr
