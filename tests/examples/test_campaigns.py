@@ -21,6 +21,10 @@ def finished(name: str, tmp_path: Path):
     return campaign
 
 
+GOLD = {"gold_film_area": (1000, 12), "gold_film_grid": (4, 11)}
+"""Ready studies with long runs and the shape of their cases; tests/validation runs them on fewer and smaller ones."""
+
+
 def test_every_ready_study_is_tested_here():
     assert {path.stem for path in FOLDER.glob("*.toml")} == {
         "coating_thickness",
@@ -30,7 +34,18 @@ def test_every_ready_study_is_tested_here():
         "load_dependence",
         "layer_thickness",
         "normalised_laws",
+        *GOLD,
     }
+
+
+@pytest.mark.parametrize("name", GOLD)
+def test_studies_of_the_gold_film_have_the_cases_of_the_chapter(name, tmp_path):
+    plan = prepare_study(FOLDER / f"{name}.toml", tmp_path / name).plan
+    assert plan.shape == GOLD[name]
+    paths = iter(plan.paths())
+    first, second = next(paths), next(paths)
+    assert len(first) == {"gold_film_area": 12, "gold_film_grid": 4}[name], "loads of one surface are one path"
+    assert first[0].key != second[0].key
 
 
 def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.arrays import RealArray
 from ..core.system import peak_memory
 from .solvers.optimality import best_level, duality_gap, level
 from .solvers.protocol import ContactQP, FixedMean, Solution
@@ -59,13 +60,13 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
     sharpest = best_level(p, r, qp.cap)
     total = float(p.sum(dtype=np.float64))
     bound = duality_gap(p, r, qp.cap, sharpest)
-    energy = abs(0.5 * float(np.multiply(p, deflection, dtype=np.float64).sum()) - float((p * (qp.profile + at)).sum()))
-    overlap = np.where(p < qp.cap, np.maximum(at - r, 0.0), 0.0)
+    energy = abs(0.5 * _product(p, deflection) - _product(p, qp.profile + at))
+    lowest = sharpest if qp.elastic else float(r.min(where=p < qp.cap, initial=np.inf))  # of the points that may not overlap
     target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
     return Certificate(
         duality_gap=bound / energy if energy > 0.0 else 0.0 if bound == 0.0 else np.inf,
         field_error=bound / (total * qp.height_scale) if total > 0.0 else 0.0,
-        penetration=float(overlap.max()) / qp.height_scale,
+        penetration=max(at - lowest, 0.0) / qp.height_scale,
         load_imbalance=abs(total - target) / target if target > 0.0 else 0.0,
         tolerance=tolerance,
         iterations=solution.state.iterations,
@@ -74,3 +75,8 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
         peak_memory=peak_memory(),
         solver=solver,
     )
+
+
+def _product(first: RealArray, second: RealArray) -> float:
+    """Sum of the products of two fields in double precision."""
+    return float(np.einsum("ij,ij->", first, second, dtype=np.float64))

@@ -106,6 +106,8 @@ def added_indentation(solved: Solved) -> RealArray:
     """Permanent indentation (nx, ny) in m that ``solved`` adds: the overlap of the bodies where the pressure is at its limit."""
     qp, solution = solved
     p = solution.state.pressure
+    if qp.elastic:
+        return np.zeros_like(qp.profile)
     overlap = contact_level(qp, solution) - (solution.state.deflection - qp.profile)
     return np.where((p > 0.0) & (p >= qp.cap), np.maximum(overlap, 0.0), 0.0)
 

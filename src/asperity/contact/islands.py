@@ -17,21 +17,48 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
     Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across the border where the
     map ``wraps``.
     """
+    labels, count = _within(mask, diagonal=diagonal)
+    if count == 0 or not any(wraps):
+        return labels, count
+    whole, merged = _merged(labels, count, wraps, diagonal=diagonal)
+    return np.concatenate([[0], whole + 1])[labels], merged
+
+
+def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
+    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their labels.
+
+    The same as to count the pixels of each label, but the map is not labelled anew for islands that reach across the
+    border, which takes longer than all the rest.
+    """
+    labels, count = _within(mask, diagonal=False)
+    sizes = np.bincount(labels[mask], minlength=count + 1)[1:]
+    if count == 0 or not any(wraps):
+        return sizes
+    whole, merged = _merged(labels, count, wraps, diagonal=False)
+    joined = np.zeros(merged, dtype=np.int64)
+    np.add.at(joined, whole, sizes)
+    return joined
+
+
+def _within(mask: BoolArray, *, diagonal: bool) -> tuple[Labels, int]:
+    """Labels (nx, ny) of the islands of ``mask`` without regard to what lies across its border, and their number."""
     from scipy.ndimage import label
+
+    found, count = label(mask, np.ones((3, 3)) if diagonal else None)
+    return np.asarray(found, dtype=np.int64), int(count)
+
+
+def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
+    """Number from 0 of the island to which each of the ``count`` labels belongs across the border, and of islands."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    found, count = label(mask, np.ones((3, 3)) if diagonal else None)
-    labels = np.asarray(found, dtype=np.int64)
-    if count == 0 or not any(wraps):
-        return labels, int(count)
     first, last = _across(labels, wraps, diagonal=diagonal)
     joined = (first > 0) & (last > 0)
     rows, columns = first[joined] - 1, last[joined] - 1
     links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
     merged_count, merged = connected_components(links, directed=False)
-    numbers = np.concatenate([[0], np.asarray(merged, dtype=np.int64) + 1])
-    return numbers[labels], int(merged_count)
+    return np.asarray(merged, dtype=np.int64), int(merged_count)
 
 
 def _across(labels: Labels, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, Labels]:

@@ -11,7 +11,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
-from .islands import labelled
+from .islands import island_sizes
 
 PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""
@@ -51,9 +51,7 @@ def corrected_area(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) 
 
 def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:
     """Number of pixels of every contact spot (pixels joined by edges), largest first."""
-    labels, count = labelled(contact, wraps=wraps)
-    pixels = np.bincount(labels.ravel(), minlength=count + 1)[1:]
-    return np.sort(pixels)[::-1].astype(float)
+    return np.sort(island_sizes(contact, wraps=wraps))[::-1].astype(float)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asperity.contact.islands import labelled, spans
+from asperity.contact.islands import island_sizes, labelled, spans
 
 
 def pattern(text):
@@ -54,3 +54,11 @@ def test_what_reaches_across():
     # round the map by way of its border
     labels, _ = labelled(pattern("#.### ..... ###.."), wraps=(False, True))
     assert not spans(labels, wraps=(False, True)).any()
+
+
+@given(st.integers(0, 10**6), st.floats(0.1, 0.9), st.booleans(), st.booleans())
+def test_sizes_are_the_pixels_of_the_labels(seed, share, x, y):
+    mask = np.random.default_rng(seed).random((9, 12)) < share
+    labels, count = labelled(mask, wraps=(x, y))
+    counted = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    np.testing.assert_array_equal(island_sizes(mask, wraps=(x, y)), counted)
