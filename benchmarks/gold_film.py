@@ -23,7 +23,7 @@ PIXEL = 1.5e-6 / 512
 E_STAR = 100e9
 LOADS = np.linspace(0.002, 0.024, 12)
 SURFACES = 1000
-PEERS = ("tamaas", "contactmechanics")
+PEERS = ("tamaas", "contactmechanics", "aspher")
 
 
 def case(seed: int, tolerance: float) -> Case:

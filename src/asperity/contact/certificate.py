@@ -61,7 +61,9 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
     total = float(p.sum(dtype=np.float64))
     bound = duality_gap(p, r, qp.cap, sharpest)
     energy = abs(0.5 * _product(p, deflection) - _product(p, qp.profile + at))
-    lowest = sharpest if qp.elastic else float(r.min(where=p < qp.cap, initial=np.inf))  # of the points that may not overlap
+    lowest = (
+        sharpest if qp.elastic else float(r.min(where=p < qp.cap, initial=np.inf))
+    )  # of the points that may not overlap
     target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
     return Certificate(
         duality_gap=bound / energy if energy > 0.0 else 0.0 if bound == 0.0 else np.inf,

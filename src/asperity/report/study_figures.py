@@ -104,7 +104,8 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     yield StudyFigure(
         f"{name}_samples", f"{_title(y.label)}, distribution", f"Distribution over the samples{more}.", picture
     )
-    running = [estimate(samples.values[: n + 1], confidence) for n in range(samples.values.size)]
+    done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
+    running = [estimate(samples.values[: n + 1], confidence) for n in range(done)]
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
     picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
     caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."

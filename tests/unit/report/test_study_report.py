@@ -97,3 +97,16 @@ def test_a_study_under_way_says_what_is_missing(tmp_path):
     page = (campaign.folder / "report.html").read_text(encoding="utf-8")
     assert "12 cases are missing." in page
     assert PROBLEM["surface"]["size"] in page
+
+
+def test_the_running_mean_of_an_unfinished_study_ends_with_its_samples(tmp_path, monkeypatch):
+    """Samples still to be computed are no samples: a flat line would say that the mean does not change any more."""
+    drawn = []
+    monkeypatch.setattr(
+        "asperity.report.study_figures.plot_running_mean", lambda y, halves, means, ax: drawn.append(means)
+    )
+    campaign = made(tmp_path, "histogram")
+    lines = campaign.records.read_bytes().splitlines(keepends=True)
+    campaign.records.write_bytes(b"".join(lines[:-2]))
+    write_study_files(campaign, campaign.folder)
+    assert {means.size for means in drawn} == {3}
