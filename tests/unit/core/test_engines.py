@@ -265,7 +265,7 @@ def test_members_of_a_face(engine: Engine, cap: str) -> None:
     bound = np.inf if case.cap is None else case.cap if case.cap.size == 1 else case.cap.reshape(12, 7)
     gap = case.u - case.h - case.level
     movable = (case.p > 0.0) & (case.p < bound)
-    apart = gap - local_means(np.full((1, 1), movable.sum(), dtype=float), np.full((1, 1), gap[movable].sum()))
+    apart = gap - local_means(np.array([[[movable.sum(), gap[movable].sum()]]]))
     entering = ((case.p <= 0.0) & (apart < 0.0)) | ((case.p > 0.0) & (case.p >= bound) & (apart > 0.0))
     inside = entering | movable
     field = engine.zeros((12, 7), "float64")
@@ -299,12 +299,15 @@ def test_points_enter_by_the_level_of_their_neighbourhood(engine: Engine) -> Non
 def test_means_fall_back_on_wider_squares_where_there_are_few_points() -> None:
     rng = np.random.default_rng(4)
     count, total = 1e6 + rng.uniform(size=(5, 3)), 1e6 * rng.standard_normal((5, 3))
-    np.testing.assert_allclose(local_means(count, total), total / count, atol=1e-5)
+    np.testing.assert_allclose(local_means(np.stack([count, total], axis=-1)), total / count, atol=1e-5)
+    np.testing.assert_allclose(local_means(np.stack([count, total], axis=-1), 0.5), total / count - 0.5, atol=1e-5)
     empty = count.copy()
     empty[2, 1] = total[2, 1] = 0.0
     four = slice(2, 4), slice(0, 2)
-    assert local_means(empty, total)[2, 1] == pytest.approx(total[four].sum() / empty[four].sum(), abs=1e-5)
-    assert not local_means(np.zeros((4, 7)), np.zeros((4, 7))).any()
+    assert local_means(np.stack([empty, total], axis=-1))[2, 1] == pytest.approx(
+        total[four].sum() / empty[four].sum(), abs=1e-5
+    )
+    assert not local_means(np.zeros((4, 7, 2))).any()
 
 
 @every_engine

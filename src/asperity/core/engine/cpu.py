@@ -120,7 +120,7 @@ class CpuSurvey:
     def face(self, level: float, scale: float, dtype: str) -> CpuFace:
         """Working set at ``level``."""
         kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
-        levels = level + local_means(self.squares[..., 0], self.squares[..., 1] - level * self.squares[..., 0])
+        levels = level + local_means(self.squares, level)
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
         if self.cap is None:

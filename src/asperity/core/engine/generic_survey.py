@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..arrays import RealArray
 from .generic_face import ArrayFace
 from .library import Library, bound
@@ -45,8 +47,8 @@ class ArraySurvey:
     def _local(self, mask: Any, values: Any) -> Any:
         """Mean of the ``values`` on the ``mask`` near each point."""
         library, xp = self.library, self.library.xp
-        count = self._in_squares(library.xp.astype(mask, values.dtype))
-        means = library.array(local_means(count, self._in_squares(library.select(mask, values))), "float64")
+        counted = self._in_squares(xp.astype(mask, values.dtype)), self._in_squares(library.select(mask, values))
+        means = library.array(local_means(np.stack(counted, axis=-1)), "float64")
         nx, ny = values.shape
         return xp.repeat(xp.repeat(means, SIDE, axis=0), SIDE, axis=1)[:nx, :ny]
 

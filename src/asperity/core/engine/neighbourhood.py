@@ -19,19 +19,24 @@ _PRIOR = 4.0
 """Loaded points that the mean over a larger square counts for in that of a smaller one."""
 
 
-def local_means(count: RealArray, total: RealArray) -> RealArray:
-    """Mean in each square of a grid from the ``count`` of its points and their ``total``.
+def local_means(squares: RealArray, level: float = 0.0) -> RealArray:
+    """Mean above ``level`` in each square of a grid, from ``squares[..., 0]``, the number of its points, and ``[..., 1]``, their sum.
 
     Where there are few points it falls back on the square of twice the side, and in the end on zero.
     """
-    if count.size == 1:
-        return np.asarray(total / (count + _PRIOR))
-    wider = local_means(_in_fours(count), _in_fours(total)).repeat(2, axis=0).repeat(2, axis=1)
-    return np.asarray((total + _PRIOR * wider[: count.shape[0], : count.shape[1]]) / (count + _PRIOR))
+    count = squares[..., 0]
+    total = squares[..., 1] - level * count
+    if count.size > 1:
+        wider = local_means(_in_fours(squares), level).repeat(2, axis=0).repeat(2, axis=1)
+        total += _PRIOR * wider[: count.shape[0], : count.shape[1]]
+    return np.asarray(total / (count + _PRIOR))
 
 
-def _in_fours(values: RealArray) -> RealArray:
+def _in_fours(squares: RealArray) -> RealArray:
     """Sums over 2 x 2 squares; those beyond an odd end are zero."""
-    nx, ny = values.shape
-    even = np.pad(values, ((0, nx % 2), (0, ny % 2)))
-    return np.asarray(even.reshape(-(-nx // 2), 2, -(-ny // 2), 2).sum(axis=(1, 3)))
+    nx, ny, kinds = squares.shape
+    if nx % 2 or ny % 2:
+        even = np.zeros((nx + nx % 2, ny + ny % 2, kinds))
+        even[:nx, :ny] = squares
+        squares = even
+    return np.asarray(squares[::2, ::2] + squares[1::2, ::2] + squares[::2, 1::2] + squares[1::2, 1::2])
