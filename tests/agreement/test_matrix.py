@@ -6,13 +6,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from agreement.fields_and_films import FIELDS_AND_FILMS
 from agreement.matrix import MATRIX as ROUGH_SURFACES
 from agreement.matrix import Agreement
 from agreement.single_contacts import SINGLE_CONTACTS
 
 from asperity.theories.catalogue import THEORIES
 
-MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS)
+MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 

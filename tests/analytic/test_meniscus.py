@@ -18,6 +18,7 @@ from asperity.theories.kinetic_meniscus import KineticMeniscus, caught
 from asperity.theories.meniscus_growth import MeniscusGrowth, grown
 from asperity.theories.statistical_meniscus import StatisticalMeniscus
 from asperity.theories.summit_heights import ExponentialHeights, GaussianHeights
+from asperity.theories.wet_summits import GrowingMenisci, WetSummits
 
 
 @pytest.mark.parametrize("row", reference("kelvin_film"), ids=lambda row: f"{row['T_K']:g}-{row['RH']:g}")
@@ -128,6 +129,49 @@ def test_pull_off():
     # the grid misses the minimum by at most half a step, its value by the square
     assert theory.pull_off == pytest.approx(-net.min(), rel=1e-6)
     assert wet({"m": 1e-6, "H": 0.01}).pull_off >= 0.0
+
+
+def meniscus_share(skewness: float = 0.0, kurtosis: float = 3.0, film: float = 2e-9, **changed: float) -> float:
+    """Meniscus force over a light load on summits with heights of this shape."""
+    numbers = {"E_star": 50e9, "density": 1e12, "radius": 1e-6, "height_deviation": 5e-9, "surface_tension": 0.072}
+    model = WetSummits(**(numbers | changed), film_thickness=film, skewness=skewness, kurtosis=kurtosis)
+    found = model.at_pressure(1e5)
+    return float(found.meniscus_pressure[0] / found.pressure[0])
+
+
+def test_few_high_summits_stick_less_and_mind_the_film_less():
+    """Published trends: positive skewness and a kurtosis of 5 and more lower the meniscus force and its rise with the film."""
+    by_skewness = [meniscus_share(skewness, 3.5) for skewness in (-0.5, 0.0, 0.3, 0.5)]
+    assert (np.diff(by_skewness) < 0.0).all()
+    by_kurtosis = [meniscus_share(0.0, kurtosis) for kurtosis in (2.2, 3.0, 5.0, 8.0)]
+    assert (np.diff(by_kurtosis) < 0.0).all()
+    assert meniscus_share(0.5, 5.0) < 0.5 * meniscus_share()
+    rises = [
+        meniscus_share(*shape, film=5e-9) / meniscus_share(*shape, film=1e-9) for shape in ((0.0, 3.0), (0.5, 5.0))
+    ]
+    assert rises[1] < rises[0]
+
+
+def test_what_lowers_the_meniscus_force():
+    """It rises steeply with the film, and falls with the roughness and the stiffness."""
+    by_film = np.array([meniscus_share(film=film) for film in (1e-9, 2e-9, 4e-9, 8e-9)])
+    doubled = by_film[1:] / by_film[:-1]
+    assert (np.diff(doubled) > 0.0).all(), "ever more steeply up to films of the order of the roughness"
+    assert doubled[-1] > 3.0
+    assert meniscus_share(height_deviation=1e-8) < meniscus_share() < meniscus_share(E_star=25e9)
+
+
+def test_plain_numbers_make_the_same_theories():
+    """The catalogue's theories from plain numbers against those from parts."""
+    contact = GreenwoodWilliamson(50e9, 2e12, 1e-6, 2e-9, 1e-9)
+    numbers = (50e9, 2e12, 1e-6, 2e-9, 0.025, 1.5e-9)
+    assert WetSummits(*numbers, 0.2, 1e-9).theory == StatisticalMeniscus(contact, 0.025, 1.5e-9, contact_angle=0.2)
+    grown_ = GrowingMenisci(*numbers, 0.2, 5e-20, 0.2)
+    loads = np.array([1e5])
+    found = grown_.at_time([0.0, 1e-4], 1e5)
+    each = [grown_.theory.at(time, loads).meniscus_pressure[0] for time in (0.0, 1e-4)]
+    assert found.meniscus_pressure == pytest.approx(each, rel=1e-12)
+    assert found.height == pytest.approx(grown_.theory.growth.height([0.0, 1e-4]))
 
 
 @pytest.mark.parametrize("row", reference("kinetic_meniscus_height"))

@@ -84,22 +84,27 @@ def _print_columns(found: Evaluation) -> None:
     left = np.zeros(size, dtype=bool)
     for limit in found.limits:
         left |= ~np.broadcast_to(limit.holds, size)
-    names = [column.name.replace(".", " ").replace("_", " ") for column, _ in found.columns]
+    names = [_heading(column.name) for column, _ in found.columns]
     if size == 1:  # one point is read downwards
         point = [
-            (name, show(float(values[0]), column.unit), column.meaning)
+            (name, show(float(values[0]) + 0.0, column.unit), column.meaning)
             for name, (column, values) in zip(names, found.columns, strict=True)
         ]
         _print_table("Answer", table("", point))
         return
     rows = [
-        (LEFT if left[n] else "", *(show(float(values[n]), column.unit) for column, values in found.columns))
+        (LEFT if left[n] else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
         for n in range(size)
     ]
     made = table("", rows, ("", *names))
     for row, beyond in zip(made.rows, left, strict=True):
         row.style = "red" if beyond else None
     _print_table("Answer", made)
+
+
+def _heading(name: str) -> str:
+    """Heading of the column ``name``: stress.xx is σ xx."""
+    return name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
 
 
 def _print_table(title: str, made: Table) -> None:

@@ -1,0 +1,182 @@
+"""Rows of the agreement matrix on stresses below the surface, on menisci, and on the design for the least area."""
+
+from __future__ import annotations
+
+import numpy as np
+from agreement.matrix import ETA, GW, ROUNDING, SIGMA, Agreement, E, R, apart, make
+
+LOAD, NU = 1e-6, 0.3
+PRESSURES = np.geomspace(1e5, 1e7, 5)
+
+
+def stresses_apart(found, expected) -> float:
+    """Largest difference of the stresses below the axis over the largest of them."""
+    parts = [(getattr(found.stress, name), getattr(expected.stress, name)) for name in ("xx", "yy", "zz", "xz")]
+    scale = np.max(np.abs([expected for _, expected in parts]), axis=0)
+    return float(np.max(np.abs([one - other for one, other in parts]) / scale))
+
+
+def far_below(name: str, far: float) -> float:
+    """Stresses ``far`` contact radii below a Hertz contact against those of its force at a point or on a line."""
+    if name == "hertz-stress":
+        depth = far * float(make("hertz", E, R).at_load(LOAD).radius)
+        force = make("boussinesq", LOAD, E)
+    else:
+        depth = far * float(make("hertz-line", E, R).at_load(LOAD).radius)
+        force = make("flamant", LOAD, E)
+    return stresses_apart(make(name, E, R).at_depth([depth], LOAD, 0.3 * depth), force.at_depth([depth], 0.3 * depth))
+
+
+def strip_far_below(far: float) -> float:
+    """A strip against the forces on its middle line."""
+    strip, line = make("strip", R, 1e6, E, NU, 5e5), make("flamant", 2.0 * R * 1e6, E, NU, 2.0 * R * 5e5)
+    depth = far * R
+    return stresses_apart(strip.at_depth([depth], 0.3 * depth), line.at_depth([depth], 0.3 * depth))
+
+
+def dragged_far_below(far: float) -> float:
+    """A sliding Hertz contact less its pressure against Cerruti's force."""
+    depth = far * float(make("hertz", E, R).at_load(LOAD).radius)
+    place = ([depth], LOAD, 0.3 * depth)
+    both, pressed = make("hertz-stress", E, R, NU, 1.0).at_depth(*place), make("hertz-stress", E, R).at_depth(*place)
+    force = make("cerruti", LOAD, E).at_depth([depth], 0.3 * depth)
+    dragged = type(force)(both.stress + pressed.stress * -1.0, force.displacement)
+    return stresses_apart(dragged, force)
+
+
+def round_ellipse(off: float) -> float:
+    """Stresses below an ellipse that is nearly a circle."""
+    depths = float(make("hertz", E, R).at_load(LOAD).radius) * np.array([0.1, 0.5, 2.0])
+    found = make("hertz-ellipse-stress", E, R, R * (1.0 + off)).at_depth(depths, LOAD)
+    return stresses_apart(found, make("hertz-stress", E, R).at_depth(depths, LOAD))
+
+
+def onset_of_yield(_: float) -> float:
+    """Largest stress of von Mises on the axis at the load of first yield against the yield stress."""
+    contact = make("hertz", E, R).at_load(LOAD)
+    onset = make("first-yield", NU).at_friction([0.0])
+    depth = float(onset.z[0]) * float(contact.radius)
+    highest = make("hertz-stress", E, R, NU).at_depth([depth], LOAD).von_mises
+    return apart(highest * onset.peak_over_Y, contact.max_pressure)
+
+
+def dry_summits(tension: float) -> float:
+    """Separation and area of summits in a film that hardly pulls."""
+    found = make("statistical-meniscus", E, ETA, R, SIGMA, tension, 1e-9).at_pressure(PRESSURES).contact
+    dry = GW.at_pressure(PRESSURES)
+    return apart(found.area_fraction, dry.area_fraction)
+
+
+def grown_menisci(hamaker: float) -> float:
+    """Meniscus force long after contact, for films that are held ever more weakly."""
+    numbers = (E, ETA, R, SIGMA, 0.025, 1e-9)
+    grown = make("kinetic-meniscus", *numbers, 0.1, hamaker)
+    late = 50.0 * grown.theory.growth.time_scale
+    rest = make("statistical-meniscus", *numbers).at_pressure(1e6).meniscus_pressure
+    return apart(grown.at_time([late], 1e6).meniscus_pressure, rest)
+
+
+def designed_area(_: float) -> float:
+    """Area of the designed surface against Greenwood and Williamson's on that surface, for 1e-4 <= P_a <= 1e-2."""
+    design = make("least-area", 8e9)
+    ratio = float(design.at_modulus([E]).summit_ratio[0])
+    surface = make("greenwood-williamson", E, ETA, SIGMA / ratio, SIGMA)
+    pressures = surface.pressure_unit * np.geomspace(1e-4, 1e-2, 9)
+    return apart(design.at_pressure(pressures).elastic, surface.at_pressure(pressures).area_fraction)
+
+
+FIELDS_AND_FILMS: tuple[Agreement, ...] = (
+    Agreement(
+        "hertz-stress",
+        "boussinesq",
+        "far below",
+        lambda far: far_below("hertz-stress", far),
+        (10.0, 100.0, 1000.0),
+        1e-5,
+        "moments of the pressure count as the square of radius over depth, 1e-6 at the last",
+    ),
+    Agreement(
+        "hertz-line-stress",
+        "flamant",
+        "far below",
+        lambda far: far_below("hertz-line-stress", far),
+        (10.0, 100.0, 1000.0),
+        1e-5,
+        "moments of the pressure count as the square of half-width over depth, 1e-6 at the last",
+    ),
+    Agreement(
+        "hertz-stress",
+        "cerruti",
+        "far below, the part of friction",
+        dragged_far_below,
+        (10.0, 100.0, 1000.0),
+        1e-5,
+        "moments of the traction count as the square of radius over depth, 1e-6 at the last",
+    ),
+    Agreement(
+        "strip",
+        "flamant",
+        "far below",
+        strip_far_below,
+        (10.0, 100.0, 1000.0),
+        1e-5,
+        "moments of the traction count as the square of half-width over depth, 1e-6 at the last",
+    ),
+    Agreement(
+        "hertz-ellipse-stress",
+        "hertz-stress",
+        "equal radii",
+        round_ellipse,
+        (1e-2, 1e-4, 1e-6),
+        1e-5,
+        "first order in the difference of the radii",
+    ),
+    Agreement(
+        "first-yield",
+        "hertz-stress",
+        "without friction, at the place of first yield",
+        onset_of_yield,
+        (),
+        ROUNDING,
+        "the same stresses; a maximum forgives the error of its place",
+    ),
+    Agreement(
+        "statistical-meniscus",
+        "greenwood-williamson",
+        "surface tension to zero",
+        dry_summits,
+        (1e-2, 1e-4, 1e-6),
+        1e-6,
+        "the pull of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach it, over 1e5 Pa",
+    ),
+    Agreement(
+        "kinetic-meniscus",
+        "statistical-meniscus",
+        "long after contact, film held ever more weakly",
+        grown_menisci,
+        (1e-20, 1e-22, 1e-24),
+        1e-6,
+        "gaps up to the film over the height of the menisci, which goes as the reciprocal of the Hamaker constant",
+    ),
+    Agreement(
+        "least-area",
+        "greenwood-williamson",
+        "1e-4 < P_a < 1e-2",
+        designed_area,
+        (),
+        0.1,
+        "the factor 3.2 is that of the middle of these loads",
+    ),
+    Agreement(
+        "cone",
+        "power-law-indenter",
+        "exponent 1",
+        lambda _: apart(
+            make("cone", E, 0.1).at_load(LOAD).approach, make("power-law-indenter", E, 0.1, 1.0).at_load(LOAD).approach
+        ),
+        (),
+        ROUNDING,
+        "the same profile",
+    ),
+)
+"""More rows."""

@@ -1,0 +1,66 @@
+"""The page of all theories, made from the catalogue: ``python tests/theory_page.py`` writes it anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from asperity.core.citations import reference
+from asperity.theories.catalogue import FAMILIES
+from asperity.theories.protocol import Described, Input
+from asperity.theories.ways import numbers_of, ways_of
+
+PAGE = Path(__file__).parents[1] / "docs" / "reference" / "theories.md"
+
+HEAD = """# All theories
+
+What `asperity theory --list` shows, made from the catalogue by `python tests/theory_page.py`. How to use them:
+[theories of contact](../how-to/theories.md); which must agree with which: [agreement](agreement.md). A star marks what
+`--surface FILE` and `from_roughness` or `of_roughness` measure.
+"""
+
+
+def page() -> str:
+    """Text of the page."""
+    parts = [HEAD]
+    for family, kinds in FAMILIES.items():
+        parts.append(f"## {family}\n")
+        parts += [section(kind) for kind in kinds]
+    sources = sorted({key for kinds in FAMILIES.values() for kind in kinds for key in kind.citation_keys})
+    parts.append("## Sources\n\n" + "\n".join(f"- [{key}] {reference(key)}" for key in sources) + "\n")
+    return "\n".join(parts)
+
+
+def section(kind: type[Described]) -> str:
+    """What the page says of one theory."""
+    measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
+    lines = [f"### {kind.title}", "", f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.", ""]
+    lines += ["| input | unit | meaning | default |", "|---|---|---|---|"]
+    lines += [
+        f"| `{item.name}`{'*' if measured and item.of == 'surface' else ''} | {item.unit or '–'} | {item.meaning} | {default(item)} |"
+        for item in kind.inputs
+    ]
+    lines.append("")
+    for way in ways_of(kind):
+        given = [f"`{item.name}` ({item.unit or 'number'})" for item in way.given]
+        beside = f", given {', '.join(given)}" if given else ""
+        answers = ", ".join(column.name.replace(".", " ").replace("_", " ") for column in way.columns)
+        lines += [f"Asked along `{way.axis.name}` ({way.axis.unit or 'number'}){beside}: {answers}.", ""]
+    if numbers_of(kind):
+        numbers = ", ".join(f"{column.meaning} ({column.unit or 'number'})" for column in numbers_of(kind))
+        lines += [f"Tells without being asked: {numbers}.", ""]
+    lines.append(" ".join(f"[{key}]" for key in kind.citation_keys))
+    return "\n".join(lines) + "\n"
+
+
+def default(item: Input) -> str:
+    """The default of an input in words."""
+    if item.required:
+        return "–"
+    words = [word for word, value in item.choices if value == item.default]
+    if words:
+        return f"{words[0]}; or {', '.join(word for word, _ in item.choices if word != words[0])}"
+    return "none" if item.default is None or item.default == () else f"{item.default:g}"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
