@@ -22,8 +22,6 @@ from ..solids.body import Body
 from ..solids.elastic import Rigid
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
-from ..theories.discrete_summits import DiscreteSummits
-from ..theories.interacting_crests import InteractingCrests
 from ..theories.protocol import QUANTITIES, Prediction, SurfaceTheory
 from ..theories.roughness import Roughness
 from .comparison import Comparison, TheoryCurve
@@ -149,6 +147,8 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
         return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
+    from ..theories.interacting_crests import InteractingCrests
+
     checked = check(theory, found, context.roughness)
     valid = np.zeros(loads.size, dtype=bool)
     valid[: len(found)] = checked.valid
@@ -166,6 +166,9 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
 
 def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple[int, tuple[str, ...]]:
     """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not all."""
+    from ..theories.discrete_summits import DiscreteSummits
+    from ..theories.interacting_crests import InteractingCrests
+
     if not isinstance(theory, InteractingCrests):
         return loads.size, ()
     radius = np.asarray(theory.wavelength) ** 2 / (2.0 * np.pi**2 * np.asarray(theory.depth))

@@ -14,12 +14,8 @@ from ..core import require
 from ..core.errors import InputError
 from ..solids.body import surface_material
 from ..solids.elastic import Elastic
-from ..theories.catalogue import THEORIES
 from ..theories.protocol import SurfaceTheory
 from ..theories.roughness import Roughness
-
-SURFACE_THEORIES: tuple[str, ...] = tuple(name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness"))
-"""Names of the theories that are made from the roughness of a surface, in the order of the catalogue."""
 
 YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
 """Parameters that tell a theory with plastic deformation, and one with adhesion."""
@@ -42,6 +38,13 @@ class Chosen:
     left_out: tuple[LeftOut, ...]
 
 
+def surface_theories() -> tuple[str, ...]:
+    """Names of the theories that are made from the roughness of a surface, in the order of the catalogue."""
+    from ..theories.catalogue import THEORIES
+
+    return tuple(name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness"))
+
+
 def chosen_theories(
     roughness: Roughness,
     E_star: float,
@@ -54,7 +57,7 @@ def chosen_theories(
     Parameters
     ----------
     theories
-        Names out of ``SURFACE_THEORIES``, theories made already, or both; all of the catalogue if None.
+        Names out of ``surface_theories()``, theories made already, or both; all of the catalogue if None.
     known
         Values of parameters that belong to the bodies, in SI units, see ``known_of_bodies``.
 
@@ -69,7 +72,7 @@ def chosen_theories(
         )
     made: dict[str, SurfaceTheory] = {}
     left_out: list[LeftOut] = []
-    for item in SURFACE_THEORIES if theories is None else theories:
+    for item in surface_theories() if theories is None else theories:
         found = _made(item, roughness, E_star, known) if isinstance(item, str) else _given(item)
         if isinstance(found, LeftOut):
             left_out.append(found)
@@ -115,7 +118,9 @@ def _or_infinite(value: float) -> float:
 
 
 def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, float]) -> SurfaceTheory | LeftOut:
-    kind = THEORIES[require.one_of(name, SURFACE_THEORIES, "name of a theory to compare")]
+    from ..theories.catalogue import THEORIES
+
+    kind = THEORIES[require.one_of(name, surface_theories(), "name of a theory to compare")]
     wanted = [item for item in kind.inputs if item.of == "bodies" and item.name != "E_star"]
     missing = [item for item in wanted if item.required and item.name not in known]
     if missing:
