@@ -22,6 +22,8 @@ Pull: TypeAlias = Callable[[RealArray], RealArray]
 _STEPS = 100  # ten are the rule
 _CLOSE = 1e-14  # standard deviations; the error is less than the last step
 _STEP = 0.1  # of the search for the first balance, in standard deviations; all curves change over about one
+_NEAR = 12.0  # beyond, on the dense side every summit is in the film, and on the other there is hardly one left
+_FAR_STEP = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,6 +172,8 @@ def _crossing(function: Pull, low: RealArray, high: RealArray, close: float) -> 
 def _separations(contact: GreenwoodWilliamson) -> RealArray:
     """Separations in m from the densest on, between which no balance is overlooked."""
     end = min(HIGHEST, contact.heights.support[1])
-    D = np.arange(LOWEST, end + _STEP, _STEP) - contact.heights.mean
+    dense = np.arange(LOWEST, -_NEAR, _FAR_STEP)
+    near = np.arange(-_NEAR, min(end, _NEAR) + _STEP, _STEP)
+    D = np.concatenate([dense, near, np.arange(_NEAR + _FAR_STEP, end + _FAR_STEP, _FAR_STEP)]) - contact.heights.mean
     heights: RealArray = contact.mean_height + contact.height_deviation * D
     return heights
