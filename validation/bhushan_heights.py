@@ -13,7 +13,18 @@ import asperity as asp
 
 RMS = 2e-9
 TENSION, ANGLE = 0.025, math.radians(10.0)
-SHAPES = ((-0.5, 3.0), (-0.2, 3.0), (0.0, 3.0), (0.2, 3.0), (0.5, 3.0), (0.0, 2.5), (0.0, 5.0), (0.0, 10.0), (0.2, 5.0))
+SHAPES = (
+    (-0.5, 3.0),
+    (-0.2, 3.0),
+    (0.0, 3.0),
+    (0.2, 3.0),
+    (0.5, 3.0),
+    (0.0, 2.5),
+    (0.0, 5.0),
+    (0.0, 10.0),
+    (0.2, 5.0),
+    (0.5, 5.0),
+)
 """Skewness and kurtosis."""
 
 LOADS = (0.328e6, 3.28e6, 32.8e6)
@@ -29,12 +40,14 @@ ABOUT = (
 
 WORDS = """* Area and force fall with the kurtosis, as published, and by orders of magnitude at low loads: few high peaks carry the load
   and keep the rest out of the film.
-* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is there: both are least near 0.2 and rise
-  again towards 0.5. This minimum belongs to the digital filter at K = 3: near 0.5 the noise it filters comes close to the least kurtosis
-  that a skewness allows (here 2.77), and so has a bounded tail on the side of the peaks. It is no law of the
-  two moments: at K = 5 the force goes on falling with the skewness.
-* With h/σ the force changes least at a skewness near 0.2 and a kurtosis of five or more, as published.
-* Kurtosis below 2.42 cannot be had from this filter on this grid, and so is not compared. At loads of 0.3 MPa and K ≥ 5 contact is a pixel or two."""
+* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is there at K = 3: area and force are
+  least near 0.2 and rise towards 0.5. (At 32.8 MPa, where summits push each other, the area does so, but the force goes on falling.)
+* It is no law of the two moments. What counts is how wide the highest hundredth of the surface is: from the height that 1 % exceeds to
+  that of 0.01 % there are 0.75, 1.37, 1.50 and 1.42 σ at a skewness of -0.5, 0, 0.2 and 0.5 with K = 3, because with K kept more skewness is
+  bought with a shorter tail, and 3.4 σ at K = 5. There area and force go on falling with the skewness.
+* With h/σ the force changes less the larger the skewness, and by far least at a kurtosis of five or more, as published.
+* A kurtosis below 2.42 cannot be had from this filter on this grid. At 0.3 MPa and K ≥ 5 contact is a pixel or two. Maps are finite: those
+  of K = 10 have 8.4 on average."""
 
 
 class Menisci:
@@ -68,7 +81,7 @@ class Menisci:
 
 
 def compare(
-    count: int = 12,
+    count: int = 8,
     pixels: int = 128,
     shapes: Sequence[tuple[float, float]] = SHAPES,
     loads: Sequence[float] = LOADS,

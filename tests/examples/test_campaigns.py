@@ -34,6 +34,9 @@ def test_every_ready_study_is_tested_here():
         "load_dependence",
         "layer_thickness",
         "normalised_laws",
+        "film_and_roughness",
+        "humidity",
+        "skewness_and_kurtosis",
         *GOLD,
     }
 

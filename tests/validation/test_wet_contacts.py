@@ -16,7 +16,7 @@ from bhushan import shown
 FOLDER = Path(bhushan_film.__file__).parent
 RUNS = {
     "bhushan_summits": bhushan_summits.compare,
-    "bhushan_film": lambda: bhushan_film.compare(2, (1e-9, 2e-9), (0.5e-9, 1e-9, 1.5e-9)),
+    "bhushan_film": lambda: bhushan_film.compare(2, (1e-9, 2e-9), (0.5e-9, 1e-9, 2e-9)),
     "bhushan_humidity": lambda: bhushan_humidity.compare(3, (0.5, 0.8, 0.9, 0.95)),
     "bhushan_heights": lambda: bhushan_heights.compare(6, loads=(bhushan_heights.LOAD,)),
 }
