@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -59,9 +60,15 @@ def labelled(variable: xarray.DataArray) -> Labelled:
 
 def point_text(coordinate: xarray.DataArray) -> str:
     """Name and value of one point of an axis."""
-    value = coordinate.item()
-    unit = str(coordinate.attrs.get("units", "1"))
-    return f"{str(coordinate.name).replace('_', ' ')} {value if isinstance(value, str) else show(float(value), unit)}"
+    text = coordinate_text(coordinate.item(), str(coordinate.attrs.get("units", "1")))
+    return f"{str(coordinate.name).replace('_', ' ')} {text}"
+
+
+def coordinate_text(value: float | str, unit: str) -> str:
+    """Where a point lies on its axis; only thicknesses are infinite, and mean that the layer never ends."""
+    if isinstance(value, str):
+        return value
+    return "endless" if math.isinf(value) else show(float(value), unit)
 
 
 def curves_axis(data: xarray.DataArray) -> str | None:

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.units import percent, show
 from ..studies.campaign import Campaign, CampaignState
 from .inputs import Rows
-from .study_figures import point_text
+from .study_figures import coordinate_text, point_text
 
 if TYPE_CHECKING:
     import xarray
@@ -78,7 +78,7 @@ def axis_rows(campaign: Campaign) -> Rows:
     rows: Rows = []
     for axis in campaign.plan.axes:
         ends = [axis.points[number].coordinate for number in (0, len(axis) - 1)]
-        texts = [end if isinstance(end, str) else show(end, axis.unit) for end in ends]
+        texts = [coordinate_text(end, axis.unit) for end in ends]
         where = f" ({axis.path})" if axis.path else ""
         rows.append((f"{axis.name.replace('_', ' ')}{where}", f"{len(axis)} points, {texts[0]} to {texts[1]}"))
     for table in () if campaign.study.document.monte_carlo is None else campaign.study.document.monte_carlo.random:

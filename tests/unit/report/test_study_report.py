@@ -85,8 +85,10 @@ def test_findings_of_critical_thickness_are_in_the_page(tmp_path):
         "endless layer",
         "control mean pressure 1 MPa",
         "Study of critical thickness: 18 cases",
+        "6 points, 0 m to endless",
     ):
         assert text in page
+    assert "inf m" not in page
     assert "Burmister1945" in page
 
 

@@ -1,0 +1,90 @@
+"""Pages on the applications of Peng (2001): their scripts say on small grids what the pages say, and claims hold."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import peng_head_disk
+import peng_load
+import peng_menisci
+import pytest
+from peng import grid, surfaces
+from ready_studies import PIXEL, axis, ready, results, without
+
+FOLDER = Path(peng_load.__file__).parent
+RUNS = {
+    "peng_head_disk": lambda: peng_head_disk.compare(seeds=1, points=64, count=7),
+    "peng_load": lambda: peng_load.compare(
+        seeds=3, points=128, loads=("10 kPa", "1 MPa", "10 MPa", "100 MPa"), dry_seeds=10
+    ),
+    "peng_menisci": lambda: peng_menisci.compare(seeds=1, points=128, count=6),
+}
+
+
+@cache
+def page_of(name):
+    return RUNS[name]()
+
+
+def tables_of(name):
+    """Rows of all tables of the written page, cells without blanks around them."""
+    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8").splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in written if line.startswith("|")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", RUNS)
+def test_every_claim_holds_and_is_that_of_the_page(name):
+    page = page_of(name)
+    for claim in page.claims:
+        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
+    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8")
+    rows = tables_of(name)
+    assert written.startswith(f"# {page.title}\n")
+    start = rows.index(["claim", "found", "expected", "holds"])
+    assert [row[0] for row in rows[start + 2 :]] == [claim.text for claim in page.claims]
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_every_written_claim_holds(name):
+    rows = tables_of(name)
+    claims = rows[rows.index(["claim", "found", "expected", "holds"]) + 2 :]
+    assert len(claims) > 10
+    assert {row[-1] for row in claims} == {"yes"}
+
+
+def test_published_rows_of_the_load_page():
+    rows = [row for row in tables_of("peng_load") if len(row) == 6 and "±" in row[4]]
+    found = {(row[0], row[1], row[3], row[5]) for row in rows if "±" in row[2] and "±" not in row[3]}
+    published = {(f"{r:g}", f"{p:.0e}", f"{a:.4f}", f"{m:.4f}") for r, p, a, m in peng_load._published()}
+    assert found == published
+    assert len(published) == 12
+
+
+def test_floor_of_the_dry_disk_on_a_small_grid_is_that_of_the_page():
+    """About 5 nm, within a factor of three; the page has the largest displacement without liquid in its second table."""
+    table = without(ready("head_disk_interface", points=48, seeds=1), "film")
+    axis(table, "modulus")["values"] = ["150 GPa", "350 GPa"]
+    found = peng_head_disk.Curves(results(table), peng_head_disk.DISK)
+    rows = [row for row in tables_of("peng_head_disk") if row[0] == "largest u_z" and len(row) == 8]
+    for ratio, row in ((0.75, rows[5]), (1.75, rows[6])):
+        assert row[1] == f"{ratio:.2f}"
+        floor = 1e9 * found.critical("max_displacement", ratio).floor
+        assert 1.0 / 3.0 < floor / float(row[4]) < 3.0
+        assert 1.5 < floor < 15.0
+
+
+def test_menisci_under_the_load_alone_are_those_of_the_figure():
+    """(Fm/W)/X of about 2000 on the base at X = 2e-3 and σ = 1 nm; the steady force is several times as large."""
+    shape = surfaces(1, grid(128, 128 * PIXEL))[0]
+    found = peng_menisci.forces(shape, 1.0, 2e-3, rms=1e-9)
+    assert found.alone / 2e-3 == pytest.approx(peng_menisci.ORDINATE, rel=0.4)
+    assert found.steady > 3.0 * found.alone
+
+
+def test_scaled_contacts_have_the_same_menisci():
+    table, claims = peng_menisci._exact(64)
+    assert [int(row[1]) for row in table.rows] == [0, 0, 0]
+    assert all(np.isfinite(claim.found) and claim.holds for claim in claims)
