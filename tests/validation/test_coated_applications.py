@@ -17,9 +17,9 @@ FOLDER = Path(peng_load.__file__).parent
 RUNS = {
     "peng_head_disk": lambda: peng_head_disk.compare(seeds=1, points=64, count=7),
     "peng_load": lambda: peng_load.compare(
-        seeds=3, points=128, loads=("10 kPa", "1 MPa", "10 MPa", "100 MPa"), dry_seeds=10
+        seeds=2, points=256, loads=("10 kPa", "1 MPa", "10 MPa", "100 MPa"), dry_seeds=16
     ),
-    "peng_menisci": lambda: peng_menisci.compare(seeds=1, points=128, count=6),
+    "peng_menisci": lambda: peng_menisci.compare(seeds=2, points=192, count=6),
 }
 
 
