@@ -17,7 +17,7 @@ from asperity.studies.run import carry_out
 
 FOLDER = Path(gold_film_area.__file__).parent
 RUNS = {
-    "gold_film_area": lambda: gold_film_area.page(surfaces=4, films=3, points=128),
+    "gold_film_area": lambda: gold_film_area.page(surfaces=3, films=2, points=128),
     "gold_film_grid": lambda: gold_film_grid.page(finest=256),
 }
 
