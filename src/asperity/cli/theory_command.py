@@ -115,7 +115,7 @@ def command(kind: type[Described]) -> Any:
 
     run.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in shown}
-    run.__doc__ = f"{kind.title}. {inspect.cleandoc(kind.__doc__ or '').partition(chr(10))[0]}"
+    run.__doc__ = f"{kind.title}. {inspect.cleandoc(kind.__doc__ or '').partition(chr(10))[0]}".replace("``", "")
     made = typer.Typer(add_completion=False)
     made.command(kind.name)(run)
     made.callback()(lambda: None)
