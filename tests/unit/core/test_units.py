@@ -94,3 +94,34 @@ def test_show(value, unit, text):
 @given(st.floats(1e-12, 1e12))
 def test_show_and_parse_are_inverse(value):
     assert units.parse(units.show(value, "m", digits=17), "length", "x") == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("3 um**-2", "1/m^2", 3e12),
+        ("50mJ/m^2", "J/m^2", 0.05),
+        ("72 mN/m", "J/m^2", 0.072),
+        ("1 1/nm", "rad/m", 1e9),
+        ("60deg", "rad", 1.0471975511965976),
+        ("0.3", "", 0.3),
+        ("30%", "", 0.3),
+    ],
+)
+def test_parse_in_any_unit(text, unit, value):
+    assert units.parse_in(text, unit, "x") == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        ("3", "1/m^2", "x must have a unit, such as \"1 um\\*\\*-2\", but is '3' without one"),
+        ("3 m", "1/m^2", "x must be in a unit such as 1/m\\^2, but its unit is 'm'"),
+        ("3 m", "", "x must be a plain number, but its unit is 'm'"),
+        ("3 foo", "m", "unknown unit 'foo'; use for example m"),
+        ("many", "", "x must be a number, but is 'many'"),
+    ],
+)
+def test_units_of_another_kind_are_refused(text, unit, words):
+    with pytest.raises(UnitError, match=words):
+        units.parse_in(text, unit, "x")
