@@ -71,7 +71,7 @@ def theory_rows(found: WetTheory | str, result: WetContactResult) -> Rows:
     ]
     if result.dry_friction > 0.0:
         friction = result.dry_friction * (1.0 + found.meniscus_force / load)
-        rows.append(("static friction coefficient", f"{friction:.4g}"))
+        rows.append(("static friction coefficient, without viscous part", f"{friction:.4g}"))
     if found.growth is None:
         why = (
             "not known without a viscosity"
