@@ -30,7 +30,10 @@ from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodi
 from .comparison_validity import check, remarks
 
 MOST_CONTACTS = 1000
-"""Contacts up to which interacting crests are solved: a load takes some 25 ms with a thousand of them, eight times that with twice as many."""
+"""Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of them, eight times that with twice as many."""
+
+_PILOT = 5.0
+"""Share of the most contacts, as a divisor, up to which loads are solved first; interaction adds as many where heights differ much."""
 
 LIGHTEST, HEAVIEST, LOADS = 0.004, 0.25, 12
 """Lowest and highest p/(E* h'_rms), and number of loads, where none are given: about 1 % to 45 % of the area."""
@@ -165,21 +168,29 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
 
 
 def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple[int, tuple[str, ...]]:
-    """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not all."""
+    """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not all.
+
+    Contacts of interacting crests are those of crests alone, or what their growth at lighter loads makes of them if more.
+    """
     from ..theories.discrete_summits import DiscreteSummits
     from ..theories.interacting_crests import InteractingCrests
 
     if not isinstance(theory, InteractingCrests):
         return loads.size, ()
     radius = np.asarray(theory.wavelength) ** 2 / (2.0 * np.pi**2 * np.asarray(theory.depth))
-    alone = DiscreteSummits(theory.E_star, theory.height, radius, theory.area)
-    contacts = np.rint(alone.at_pressure(loads).contact_density * theory.area).astype(int)
+    alone = DiscreteSummits(theory.E_star, theory.height, radius, theory.area).at_pressure(loads).contact_density
+    contacts = alone * theory.area
+    light = int(np.count_nonzero(contacts * _PILOT <= most_contacts))
+    pilot = _leading(theory, loads[:light])[0] if light else None
+    if pilot is not None and len(pilot) > 1:
+        (p1, p2), (n1, n2) = loads[len(pilot) - 2 : len(pilot)], pilot.contact_density[-2:] * theory.area
+        contacts = np.maximum(contacts, n2 * (loads / p2) ** (math.log(n2 / n1) / math.log(p2 / p1)))
     count = int(np.count_nonzero(contacts <= most_contacts))
     if count == loads.size:
         return count, ()
     note = (
-        f"Computed at {count} of {loads.size} loads: beyond, {contacts[count]} crests and more touch, and the time grows "
-        f"with their cube; most_contacts ({most_contacts}) sets the limit."
+        f"Computed at {count} of {loads.size} loads: beyond, some {contacts[count]:.0f} crests and more touch, and the time "
+        f"grows with their cube; most_contacts ({most_contacts}) sets the limit."
     )
     return count, (note,)
 

@@ -230,7 +230,7 @@ class InteractingCrests:
             # crests that the approach uncovers take part in the next round
             while solved < (count := int(np.searchsorted(depths, delta, side="left"))):
                 if count > system.count:
-                    system = self._system(min(2 * count, depths.size))
+                    system = self._system(min(count + count // 4 + 16, depths.size))
                 part, solved = system.leading(count), count
                 delta, w[:count] = solve_load(part, depths[:count], float(load), delta=delta, start=w[:count])
                 states[n] = part, w[:count].copy()
@@ -266,13 +266,14 @@ class InteractingCrests:
         x, y, depth, wavelength = (
             np.asarray(column)[:count] for column in (self.x, self.y, self.depth, self.wavelength)
         )
-        coupling = np.zeros((count, count))
-        if not alone and self.interaction != "off":
-            distance = np.hypot(x[:, None] - x, y[:, None] - y)
+        if alone or self.interaction == "off":
+            coupling = np.zeros((count, count))
+        else:
+            distance = np.hypot(np.subtract.outer(x, x), np.subtract.outer(y, y))
             distance[np.diag_indices(count)] = np.inf
             if not np.all(distance > 0.0):
                 raise InputError("crests must lie at different places, but two of them coincide.")
-            coupling = 1.0 / (math.pi * distance)
+            coupling = np.divide(1.0 / math.pi, distance, out=distance)  # in place: these arrays are the largest
         A1, A2 = np.array([two_terms(h, wave) for h, wave in zip(depth, wavelength, strict=True)]).reshape(-1, 2).T
         largest = np.square(TWO_TERMS * wavelength)
         if self.shape == "paraboloid":
