@@ -135,6 +135,10 @@ def parse_size(text: str, what: str = "size") -> tuple[float, float]:
     return parse(parts[0], "length", what), parse(parts[1], "length", what)
 
 
+_SMALLEST = 1e-19
+"""SI value below which prefixes are of no help."""
+
+
 def show(value: float, unit: str, digits: int = 4) -> str:
     """Text of an SI ``value`` with an SI-prefixed ``unit``, for example ``show(5e-9, "m")`` → ``"5 nm"``."""
     if not unit or unit == "1":
@@ -152,7 +156,8 @@ def percent(share: float, digits: int = 3) -> str:
 
 
 def _prefixed(quantity: Any) -> Any:
-    return quantity.to_compact()
+    """Quantity with a prefix; what is smaller than the prefixes in use, as rounding is, as a power of ten."""
+    return quantity if abs(quantity.magnitude) < _SMALLEST else quantity.to_compact()
 
 
 def _compact_area(quantity: Any) -> Any:

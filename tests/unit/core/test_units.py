@@ -84,6 +84,7 @@ def test_bad_size(text):
         (2.637e-24, "m**4", "2.637 µm⁴"),
         (0.25, "1", "0.25"),
         (float("inf"), "Pa/m", "inf Pa/m"),
+        (5.856e-28, "m", "5.856e-28 m"),  # rounding, not 585.6 rm
         (float("nan"), "Pa", "nan Pa"),
     ],
 )
