@@ -14,8 +14,19 @@ from .elastic_plastic_asperity import ElasticPlasticLaw, at_first_yield
 from .greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
 from .inversion import separation_at
 from .limits import area_limit, blunt_summits
-from .protocol import Limit, Prediction, curve, prediction
+from .protocol import E_STAR, Input, Limit, Prediction, curve, prediction
 from .summit_heights import GaussianHeights
+
+SUMMITS = (
+    E_STAR,
+    Input("density", "1/m^2", "summits per area"),
+    Input("radius", "m", "radius of the summits"),
+    Input("height_deviation", "m", "standard deviation of the summit heights"),
+)
+"""Inputs that describe the summits."""
+
+NU = Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3)
+MEAN_HEIGHT = Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0)
 
 _NODES = 48  # between breaks of the law; 32 leave 1e-12
 _SIGMAS = 9.0
@@ -90,6 +101,36 @@ class ElasticPlasticSummits:
         ends = np.sort(np.stack([np.clip(e, first, last) for e in (first, *inner, middle, last)], axis=-1), axis=-1)
         q, weight = gauss(np.sqrt(ends), _NODES)
         return q * q, 2.0 * q * weight
+
+
+class OfElasticPlasticSummits:
+    """What theories of rough surfaces have in common that differ by the law of one summit only: their ``model`` does it."""
+
+    @property
+    def model(self) -> ElasticPlasticSummits:
+        """The summits, and the law of one of them."""
+        raise NotImplementedError
+
+    def __post_init__(self) -> None:
+        self.model  # noqa: B018 - checks all values
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        return self.model.at_separation(separation)
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
+        """
+        return self.model.at_pressure(pressure)
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits."""
+        return self.model.validity(prediction)
 
 
 def _density(s: RealArray) -> RealArray:

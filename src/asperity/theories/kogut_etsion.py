@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from . import elastic_plastic_asperity as law
-from .elastic_plastic_summits import ElasticPlasticSummits
+from .elastic_plastic_summits import MEAN_HEIGHT, NU, SUMMITS, ElasticPlasticSummits, OfElasticPlasticSummits
 from .greenwood_williamson import GreenwoodWilliamson
 from .hertz import HertzPoint
 from .plasticity_index import critical_interference, hardness_coefficient
-from .protocol import E_STAR, Input, Limit, Prediction
+from .protocol import E_STAR, Input, Limit
 from .roughness import Roughness
 from .single_contact import ContactAnswer, small_slope
 
@@ -97,7 +97,7 @@ class KogutEtsionSphere:
 
 
 @dataclass(frozen=True)
-class KogutEtsion:
+class KogutEtsion(OfElasticPlasticSummits):
     """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian heights.
 
     Parameters
@@ -129,17 +129,11 @@ class KogutEtsion:
     title: ClassVar[str] = "Kogut-Etsion"
     citation_keys: ClassVar[tuple[str, ...]] = ("Kogut2002",)
     inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("density", "1/m^2", "summits per area"),
-        Input("radius", "m", "radius of the summits"),
-        Input("height_deviation", "m", "standard deviation of the summit heights"),
+        *SUMMITS,
         Input("hardness", "Pa", "hardness of the softer body, 2.8 times its yield stress", of="bodies"),
-        Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),
-        Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
+        NU,
+        MEAN_HEIGHT,
     )
-
-    def __post_init__(self) -> None:
-        self.model  # noqa: B018 - checks all values
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float, nu: float = 0.3) -> Self:
@@ -158,21 +152,3 @@ class KogutEtsion:
         """The summits, and the law of one of them."""
         summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
         return ElasticPlasticSummits(summits, KogutEtsionSphere(self.E_star, self.radius, self.hardness, self.nu))
-
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        return self.model.at_separation(separation)
-
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
-
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
-        """
-        return self.model.at_pressure(pressure)
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
-        return self.model.validity(prediction)
