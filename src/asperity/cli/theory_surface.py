@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,21 +26,13 @@ def of_bodies(kind: type[Described], given: dict[str, Any], body: str, counter: 
         If a body is not understood, or its strength is needed and not known.
     """
     from ..io.build_body import body_of_text
-    from ..solids.body import contact_modulus, surface_material
+    from ..solids.body import contact_modulus
     from ..solids.elastic import Rigid
+    from ..solids.weaker import weaker_strength
 
     first = body_of_text(body, "--body")
     second = Rigid() if counter is None else body_of_text(counter, "--counter")
-    solids = [solid for solid in (surface_material(first), surface_material(second)) if solid is not None]
-    known: dict[str, float] = {"E_star": contact_modulus(first, second)}
-    for name in ("hardness", "yield_stress"):
-        values = [(getattr(solid.strength, name), solid) for solid in solids]
-        values = [pair for pair in values if not math.isnan(pair[0])]
-        if values:
-            known[name], weaker = min(values, key=lambda pair: pair[0])
-            known["nu"] = weaker.poisson_ratio
-    if "nu" not in known and solids:
-        known["nu"] = solids[0].poisson_ratio
+    known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
     for item in kind.inputs:
         if item.name in ("hardness", "yield_stress") and item.required and item.name not in (given | known):
             option = "--" + item.name.replace("_", "-")

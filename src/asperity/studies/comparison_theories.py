@@ -12,8 +12,7 @@ from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.errors import InputError
-from ..solids.body import surface_material
-from ..solids.elastic import Elastic
+from ..solids.weaker import weaker_strength
 from ..theories.protocol import SurfaceTheory
 from ..theories.roughness import Roughness
 
@@ -92,29 +91,16 @@ def family(theory: SurfaceTheory) -> str:
 def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
     """What the bodies and the law of ``problem`` say of the parameters of theories: hardness, yield stress (Pa), nu.
 
-    The hardness is that of the law if it is one number, else the lower known one of the materials at the surfaces, and
-    Poisson's ratio that of the material which yields. What is not known, or is no single number, is left out.
+    The hardness is that of the law if it is one number, and none if it is a map or follows the depth; see also
+    ``weaker_strength``.
     """
-    materials = [m for m in map(surface_material, (problem.body, problem.counter_body)) if m is not None]
-    softest = min(materials, key=lambda material: _or_infinite(material.strength.hardness))
-    yields = min(materials, key=lambda material: _or_infinite(material.strength.yield_stress))
-    found = {
-        "hardness": _hardness(problem, softest),
-        "yield_stress": yields.strength.yield_stress,
-        "nu": softest.poisson_ratio,
-    }
-    return {name: value for name, value in found.items() if not math.isnan(value)}
-
-
-def _hardness(problem: ContactProblem, softest: Elastic) -> float:
+    found = weaker_strength(problem.body, problem.counter_body)
     cap = problem.law.pressure_cap()
     if isinstance(problem.law, LayeredHardness) or isinstance(cap, np.ndarray):
-        return math.nan
-    return cap if math.isfinite(cap) else softest.strength.hardness
-
-
-def _or_infinite(value: float) -> float:
-    return math.inf if math.isnan(value) else value
+        found.pop("hardness", None)
+    elif math.isfinite(cap):
+        found["hardness"] = cap
+    return found
 
 
 def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, float]) -> SurfaceTheory | LeftOut:
