@@ -100,6 +100,7 @@ def campaign(samples: int):
     return plan(monte_carlo={"seed": 1, "samples": samples, "random": RANDOM})
 
 
+@pytest.mark.slow
 def test_ten_thousand_finished_cases_reopen_within_two_seconds(tmp_path):
     made, path = campaign(10_000), tmp_path / "r.log"
     assert carry_out(made, path, InProcess(), function=QUICK).done == 10_000
@@ -113,10 +114,11 @@ def test_ten_thousand_finished_cases_reopen_within_two_seconds(tmp_path):
     assert np.isfinite(data["approach"]).all()
 
 
+@pytest.mark.slow
 def test_the_memory_of_a_run_hardly_grows_with_the_number_of_cases(tmp_path):
     """8 bytes for the key of each finished case are allowed, four times over while they are sorted, and nothing else."""
     peaks = {}
-    for samples in (500, 5000):
+    for samples in (300, 3000):
         made, path = campaign(samples), tmp_path / f"{samples}.log"
         tracemalloc.start()
         carry_out(made, path, InProcess(), function=QUICK)
@@ -125,5 +127,5 @@ def test_the_memory_of_a_run_hardly_grows_with_the_number_of_cases(tmp_path):
         carry_out(made, path, InProcess(), function=QUICK)  # finds all
         peaks[samples] = (first, tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    for small, large in zip(peaks[500], peaks[5000], strict=True):
-        assert large - small < 4 * (8 + 16) * 4500 + 0.2 * small
+    for small, large in zip(peaks[300], peaks[3000], strict=True):
+        assert large - small < 4 * (8 + 16) * 2700 + 0.2 * small
