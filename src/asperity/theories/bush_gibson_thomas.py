@@ -20,7 +20,41 @@ ASYMPTOTE = math.sqrt(2.0 * math.pi)
 
 
 @dataclass(frozen=True)
-class BushGibsonThomas:
+class _OnSummits:
+    """What theories have in common that differ by the shape of the contact on a summit only: their ``_contacts`` do it."""
+
+    E_star: float
+    m0: float
+    m2: float
+    m4: float
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        self._contacts()
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
+        """Theory for the moments of ``roughness``."""
+        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        return self._contacts().at_separation(curve(separation, "separations (m)"))
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, see ``SummitContacts.at_pressure``."""
+        return self._contacts().at_pressure(curve(pressure, "pressures (Pa)", positive=True))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts, gentle slopes, moments of an isotropic surface."""
+        return _validity(self._contacts(), prediction)
+
+    def _contacts(self) -> SummitContacts:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class BushGibsonThomas(_OnSummits):
     """Elliptical contacts on all summits of an isotropic Gaussian surface.
 
     The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide spectra (Carbone & Bottiglione
@@ -48,33 +82,12 @@ class BushGibsonThomas:
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Nayak1971")
     inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *MOMENTS)
 
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        self._contacts()
-
-    @classmethod
-    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the moments of ``roughness``."""
-        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
-
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        return self._contacts().at_separation(curve(separation, "separations (m)"))
-
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa, see ``SummitContacts.at_pressure``."""
-        return self._contacts().at_pressure(curve(pressure, "pressures (Pa)", positive=True))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, gentle slopes, moments of an isotropic surface."""
-        return _validity(self._contacts(), prediction)
-
     def _contacts(self) -> SummitContacts:
         return SummitContacts(self.E_star, self.m0, self.m2, self.m4, elliptic_shapes())
 
 
 @dataclass(frozen=True)
-class GreenwoodElliptic:
+class GreenwoodElliptic(_OnSummits):
     """Greenwood's simplified elliptic model: on every summit a circle of the geometric mean curvature sqrt(κ1 κ2).
 
     Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the limit at vanishing load
@@ -99,27 +112,6 @@ class GreenwoodElliptic:
     title: ClassVar[str] = "Greenwood's simplified elliptic model"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood2006", "Nayak1971")
     inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *MOMENTS)
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        self._contacts()
-
-    @classmethod
-    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the moments of ``roughness``."""
-        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
-
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        return self._contacts().at_separation(curve(separation, "separations (m)"))
-
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa, see ``SummitContacts.at_pressure``."""
-        return self._contacts().at_pressure(curve(pressure, "pressures (Pa)", positive=True))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, gentle slopes, moments of an isotropic surface."""
-        return _validity(self._contacts(), prediction)
 
     def _contacts(self) -> SummitContacts:
         return SummitContacts(self.E_star, self.m0, self.m2, self.m4, circular_shapes())

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from . import elastic_plastic_asperity as law
-from .elastic_plastic_summits import MEAN_HEIGHT, NU, SUMMITS, ElasticPlasticSummits, OfElasticPlasticSummits
+from .elastic_plastic_summits import MEAN_HEIGHT, NU, SUMMITS, OfElasticPlasticSummits
 from .greenwood_williamson import GreenwoodWilliamson
 from .hertz import HertzPoint
 from .plasticity_index import critical_interference, hardness_coefficient
@@ -138,7 +138,6 @@ class ChangEtsionBogy(OfElasticPlasticSummits):
         return cls(E_star, s.density, s.radius, s.height_deviation, hardness, nu, s.mean_height)
 
     @property
-    def model(self) -> ElasticPlasticSummits:
-        """The summits, and the law of one of them."""
-        summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
-        return ElasticPlasticSummits(summits, ChangEtsionBogySphere(self.E_star, self.radius, self.hardness, self.nu))
+    def law(self) -> ChangEtsionBogySphere:
+        """Law of one summit."""
+        return ChangEtsionBogySphere(self.E_star, self.radius, self.hardness, self.nu)

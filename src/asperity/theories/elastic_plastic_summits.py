@@ -104,12 +104,24 @@ class ElasticPlasticSummits:
 
 
 class OfElasticPlasticSummits:
-    """What theories of rough surfaces have in common that differ by the law of one summit only: their ``model`` does it."""
+    """What theories of rough surfaces have in common that differ by the ``law`` of one summit only."""
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float
+
+    @property
+    def law(self) -> ElasticPlasticLaw:
+        """Law of one summit."""
+        raise NotImplementedError
 
     @property
     def model(self) -> ElasticPlasticSummits:
         """The summits, and the law of one of them."""
-        raise NotImplementedError
+        summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
+        return ElasticPlasticSummits(summits, self.law)
 
     def __post_init__(self) -> None:
         self.model  # noqa: B018 - checks all values

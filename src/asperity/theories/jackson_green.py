@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from . import elastic_plastic_asperity as law
-from .elastic_plastic_summits import MEAN_HEIGHT, NU, SUMMITS, ElasticPlasticSummits, OfElasticPlasticSummits
+from .elastic_plastic_summits import MEAN_HEIGHT, NU, SUMMITS, OfElasticPlasticSummits
 from .greenwood_williamson import GreenwoodWilliamson
 from .hertz import HertzPoint
 from .plasticity_index import critical_interference, yield_coefficient
@@ -157,10 +157,9 @@ class JacksonGreen(OfElasticPlasticSummits):
         return cls(E_star, s.density, s.radius, s.height_deviation, yield_stress, nu, s.mean_height)
 
     @property
-    def model(self) -> ElasticPlasticSummits:
-        """The summits, and the law of one of them."""
-        summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
-        return ElasticPlasticSummits(summits, JacksonGreenSphere(self.E_star, self.radius, self.yield_stress, self.nu))
+    def law(self) -> JacksonGreenSphere:
+        """Law of one summit."""
+        return JacksonGreenSphere(self.E_star, self.radius, self.yield_stress, self.nu)
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
         """Few contacts that do not feel each other, on blunt summits, and a mean contact radius of up to 0.4 R."""

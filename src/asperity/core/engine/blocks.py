@@ -13,6 +13,9 @@ import numpy as np
 
 from ..arrays import RealArray
 
+FEW = 1 << 15
+"""Points below which handing work to another thread costs more than it saves."""
+
 
 class Blocks:
     """Runs compiled passes with a given number of threads. Numba takes long to import, so only when something runs."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from .blocks import Blocks
+from .blocks import FEW, Blocks
 from .cpu_cells import CpuCells
 from .cpu_face import ROW_PAD, CpuFace, bound, memory
 from .neighbourhood import SIDE, local_means
@@ -63,9 +63,7 @@ class CpuEngine:
         out = np.empty_like(heights)
         fine = _read_only(heights).reshape(heights.shape)
         arguments = (coarse, coarse_heights, fine, stiffness, out)
-        self.blocks.share(
-            self.blocks.kernels.refine, len(out), *arguments, alone=out.size < 2 * self.blocks.kernels.BLOCK
-        )
+        self.blocks.share(self.blocks.kernels.refine, len(out), *arguments, alone=out.size < FEW)
         return out
 
     def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> CpuSurvey:
@@ -74,7 +72,7 @@ class CpuEngine:
         flat = p.ravel(), u.ravel(), _read_only(h)
         squares = np.zeros((-(-nx // SIDE), -(-ny // SIDE), 2))
         s = np.zeros((len(squares), 3 if cap is None else 7))
-        kernels, alone = self.blocks.kernels, _small(p.size)
+        kernels, alone = self.blocks.kernels, p.size < FEW
         if cap is None:
             self.blocks.share(kernels.survey, len(s), *flat, ny, SIDE, s, squares, alone=alone)
             pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
@@ -135,7 +133,7 @@ class CpuSurvey:
         return CpuFace(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:
-        self.blocks.share(kernel, len(self.squares), *arguments, alone=_small(self.p.size))
+        self.blocks.share(kernel, len(self.squares), *arguments, alone=self.p.size < FEW)
 
 
 class _Convolution:
@@ -163,11 +161,6 @@ class _Convolution:
         self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         spectrum[0, 0] = mean * self._mean_factor
         return self._transform.backward(spectrum, out)
-
-
-def _small(size: int) -> bool:
-    """Whether handing work on ``size`` points to another thread costs more than it saves."""
-    return size < 1 << 15
 
 
 def _read_only(values: RealArray) -> RealArray:

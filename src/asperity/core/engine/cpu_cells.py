@@ -7,12 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import RealArray
-from .blocks import Blocks
+from .blocks import FEW, Blocks
 from .cpu_face import CpuFace
 from .protocol import Face, Hierarchy, Products
-
-_MANY = 1 << 15
-"""Points below which handing work to another thread costs more than it saves."""
 
 
 class CpuCells:
@@ -40,7 +37,7 @@ class CpuCells:
         sums = np.zeros((self._shape[0], 3))
         arguments = (self._levels, self._shape, face.rows, face.index, r, other, self._s, out, sums)
         relieve = self._blocks.cell_kernels.relieve
-        self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < _MANY)
+        self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
@@ -48,7 +45,7 @@ class CpuCells:
         assert isinstance(face, CpuFace)
         arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, self._g, self._s)
         call = getattr(self._blocks.cell_kernels, kernel)
-        self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < _MANY)
+        self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < FEW)
 
 
 def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
