@@ -24,7 +24,7 @@ LOADS = ("10 kPa", "40 kPa", "100 kPa", "400 kPa", "1 MPa", "4 MPa", "10 MPa", "
 ROWS = ("40 kPa", "100 kPa", "400 kPa", "1 MPa", "4 MPa")
 """Loads of the rows of table 3.1."""
 
-LINEAR = (0.85, 1.05)
+LINEAR = (0.9, 1.1)
 """Exponents that pass for linear: from a contact of 0.05 % to one of 6 %, where the summits begin to be used up."""
 
 TOP = 10.0
