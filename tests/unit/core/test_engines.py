@@ -353,15 +353,21 @@ def test_pressures_are_refined(engine: Engine, shape: tuple[int, int]) -> None:
         assert value == pytest.approx(max(0.0, p + 0.3 * (heights[i, j] - base[i // 2, j // 2])) if p > 0.0 else 0.0)
 
 
-HIERARCHY = tuple(Merge(True, True, 0, 1, 0.5) for _ in range(4))
-SHIFTED = tuple(Merge(True, level % 2 == 0, level % 2, int(level % 2 == 0), 0.5) for level in range(4))
+HIERARCHY = Hierarchy(tuple(Merge(True, True, 0, 1, 0.5) for _ in range(4)))
+SHIFTED = Hierarchy(tuple(Merge(True, level % 2 == 0, level % 2, int(level % 2 == 0), 0.5) for level in range(4)))
+PLAIN = tuple(Merge(True, True, 0, 0, 0.5) for _ in range(4))
+
+
+def rolled(shape: tuple[int, int]) -> Hierarchy:
+    """Cells that reach over the borders."""
+    return Hierarchy(PLAIN, (min(5, shape[0] - 1), min(3, shape[1] - 1)))
 
 
 def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
     """1 + sum over cells of w 1 1^T, from the places of the points alone."""
-    x, y = (axis.ravel() for axis in np.indices(shape))
+    x, y = ((axis.ravel() + roll) % n for axis, roll, n in zip(np.indices(shape), hierarchy.roll, shape, strict=True))
     matrix = np.eye(x.size)
-    for merge in hierarchy:
+    for merge in hierarchy.merges:
         x = (x + merge.offset_x) // 2 if merge.x else x
         y = (y + merge.offset_y) // 2 if merge.y else y
         matrix += merge.weight * ((x[:, None] == x) & (y[:, None] == y))
@@ -370,10 +376,11 @@ def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
 
 @pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
 @pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16)], ids=str)
+@pytest.mark.parametrize("wraps", [False, True], ids=["", "round"])
 @every_type
-def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str, wraps: bool) -> None:
     rng = np.random.default_rng(shape)
-    hierarchies = (HIERARCHY, SHIFTED)
+    hierarchies = (HIERARCHY, rolled(shape) if wraps else SHIFTED)
     cells = engine.cells(shape, hierarchies, dtype)
     for share in (0.2, 0.6, 1.0):  # the same buffers for one set after the other
         inside = rng.uniform(size=shape) < share

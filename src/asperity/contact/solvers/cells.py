@@ -6,7 +6,9 @@ compliance at q = pi / H (the mean over the Haar functions of the cell, to one p
     B = sum over levels l of c(pi / H_l) (P_l - P_l+1),     P_l: means over the cells of level l,
 
 which is a sum of constants over nested cells. Two hierarchies, shifted against each other by a third of a cell at every
-level, hide where the cells meet.
+level, hide where the cells meet. On a periodic grid the second is moved round it as a whole, so that its cells reach over
+the borders: at 512² this takes the reduction of the residual per step from 0.37 to 0.28 (0.44 to 0.29 at four times the
+load).
 """
 
 from __future__ import annotations
@@ -21,12 +23,15 @@ from ...solids.compliance.protocol import Compliance
 _SQUARE = 1.5
 
 
-def hierarchies(compliance: Compliance, grid: Grid) -> tuple[Hierarchy, Hierarchy]:
+def hierarchies(compliance: Compliance, grid: Grid, *, periodic: bool) -> tuple[Hierarchy, Hierarchy]:
     """Nested cells on ``grid`` that follow the normal ``compliance``, as square as its pixels allow."""
     merges = _merges(grid)
     sides, points = _octaves(grid, merges)
     detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
     weights = np.diff(detail) / points[1:] / detail[0]
+    if periodic:
+        cells = tuple(Merge(x, y, 0, 0, float(weight)) for (x, y), weight in zip(merges, weights, strict=True))
+        return Hierarchy(cells), Hierarchy(cells, (_third(grid.shape[0]), _third(grid.shape[1])))
     first, second = (
         tuple(
             Merge(x, y, int(x and (level + start) % 2 == 0), int(y and (level + start) % 2 == 1), float(weight))
@@ -34,7 +39,15 @@ def hierarchies(compliance: Compliance, grid: Grid) -> tuple[Hierarchy, Hierarch
         )
         for start in (0, 1)
     )
-    return first, second
+    return Hierarchy(first), Hierarchy(second)
+
+
+def _third(n: int) -> int:
+    """Number of the binary digits ...10101 below ``n``: a third of a cell, or two, of any 2^k points."""
+    third = 0
+    while 4 * third + 1 < n:
+        third = 4 * third + 1
+    return third
 
 
 def pixel_compliance(compliance: Compliance, grid: Grid) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Cells, Convolution, Engine
+from ..boundary import Periodic
 from ..operators.protocol import Operator
 from .cells import hierarchies
 from .protocol import ContactQP, FixedOffset
@@ -39,7 +40,8 @@ class Bench:
     @cached_property
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
-        nested = hierarchies(self.operator.compliance, self.operator.grid)
+        periodic = isinstance(self.operator.boundary, Periodic)
+        nested = hierarchies(self.operator.compliance, self.operator.grid, periodic=periodic)
         return self.engine.cells(self.operator.grid.shape, nested, self.dtype)
 
     @cached_property

@@ -6,7 +6,8 @@ parts of a cell of what they pass up, T the same for unit loads, and g = 1 / (1 
 the deflection D = g (D of its parent + w S).
 
 ``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
-the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets. Level 0 are the points.
+the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets; last, how far the points are
+moved along x and y, round the grid, before they form cells. Level 0 are the points.
 Cells are stored with a rim of empty ones (g = s = 0), so the edges are no special case.
 """
 
@@ -16,7 +17,7 @@ import numpy as np
 
 from .kernels import compiled
 
-START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y = range(8)
+START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL_Y = range(10)
 
 
 @compiled
@@ -28,10 +29,15 @@ def _collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-d
         base = level[START] + cell * level[STRIDE]
         s[base : base + level[COLUMNS]] = 0.0
         first = (cell << level[MERGE_X]) - level[OFFSET_X]
-        for row in range(max(first, 0), min(first + 1 + level[MERGE_X], shape[0])):
-            shift = level[OFFSET_Y] - row * shape[1]
+        for moved in range(max(first, 0), min(first + 1 + level[MERGE_X], shape[0])):
+            row = moved - level[ROLL_X]
+            row += shape[0] if row < 0 else 0
+            shift = level[OFFSET_Y] + level[ROLL_Y] - row * shape[1]
+            end = shape[1] + level[OFFSET_Y]
             for k in range(rows[row], rows[row + 1]):
-                place = base + ((index[k] + shift) >> level[MERGE_Y])
+                column = index[k] + shift
+                column -= shape[1] if column >= end else 0
+                place = base + (column >> level[MERGE_Y])
                 s[place] += one if unit else values[k]
 
 
@@ -117,21 +123,33 @@ def deflect(span, levels, weights, shape, rows, index, values, g, s):  # type: i
 
 
 @compiled
+def _above(row, level, shape):  # type: ignore[no-untyped-def]
+    """Where the cells of the level that hold points of this row begin."""
+    moved = row + level[ROLL_X]
+    moved -= shape[0] if moved >= shape[0] else 0
+    return level[START] + ((moved + level[OFFSET_X]) >> level[MERGE_X]) * level[STRIDE]
+
+
+@compiled
 def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
     """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
     half = s.dtype.type(0.5)
     one, two = levels[0, 1], levels[1, 1]
+    merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
+    end_one, end_two = shape[1] + one[OFFSET_Y], shape[1] + two[OFFSET_Y]
     for row in range(span[0], span[1]):
-        base_one = one[START] + ((row + one[OFFSET_X]) >> one[MERGE_X]) * one[STRIDE]
-        base_two = two[START] + ((row + two[OFFSET_X]) >> two[MERGE_X]) * two[STRIDE]
-        shift_one, shift_two = one[OFFSET_Y] - row * shape[1], two[OFFSET_Y] - row * shape[1]
-        merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
+        base_one, base_two = _above(row, one, shape), _above(row, two, shape)
+        shift_one = one[OFFSET_Y] + one[ROLL_Y] - row * shape[1]
+        shift_two = two[OFFSET_Y] + two[ROLL_Y] - row * shape[1]
         total = 0.0
         with_values = 0.0
         with_other = 0.0
         for k in range(rows[row], rows[row + 1]):
             i = index[k]
-            d = s[base_one + ((i + shift_one) >> merge_one)] + s[base_two + ((i + shift_two) >> merge_two)]
+            column_one, column_two = i + shift_one, i + shift_two
+            column_one -= shape[1] if column_one >= end_one else 0
+            column_two -= shape[1] if column_two >= end_two else 0
+            d = s[base_one + (column_one >> merge_one)] + s[base_two + (column_two >> merge_two)]
             z = values[k] - half * d
             out[k] = z
             total += z

@@ -21,7 +21,7 @@ class CpuCells:
         self._blocks = blocks
         self._shape = shape
         self._levels, size = _layout(shape, hierarchies)
-        self._weights = np.array([1.0, *(merge.weight for merge in hierarchies[0])], dtype)
+        self._weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
         self._g = np.zeros(size, dtype)
         self._s = np.zeros(size, dtype)
         self._nothing = np.empty(0, dtype)
@@ -50,15 +50,15 @@ class CpuCells:
 
 def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
     """Table ``levels`` of ``cell_kernels`` (hierarchy, level, column) and the memory in elements."""
-    levels = np.zeros((len(hierarchies), len(hierarchies[0]) + 1, 8), np.int64)
+    levels = np.zeros((len(hierarchies), len(hierarchies[0].merges) + 1, 10), np.int64)
     end = 0
-    for hierarchy, merges in enumerate(hierarchies):
+    for number, hierarchy in enumerate(hierarchies):
         nx, ny = shape
-        for depth, merge in enumerate(merges, start=1):
+        for depth, merge in enumerate(hierarchy.merges, start=1):
             nx, ny = merged(nx, merge.x, merge.offset_x), merged(ny, merge.y, merge.offset_y)
             stride = ny + 2
             flags = merge.x, merge.y, merge.offset_x, merge.offset_y
-            levels[hierarchy, depth] = end + stride + 1, nx, ny, stride, *flags
+            levels[number, depth] = end + stride + 1, nx, ny, stride, *flags, *hierarchy.roll
             end += (nx + 2) * stride
     return levels, end
 

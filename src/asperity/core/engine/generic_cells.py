@@ -23,35 +23,42 @@ class ArrayCells:
         assert isinstance(face, ArrayFace)
         xp = self._library.xp
         unit = xp.astype(face.inside, getattr(xp, self._dtype))
-        self._stiff = tuple(self._stiffened(hierarchy, unit) for hierarchy in self._hierarchies)
+        self._stiff = tuple(
+            self._stiffened(hierarchy.merges, xp.roll(unit, hierarchy.roll, axis=(0, 1)))
+            for hierarchy in self._hierarchies
+        )
 
     def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
         """Inverse times ``r``."""
         assert isinstance(face, ArrayFace)
         deflection = self._library.xp.zeros_like(r)
         for hierarchy, g in zip(self._hierarchies, self._stiff, strict=True):
-            deflection = deflection + self._deflected(hierarchy, g, r)
+            back = (-hierarchy.roll[0], -hierarchy.roll[1])
+            load = self._library.xp.roll(r, hierarchy.roll, axis=(0, 1))
+            deflection = deflection + self._library.xp.roll(
+                self._deflected(hierarchy.merges, g, load), back, axis=(0, 1)
+            )
         z = r - self._library.select(face.inside, deflection) / float(len(self._hierarchies))
         return face.products(z, r, other)
 
-    def _stiffened(self, hierarchy: Hierarchy, passed: Any) -> list[Any]:
-        """g = 1 / (1 + w T) on every level of the hierarchy, from the sums ``passed`` up by single points."""
+    def _stiffened(self, merges: tuple[Merge, ...], passed: Any) -> list[Any]:
+        """g = 1 / (1 + w T) on every level of a hierarchy, from the sums ``passed`` up by single points."""
         levels = []
-        for merge in hierarchy:
+        for merge in merges:
             total = self._summed(passed, merge)
             levels.append(1.0 / (1.0 + merge.weight * total))
             passed = levels[-1] * total
         return levels
 
-    def _deflected(self, hierarchy: Hierarchy, g: list[Any], passed: Any) -> Any:
+    def _deflected(self, merges: tuple[Merge, ...], g: list[Any], passed: Any) -> Any:
         """Deflection of the points by the cells they lie in under the loads ``passed`` up by the points."""
         sums, shapes = [], []
-        for merge, stiff in zip(hierarchy, g, strict=True):
+        for merge, stiff in zip(merges, g, strict=True):
             shapes.append(passed.shape)
             sums.append(self._summed(passed, merge))
             passed = stiff * sums[-1]
         deflection = self._library.xp.zeros_like(passed)
-        for merge, stiff, total, shape in reversed(list(zip(hierarchy, g, sums, shapes, strict=True))):
+        for merge, stiff, total, shape in reversed(list(zip(merges, g, sums, shapes, strict=True))):
             deflection = _spread(self._library.xp, stiff * (deflection + merge.weight * total), merge, shape)
         return deflection
 

@@ -6,7 +6,7 @@ Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol
 
 from ..arrays import RealArray
 
@@ -73,8 +73,13 @@ class Merge:
     weight: float
 
 
-Hierarchy: TypeAlias = tuple[Merge, ...]
-"""Nested cells from single points up."""
+@dataclass(frozen=True)
+class Hierarchy:
+    """Nested cells from single points up by ``merges``, of points moved by ``roll`` before; what leaves at one end enters at
+    the other, so that cells reach over the borders of a periodic grid."""
+
+    merges: tuple[Merge, ...]
+    roll: tuple[int, int] = (0, 0)
 
 
 class Convolution(Protocol):
