@@ -259,6 +259,38 @@ def test_a_step_on_a_face_is_what_it_says(cap: str) -> None:
 
 
 @every_engine
+@every_type
+def test_points_that_pull_are_counted_and_cleared(engine: Engine, dtype: str) -> None:
+    case, shape = iterate((12, 7), "none"), (12, 7)
+    _, u, h, _ = case.on(engine)
+    p = engine.array(case.p.copy(), "float64")
+    face = engine.survey(p, u, h, None).face(case.level, 1.0, dtype)
+    field = engine.zeros(shape, dtype)
+    face.lay(face.residual(centred=False), field)
+    step = engine.numpy(field).astype(float)
+    old, _ = face.pick(p)
+    below, lack = face.shift(p, face.residual(centred=False), 3.0)
+    wanted = case.p + 3.0 * step
+    np.testing.assert_allclose(engine.numpy(p), wanted, atol=1e-15)
+    assert below == np.count_nonzero(wanted < 0.0) > 0
+    assert lack == pytest.approx(-wanted[wanted < 0.0].sum())
+    # they count as unloaded, but do not enter
+    survey = engine.survey(p, u, h, None)
+    assert survey.totals.pressure == pytest.approx(np.maximum(wanted, 0.0).sum())
+    assert survey.totals.work == pytest.approx((np.maximum(wanted, 0.0) * (case.u - case.h)).sum())
+    violation = engine.violation(p, u, h, None, case.level)
+    gap = case.u - case.h - case.level
+    assert violation.above == pytest.approx((np.maximum(wanted, 0.0) * np.maximum(gap, 0.0)).sum())
+    following = survey.face(1e3, 1.0, dtype)  # a level at which all that may enter does
+    assert following.size == wanted.size - below
+    # what is laid on a field, and what has changed
+    change = face.difference(p, old, 1.5)
+    face.lay_on(change, 0.5, field)
+    rounding = 1e-14 if dtype == "float64" else 4.0 * EPS[dtype] * np.abs(step).max()
+    np.testing.assert_allclose(engine.numpy(field), 2.0 * step, atol=rounding)
+
+
+@every_engine
 @every_cap
 def test_members_of_a_face(engine: Engine, cap: str) -> None:
     case = iterate((12, 7), cap)
@@ -404,6 +436,39 @@ def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int
         assert not found[~inside].any()
         assert total == pytest.approx(wanted.sum(), abs=tolerance * load.size)
         assert first == second == pytest.approx(wanted @ load, abs=tolerance * load.size)
+
+
+@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16)], ids=str)
+@every_type
+def test_nested_cells_deflect_under_a_change_elsewhere(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+    """Whatever they were prepared for before; points that change and are watched both deflect by their cells alone."""
+    rng = np.random.default_rng(shape)
+    hierarchies = (HIERARCHY, SHIFTED)
+    cells = engine.cells(shape, hierarchies, dtype)
+    masks = [rng.uniform(size=shape) < share for share in (0.4, 0.7)]
+    changed, watched = (
+        engine.survey(
+            *(engine.array(v, "float64") for v in (np.where(m, 1.0, 0.0), 0.0 * m, rng.standard_normal(shape))), None
+        ).face(-1e3, 1.0, dtype)
+        for m in masks
+    )
+    load, r = changed.residual(centred=False), watched.residual(centred=False)
+    cells.restrict(watched)
+    cells.solve(watched, r, r, watched.zeros())
+    field = engine.zeros(shape, dtype)
+
+    def laid(face: Any, vector: Any) -> RealArray:
+        engine.release(changed, field)
+        engine.release(watched, field)
+        face.lay(vector, field)
+        return engine.numpy(field).astype(float).ravel()
+
+    model = np.mean([cells_matrix(shape, hierarchy) for hierarchy in hierarchies], axis=0) - np.eye(field.size)
+    given = laid(changed, load)
+    wanted = np.where(masks[1].ravel(), laid(watched, r) - 0.3 * (model @ given), 0.0)
+    found = laid(watched, cells.relieved(watched, r, changed, load, 0.3))
+    np.testing.assert_allclose(found, wanted, atol=100.0 * EPS[dtype] * (1.0 + np.abs(given).sum()))
 
 
 @every_cap

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.engine import Face, Load, Survey, Totals
-from .correction import Direction, Effort, carried, correction
+from ...core.engine import Face, Survey, Totals
+from .correction import Direction, Effort, Follow, carried, correction
 from .feasible import feasible_start
+from .moves import LEAST_SHARE, bounded_move, brought_back, free_move
 from .nested import COARSEST, nested_start
 from .protocol import ContactQP, FixedMean, FixedOffset, SolverState, require_settings
 from .steepest_descent import descend, levelling_step
@@ -28,19 +29,23 @@ _SMALLEST_REDUCTION = 1e-4
 _MARGIN = 0.8
 _FEW = 0.003
 _CARRIED = 0.1
-_LEAST_SHARE = 0.1
+_IDLE = 2
 _MOST_SETBACKS = 4
 _REFRESH = 1e-5
-_LOAD_SWEEPS = 100
-_LOAD_ROUNDING = 1e-14
 _ROUNDING = 4.0 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, eq=False)
 class _Memory:
-    """Buffers, the iterate in them seen as a whole, the error when its deflection was last computed from scratch (as
-    opposed to updated), how many points the last step clipped, the last search direction, and how many steps had to be
-    replaced so far: each doubles the effort put into the next."""
+    """What is carried from step to step.
+
+    Buffers; the iterate in them seen as a whole; the error when its deflection was last computed from scratch (as opposed
+    to updated); how many points the last step took beyond their bounds; the last search direction; how many steps had to
+    be replaced so far, each of which doubles the effort put into the next.
+
+    Of free steps: how many in a row have not made the ``lowest`` error smaller, None where no step may be free any more;
+    the ``face`` of the last, on which points may pull, and the sum of their pressures, as long as they do.
+    """
 
     work: Workspace
     survey: Survey
@@ -48,6 +53,10 @@ class _Memory:
     clipped: int
     last: Direction | None = None
     setbacks: int = 0
+    idle: int | None = None
+    lowest: float = np.inf
+    face: Face | None = None
+    pull: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -60,8 +69,12 @@ class ActiveSet:
     from coarser grids. Corrections are computed in single precision, the gap they must close in double
     (``precision="mixed"``), so the answer has double precision at nearly the cost of single.
 
-    The energy never rises: a step that would raise it is shortened to the minimum on its way, or replaced by one along
-    the projected gradient. Iterates share their arrays: a state is valid until the next step.
+    Without a cap, points that pull after a step are clipped with the next, whose first product with the compliance serves
+    both: two products less for every three. Three such free steps in a row that do not bring the error down end this. From
+    then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a step that would
+    raise it is shortened to the minimum on its way, or replaced by one along the projected gradient.
+
+    Iterates share their arrays: a state is valid until the next step.
 
     Parameters
     ----------
@@ -72,11 +85,15 @@ class ActiveSet:
     precision
         ``"mixed"``, ``"double"``, or ``"single"`` for everything in single precision: half the memory, for tolerances
         down to about 1e-5.
+    monotone
+        Whether every iterate has to keep its bounds and to be no higher in energy than the one before. The answer keeps
+        its bounds in any case.
     """
 
     tolerance: float = 1e-7
     max_iterations: int = 300
     precision: Literal["mixed", "double", "single"] = "mixed"
+    monotone: bool = False
     name: ClassVar[str] = "active_set"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Polonsky1999")
 
@@ -99,7 +116,8 @@ class ActiveSet:
         """State at the feasible pressure ``begin``, with the work it has cost."""
         work = workspace(qp, self.precision, begin)
         survey = _survey(work)
-        memory = _Memory(work, survey, _relative_error(work, survey.totals), clipped=1)
+        idle = None if self.monotone or work.cap is not None else 0
+        memory = _Memory(work, survey, _relative_error(work, survey.totals), clipped=1, idle=idle)
         return self._state(memory, SolverState(begin, begin, np.inf, applications=applications, extra_pairs=pairs))
 
     def loosened(self, tolerance: float) -> Self:
@@ -107,31 +125,60 @@ class ActiveSet:
         return replace(self, tolerance=tolerance, max_iterations=min(_COARSE_ITERATIONS, self.max_iterations))
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
-        """One working set, its correction, and the clipped pressure, in the arrays of ``state``."""
+        """One working set and its correction, in the arrays of ``state``."""
         memory = state.memory
         assert isinstance(memory, _Memory)
-        work, level = memory.work, _level(qp, memory.survey.totals)
-        tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
-        face = memory.survey.face(level, qp.height_scale, tools.dtype)
-        r, last = face.residual(centred=centred), _carried(memory, face)
-        effort = self._effort(memory, face, state.error)
-        d, pairs, last, _ = correction(tools, face, face.copied(r), last, effort, centred=centred)
-        spent = replace(state, iterations=state.iterations + 1, extra_pairs=state.extra_pairs + pairs)
-        if d is None:
-            work.engine.release(face, tools.field)
+        level = _level(qp, memory.survey.totals)
+        face = memory.survey.face(level, qp.height_scale, memory.work.bench.dtype)
+        step = self._careful_step if memory.idle is None else self._free_step
+        following = step(memory, replace(state, iterations=state.iterations + 1), face)
+        memory.work.engine.release(face, memory.work.bench.field)
+        return following
+
+    def _free_step(self, memory: _Memory, spent: SolverState, face: Face) -> SolverState:
+        """Step after which points may pull.
+
+        What clearing those of the step before deflects comes with the first product of this one, and each product is
+        added to the deflection as it is found: nothing else needs a transform.
+        """
+        work, centred = memory.work, isinstance(memory.work.qp.constraint, FixedMean)
+        effort, r, last = (
+            self._effort(memory, face, spent.error),
+            face.residual(centred=centred),
+            _carried(memory, face),
+        )
+        pending = brought_back(work, memory.face) if memory.face is not None and memory.clipped else None
+        found = correction(work.bench, face, r, last, effort, centred=centred, pending=pending, follow=_following(work))
+        spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
+        if found.d is None:
             return self._gradient_step(memory, spent)
-        clipped, share = _move(work, face, d, r, memory.survey.totals.pressure)
-        work.engine.release(face, tools.field)
+        clipped, pull = free_move(work, face, found.d)
+        memory = replace(memory, survey=_survey(work), clipped=clipped, last=found.last, face=face, pull=pull)
+        return self._state(memory, spent)
+
+    def _careful_step(self, memory: _Memory, spent: SolverState, face: Face) -> SolverState:
+        """Step clipped to the bounds and shortened where the energy would rise."""
+        work, qp = memory.work, memory.work.qp
+        tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
+        r, last = face.residual(centred=centred), _carried(memory, face)
+        effort = self._effort(memory, face, spent.error)
+        d, pairs, last, _ = correction(tools, face, face.copied(r), last, effort, centred=centred)
+        spent = replace(spent, extra_pairs=spent.extra_pairs + pairs)
+        if d is None:
+            return self._gradient_step(memory, spent)
+        clipped, share = bounded_move(work, face, d, r, memory.survey.totals.pressure)
         spent = replace(spent, applications=spent.applications + 1)
-        if share < _LEAST_SHARE:
+        if share < LEAST_SHARE:
             return self._gradient_step(memory, spent)
         work.engine.add(tools.response, share * tools.scale, work.deflection)
-        return self._state(_Memory(work, _survey(work), memory.computed_at, clipped, last, memory.setbacks), spent)
+        return self._state(replace(memory, survey=_survey(work), clipped=clipped, last=last), spent)
 
     def _gradient_step(self, memory: _Memory, spent: SolverState) -> SolverState:
         """Step along the projected gradient from the iterate in the buffers; exhausted if not even that goes down."""
         work = memory.work
         qp, engine = work.qp, work.engine
+        if memory.face is not None:
+            brought_back(work, memory.face)
         work.exact.apply(work.pressure, work.deflection)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))
@@ -142,17 +189,24 @@ class ActiveSet:
         return self._state(memory, spent)
 
     def _state(self, memory: _Memory, spent: SolverState) -> SolverState:
-        """State at the iterate of ``memory`` with the work ``spent``; its error is ``optimality.relative_error``.
+        """State at the iterate of ``memory`` with the work ``spent``.
 
-        Updates of the deflection leave the rounding of corrections in it. Once the error has fallen so far that this
-        might show, and at the end, it is computed from scratch.
+        Its error is ``optimality.relative_error``, with the share of the load that pulls added. Updates of the deflection
+        leave the rounding of corrections in it. Once the error has fallen so far that this might show, at the end, and
+        where no more steps are free, points that pull are cleared and the deflection is computed from scratch.
         """
         work = memory.work
         error = _relative_error(work, memory.survey.totals)
-        done = error <= self.tolerance or spent.iterations >= self.max_iterations
-        if spent.iterations and (done or error < _REFRESH * memory.computed_at):
+        if memory.pull:
+            error += memory.pull / memory.survey.totals.pressure
+        memory = _watched(memory, error)
+        due = error <= self.tolerance or spent.iterations >= self.max_iterations
+        due = due or error < _REFRESH * memory.computed_at or (memory.idle is None and memory.face is not None)
+        if spent.iterations and due:
+            if memory.face is not None:
+                brought_back(work, memory.face)
             work.exact.apply(work.pressure, work.deflection)
-            memory = replace(memory, survey=_survey(work))
+            memory = replace(memory, survey=_survey(work), face=None, pull=0.0)
             spent = replace(spent, applications=spent.applications + 1)
             error = _relative_error(work, memory.survey.totals)
             memory = replace(memory, computed_at=error)
@@ -168,9 +222,9 @@ class ActiveSet:
         changed = face.entering + memory.clipped
         if changed > _FEW * face.size:
             return Effort(_REDUCTION, _UNSETTLED_STEPS << min(memory.setbacks, _MOST_SETBACKS))
-        if changed:
-            return Effort(_SETTLING_REDUCTION, _SETTLING_STEPS)
         wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+        if changed:
+            return Effort(min(_REDUCTION, max(wanted, _SETTLING_REDUCTION)), _SETTLING_STEPS)
         return Effort(min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _SETTLED_STEPS)
 
 
@@ -181,54 +235,23 @@ def _carried(memory: _Memory, face: Face) -> Direction | None:
     return carried(memory.work.bench, face, memory.last)
 
 
-def _move(work: Workspace, face: Face, d: Any, r: Any, total: float) -> tuple[int, float]:
-    """Add ``d``, clipped and scaled to the load, to the pressure of sum ``total``: points clipped, share of the step taken.
-
-    The deflection by the whole step is left in the response of the bench. The energy falls: it changes by
-    -r·step + step·K step / 2, ``r`` being the residual on the ``face``, and the step is shortened to its minimum.
-    """
-    qp, tools, p = work.qp, work.bench, work.pressure
-    old, load = face.pick(p)
-    found, clipped = face.move(p, d, qp.height_scale / tools.scale, work.cap)
-    if isinstance(qp.constraint, FixedMean):
-        missing = qp.constraint.mean_pressure * qp.profile.size - total
-        _restore_load(face, p, work.cap, found, max(load + missing, 0.0))
-    change, along = face.lay_change(old, p, r, tools.field)
-    tools.fast.apply(tools.field, tools.response)
-    reaction = face.gather(tools.response, change, change, d).first
-    share = _share(-along * qp.height_scale, reaction * tools.scale)
-    if share < 1.0:
-        share = share if share >= _LEAST_SHARE else 0.0
-        face.blend(old, share, p)
-    return clipped, share
+def _following(work: Workspace) -> Follow:
+    """Adds what every step of a correction deflects to the deflection of the iterate."""
+    tools, factor = work.bench, work.qp.height_scale
+    return lambda length: work.engine.add(tools.response, length * factor, work.deflection)
 
 
-def _share(slope: float, curvature: float) -> float:
-    """How far to go along a step of this ``slope`` and ``curvature`` of the energy: all the way, or to its minimum."""
-    if slope + 0.5 * curvature <= 0.0:
-        return 1.0
-    return -slope / curvature if slope < 0.0 else 0.0
+def _watched(memory: _Memory, error: float) -> _Memory:
+    """``memory`` that knows the lowest error; no more steps are free once some in a row have not made it smaller."""
+    if memory.idle is None:
+        return memory
+    if error < memory.lowest:
+        return replace(memory, lowest=error, idle=0)
+    return replace(memory, idle=memory.idle + 1 if memory.idle < _IDLE else None)
 
 
 def _survey(work: Workspace) -> Survey:
     return work.engine.survey(work.pressure, work.deflection, work.heights, work.cap)
-
-
-def _restore_load(face: Face, pressure: Any, cap: Any, found: Load, target: float) -> None:
-    """Scale the clipped ``pressure`` on the ``face`` (in place), where its sums are ``found``, to the sum ``target``.
-
-    Where every loaded point is at its cap, the rest of the load is spread over the points below it.
-    """
-    for _ in range(_LOAD_SWEEPS):
-        missing = target - found.pressure
-        if abs(missing) <= _LOAD_ROUNDING * target:
-            break
-        if found.movable > 0.0 and found.movable + missing > 0.0:
-            found = face.scale(pressure, (found.movable + missing) / found.movable, 0.0, cap)
-        elif missing < 0.0:
-            found = face.scale(pressure, target / found.pressure, 0.0, None)
-        else:
-            found = face.scale(pressure, 1.0, missing / found.below, cap)
 
 
 def _level(qp: ContactQP, totals: Totals) -> float:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ...core.engine import Face
-from .preconditioner import preconditioner
+from .preconditioner import Preconditioner, preconditioner
 from .workspace import Bench
 
 
@@ -19,6 +20,13 @@ class Direction:
     kt: Any
     curvature: float
     total: float
+
+
+class Change(NamedTuple):
+    """``values`` by which the pressure on the ``face`` has changed, in the units of a correction."""
+
+    face: Face
+    values: Any
 
 
 class Effort(NamedTuple):
@@ -37,6 +45,10 @@ class Correction(NamedTuple):
     reached: bool
 
 
+Follow = Callable[[float], None]
+"""Told the length of every step while its product with the compliance lies in the response of the bench."""
+
+
 def carried(tools: Bench, face: Face, last: Direction) -> Direction:
     """Search direction ``last`` on the new ``face``."""
     last.face.lay(last.t, tools.field)
@@ -49,28 +61,35 @@ def carried(tools: Bench, face: Face, last: Direction) -> Direction:
 
 
 def correction(
-    tools: Bench, face: Face, r: Any, last: Direction | None, effort: Effort, *, centred: bool
+    tools: Bench,
+    face: Face,
+    r: Any,
+    last: Direction | None,
+    effort: Effort,
+    *,
+    centred: bool,
+    pending: Change | None = None,
+    follow: Follow | None = None,
 ) -> Correction:
     """Solve K d = r on ``face`` with this ``effort``; if ``centred`` up to a constant, d summing to zero.
 
-    ``r`` may be overwritten, as may the vectors of ``last``, a search direction to begin with.
+    What a ``pending`` change deflects is not in ``r`` yet; a first step takes care of it. ``r`` may be overwritten, as may
+    the vectors of ``last``, a search direction to begin with.
     """
     inverse = preconditioner(tools, face)
     d, z = face.zeros(), face.zeros()
     first, pairs, taken, reached = 0.0, 0.0, 0, False
+    if pending is not None:
+        d, r, first = _together(tools, face, inverse, r, last, pending, centred=centred, follow=follow)
+        last, pairs, taken = None, tools.operator.pairs_per_application, 1
     while taken < effort.limit:
         z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
         pairs += inverse.pairs
-        mean = total / face.size if centred else 0.0
         reached = product <= 0.0 or (taken > 0 and product < effort.reduction**2 * first)
         if reached:
             break
         first = first or product
-        ratio = 0.0
-        if last is not None and last.curvature > 0.0:
-            ratio = -(overlap - mean * last.total) / last.curvature
-        t, kt = (face.zeros(), face.zeros()) if last is None else (last.t, last.kt)
-        t, slope = face.direct(z, mean, ratio, t, r, tools.field)
+        t, slope, kt = _direction(tools, face, r, (z, total, overlap), last, centred=centred)
         tools.fast.apply(tools.field, tools.response)
         pairs += tools.operator.pairs_per_application
         kt, total, curvature, _ = face.gather(tools.response, t, t, kt)
@@ -79,5 +98,58 @@ def correction(
             break
         last = Direction(face, t, kt, curvature, total)
         taken += 1
-        d, r = face.advance(slope / curvature, t, kt, total / face.size if centred else 0.0, d, r)
+        length = slope / curvature
+        if follow is not None:
+            follow(length)
+        d, r = face.advance(length, t, kt, total / face.size if centred else 0.0, d, r)
     return Correction(d if taken else None, pairs, last, reached)
+
+
+def _together(
+    tools: Bench,
+    face: Face,
+    inverse: Preconditioner,
+    r: Any,
+    last: Direction | None,
+    pending: Change,
+    *,
+    centred: bool,
+    follow: Follow | None,
+) -> tuple[Any, Any, float]:
+    """First step d, of fixed length, by one product with the compliance that serves the ``pending`` change as well.
+
+    The residual that the change will leave is foreseen where the preconditioner can, else the step is nothing. Returns d,
+    the residual after both, and the foreseen one times its preconditioned self.
+    """
+    foreseen = inverse.foreseen(r, *pending)
+    if foreseen is None:
+        t, kt, length, product = face.zeros(), face.zeros(), 1.0, 0.0
+    else:
+        z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, face.zeros())
+        t, _, kt = _direction(tools, face, r, (z, total, overlap), last, centred=centred)
+        length = inverse.step
+    pending.face.lay_on(pending.values, 1.0 / length, tools.field)
+    tools.fast.apply(tools.field, tools.response)
+    tools.engine.release(pending.face, tools.field)
+    kt, total, _, _ = face.gather(tools.response, t, t, kt)
+    if follow is not None:
+        follow(length)
+    d, r = face.advance(length, t, kt, total / face.size if centred else 0.0, face.zeros(), r)
+    return d, r, product
+
+
+def _direction(
+    tools: Bench, face: Face, r: Any, found: tuple[Any, float, float], last: Direction | None, *, centred: bool
+) -> tuple[Any, float, Any]:
+    """Search direction from the preconditioned residual ``found`` (with its sum and its product with K ``last``).
+
+    Laid out in the field; with its product with ``r`` and memory for its own product with K.
+    """
+    z, total, overlap = found
+    mean = total / face.size if centred else 0.0
+    ratio = 0.0
+    if last is not None and last.curvature > 0.0:
+        ratio = -(overlap - mean * last.total) / last.curvature
+    t, kt = (face.zeros(), face.zeros()) if last is None else (last.t, last.kt)
+    t, slope = face.direct(z, mean, ratio, t, r, tools.field)
+    return t, slope, kt

@@ -12,7 +12,7 @@ from ...core.arrays import RealArray
 from ...core.engine import Cells, Convolution, Engine
 from ..boundary import Periodic
 from ..operators.protocol import Operator
-from .cells import hierarchies
+from .cells import hierarchies, pixel_compliance
 from .protocol import ContactQP, FixedOffset
 
 _OFF_CENTRE = 10.0
@@ -45,6 +45,11 @@ class Bench:
         return self.engine.cells(self.operator.grid.shape, nested, self.dtype)
 
     @cached_property
+    def cell_unit(self) -> float:
+        """Deflection of a point under its own load in the model of nested cells, over ``scale``."""
+        return pixel_compliance(self.operator.compliance, self.operator.grid) / self.scale
+
+    @cached_property
     def inverse(self) -> Convolution:
         """Convolution whose ``solve`` divides by the compliance, nearly."""
         return self.operator.preconditioner(self.fast, self.dtype, self.scale)
@@ -73,6 +78,11 @@ class Workspace:
     exact: Convolution
     pressure: Any
     deflection: Any
+
+    @property
+    def unit(self) -> float:
+        """Pressure (Pa) of one in a correction."""
+        return self.qp.height_scale / self.bench.scale
 
     @property
     def engine(self) -> Engine:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -28,22 +29,39 @@ class CpuCells:
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
-        self._sweep("stiffen", face, self._nothing)
+        self._sweep("stiffen", face, self._nothing, self._g)
 
     def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``."""
+        self._sweep("deflect", face, r, self._g)
+        return self._relieved(face, r, other, 1.0, out)
+
+    def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
+        """r - factor times the deflection of the cells."""
+        self._sweep("deflect", loaded, change, self._one)
+        return np.asarray(self._relieved(face, r, r, factor, np.empty_like(r)).vector)
+
+    @cached_property
+    def _one(self) -> RealArray:
+        """Cells that pass everything on: 1, and 0 on the rims."""
+        whole = np.zeros_like(self._g)
+        for start, nx, _ny, stride in self._levels[:, 1:, :4].reshape(-1, 4):
+            first = start - stride - 1
+            whole[first : first + (nx + 2) * stride].reshape(nx + 2, stride)[1:-1, 1:-1] = 1.0
+        return whole
+
+    def _relieved(self, face: Face, r: RealArray, other: RealArray, factor: float, out: RealArray) -> Products:
         assert isinstance(face, CpuFace)
-        self._sweep("deflect", face, r)
         sums = np.zeros((self._shape[0], 3))
-        arguments = (self._levels, self._shape, face.rows, face.index, r, other, self._s, out, sums)
+        arguments = (self._levels, self._shape, face.rows, face.index, r, other, factor, self._s, out, sums)
         relieve = self._blocks.cell_kernels.relieve
         self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
-    def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
+    def _sweep(self, kernel: str, face: Face, values: RealArray, g: RealArray) -> None:
         assert isinstance(face, CpuFace)
-        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, self._g, self._s)
+        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, g, self._s)
         call = getattr(self._blocks.cell_kernels, kernel)
         self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < FEW)
 

@@ -64,6 +64,16 @@ class CpuFace:
         """Lay ``values`` out in the field."""
         self._run("scatter", self.place(field), values, memory(field))
 
+    def lay_on(self, values: RealArray, factor: float, field: RealArray) -> None:
+        """field += factor values."""
+        self._run("lay_on", self.place(field), values, values.dtype.type(factor), memory(field))
+
+    def difference(self, values: RealArray, old: RealArray, scale: float) -> RealArray:
+        """(values - old) / scale."""
+        change = np.empty_like(self.start)
+        self._run("difference", self.index, values.ravel(), old, scale, change)
+        return change
+
     def lay_change(self, old: RealArray, values: RealArray, r: RealArray, field: RealArray) -> tuple[RealArray, float]:
         """Lay ``values`` - ``old`` out in the field."""
         change = np.empty_like(r)
@@ -99,6 +109,11 @@ class CpuFace:
     def blend(self, old: RealArray, share: float, values: RealArray) -> None:
         """values = old + share (values - old)."""
         self._run("blend", self.index, old, share, values.ravel())
+
+    def shift(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
+        """p += scale d."""
+        below, lack = self._sums("shift", 2, self.index, p.ravel(), d, scale)
+        return int(below), lack
 
     def move(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> tuple[Load, int]:
         """p += scale d, clipped."""

@@ -26,6 +26,20 @@ def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def lay_on(span, index, values, factor, field):  # type: ignore[no-untyped-def]
+    """field[index] += factor values."""
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
+        field[index[k]] += factor * values[k]
+
+
+@compiled
+def difference(span, index, values, old, scale, change):  # type: ignore[no-untyped-def]
+    """change = (values[index] - old) / scale."""
+    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
+        change[k] = (values[index[k]] - old[k]) / scale
+
+
+@compiled
 def lay_change(span, index, place, old, values, r, change, field, sums):  # type: ignore[no-untyped-def]
     """field[place] = change = values[index] - old; per block: sum change·r."""
     for b in range(span[0], span[1]):
@@ -86,6 +100,22 @@ def pick(span, index, values, out, sums):  # type: ignore[no-untyped-def]
             out[k] = values[index[k]]
             total += out[k]
         sums[b, 0] = total
+
+
+@compiled
+def shift(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
+    """p[index] += scale d; per block: number of points then below 0, and by how much in all."""
+    for b in range(span[0], span[1]):
+        below = 0
+        lack = 0.0
+        for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
+            i = index[k]
+            value = p[i] + scale * np.float64(d[k])
+            p[i] = value
+            below += int(value < 0.0)
+            lack += max(-value, 0.0)
+        sums[b, 0] = below
+        sums[b, 1] = lack
 
 
 @compiled

@@ -78,6 +78,7 @@ class ArrayEngine:
         """How far an iterate is from the contact conditions."""
         xp, select, numbers = self._library.xp, self._library.select, self._library.numbers
         gap = u - h - float(level)
+        p = select(p > 0.0, p)
         above = xp.sum(select(gap > 0.0, gap) * p)
         if cap is None:
             first, deepest = numbers([above, xp.max(select(gap < 0.0, -gap))])

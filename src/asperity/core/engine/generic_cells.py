@@ -31,15 +31,23 @@ class ArrayCells:
     def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
         """Inverse times ``r``."""
         assert isinstance(face, ArrayFace)
-        deflection = self._library.xp.zeros_like(r)
-        for hierarchy, g in zip(self._hierarchies, self._stiff, strict=True):
-            back = (-hierarchy.roll[0], -hierarchy.roll[1])
-            load = self._library.xp.roll(r, hierarchy.roll, axis=(0, 1))
-            deflection = deflection + self._library.xp.roll(
-                self._deflected(hierarchy.merges, g, load), back, axis=(0, 1)
-            )
-        z = r - self._library.select(face.inside, deflection) / float(len(self._hierarchies))
+        z = r - self._library.select(face.inside, self._mean_deflection(self._stiff, r))
         return face.products(z, r, other)
+
+    def relieved(self, face: Face, r: Any, loaded: Face, change: Any, factor: float) -> Any:
+        """r - factor times the deflection of the cells."""
+        assert isinstance(face, ArrayFace)
+        ones = tuple([1.0] * len(hierarchy.merges) for hierarchy in self._hierarchies)
+        return r - float(factor) * self._library.select(face.inside, self._mean_deflection(ones, change))
+
+    def _mean_deflection(self, stiff: tuple[list[Any], ...], load: Any) -> Any:
+        """Mean over the hierarchies of the deflection of the points by the cells they lie in."""
+        roll, deflection = self._library.xp.roll, self._library.xp.zeros_like(load)
+        for hierarchy, g in zip(self._hierarchies, stiff, strict=True):
+            back = (-hierarchy.roll[0], -hierarchy.roll[1])
+            moved = self._deflected(hierarchy.merges, g, roll(load, hierarchy.roll, axis=(0, 1)))
+            deflection = deflection + roll(moved, back, axis=(0, 1))
+        return deflection / float(len(self._hierarchies))
 
     def _stiffened(self, merges: tuple[Merge, ...], passed: Any) -> list[Any]:
         """g = 1 / (1 + w T) on every level of a hierarchy, from the sums ``passed`` up by single points."""

@@ -38,6 +38,15 @@ class ArrayFace:
         """Lay ``values`` out in the field."""
         field[...] = values
 
+    def lay_on(self, values: Any, factor: float, field: Any) -> None:
+        """field += factor values."""
+        field[...] = field + float(factor) * values
+
+    def difference(self, values: Any, old: Any, scale: float) -> Any:
+        """(values - old) / scale."""
+        change = self.library.select(self.inside, values - old) / float(scale)
+        return self.library.xp.astype(change, self.start.dtype)
+
     def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
         """Lay ``values`` - ``old`` out in the field."""
         change = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
@@ -72,6 +81,14 @@ class ArrayFace:
     def blend(self, old: Any, share: float, values: Any) -> None:
         """values = old + share (values - old)."""
         self._put(old + float(share) * (values - old), values)
+
+    def shift(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
+        """p += scale d."""
+        library = self.library
+        self._put(p + float(scale) * library.xp.astype(d, p.dtype), p)
+        lacking = library.select(self.inside & (p < 0.0), -p)
+        below, lack = library.numbers([library.count(lacking > 0.0), self._sum(lacking)])
+        return int(below), lack
 
     def move(self, p: Any, d: Any, scale: float, cap: Any) -> tuple[Load, int]:
         """p += scale d, clipped."""

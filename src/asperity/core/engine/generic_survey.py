@@ -34,11 +34,11 @@ class ArraySurvey:
     def face(self, level: float, scale: float, dtype: str) -> ArrayFace:
         """Working set at ``level``."""
         library, p, cap = self.library, self.p, self.cap
-        gap, loaded = self.u - self.h - float(level), p > 0.0
-        capped = loaded & (p >= bound(library, cap, p)) if cap is not None else loaded & ~loaded
-        movable = loaded & ~capped
+        gap, movable = self.u - self.h - float(level), p > 0.0
+        capped = movable & (p >= bound(library, cap, p)) if cap is not None else movable & ~movable
+        movable = movable & ~capped
         apart = gap - self._local(movable, gap)
-        entering = (~loaded & (apart < 0.0)) | (capped & (apart > 0.0))
+        entering = ((p == 0.0) & (apart < 0.0)) | (capped & (apart > 0.0))
         inside = movable | entering
         start = library.select(inside, library.xp.astype(gap * (-1.0 / float(scale)), getattr(library.xp, dtype)))
         size, arrived = library.numbers([library.count(inside), library.count(entering)])
@@ -64,6 +64,7 @@ class ArraySurvey:
 def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
     xp, select, numbers = library.xp, library.select, library.numbers
     r = u - h
+    p = select(p > 0.0, p)
     sums = [xp.sum(p), xp.sum(p * r), xp.min(r)]
     if cap is None:
         pressure, work, lowest = numbers(sums)

@@ -34,7 +34,7 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Without a cap, per band of ``side`` rows: sum p, sum p·r, min r; per square: number of loaded points, and their sum r.
 
-    No branches: it vectorises.
+    Where p < 0 it counts as 0. No branches: it vectorises.
     """
     for band in range(span[0], span[1]):
         total = 0.0
@@ -50,8 +50,8 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                     ri = u[i] - np.float64(h[i])
                     carries = 1.0 if pi > 0.0 else 0.0
                     lowest = min(lowest, ri)
-                    total += pi
-                    pr += pi * ri
+                    total += max(pi, 0.0)
+                    pr += max(pi, 0.0) * ri
                     loaded += carries
                     level += carries * ri
                 squares[band, square, 0] += loaded
@@ -106,7 +106,7 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
 
 @compiled
 def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
-    """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap."""
+    """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap; where p < 0 it counts as 0."""
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
     for b in range(span[0], span[1]):
         above = 0.0
@@ -114,7 +114,7 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
         deepest = 0.0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             gap = np.float64(u[i]) - h[i] - level
-            pi = np.float64(p[i])
+            pi = max(np.float64(p[i]), 0.0)
             room = cap[i * each] - pi
             if gap > 0.0:
                 above += gap * pi
@@ -152,7 +152,8 @@ def mark_elastic(span, p, u, h, row, side, levels, mask, counts):  # type: ignor
                 level = levels[band, square]
                 for i in range(first, min(first + side, start + row)):
                     carries = 1.0 if p[i] > 0.0 else 0.0
-                    member = 1.0 if u[i] - np.float64(h[i]) < level else carries
+                    stays = 1.0 if p[i] >= 0.0 else 0.0
+                    member = stays if u[i] - np.float64(h[i]) < level else carries
                     loaded += carries
                     members += member
                     mask[i] = np.uint8(1) if member > 0.5 else np.uint8(0)

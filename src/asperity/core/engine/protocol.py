@@ -115,6 +115,12 @@ class Face(Protocol):
     def lay(self, values: Any, field: Any) -> None:
         """Lay the vector ``values`` out in the field of the convolution."""
 
+    def lay_on(self, values: Any, factor: float, field: Any) -> None:
+        """Add ``factor`` times the vector ``values`` to what lies in the field."""
+
+    def difference(self, values: Any, old: Any, scale: float) -> Any:
+        """Vector (values - old) / scale, ``old`` being what ``pick`` gave of the array ``values`` before a change."""
+
     def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
         """Vector ``values`` - ``old``, also laid out in the field, and its product with r.
 
@@ -136,6 +142,9 @@ class Face(Protocol):
     def blend(self, old: Any, share: float, values: Any) -> None:
         """Set the array ``values`` on the face to old + share (values - old)."""
 
+    def shift(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
+        """p + scale d on the face, in place; the number of points then below 0, and by how much in all."""
+
     def move(self, p: Any, d: Any, scale: float, cap: Any) -> tuple[Load, int]:
         """p + scale d on the face, clipped to [0, cap], in place; the load, and the number of points clipped."""
 
@@ -144,13 +153,19 @@ class Face(Protocol):
 
 
 class Cells(Protocol):
-    """Exact inverse of a compliance of nested cells on a working set; the mean over two hierarchies."""
+    """A compliance of nested cells and its exact inverse on a working set; the mean over two hierarchies."""
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
 
     def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
         """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where that can be."""
+
+    def relieved(self, face: Face, r: Any, loaded: Face, change: Any, factor: float) -> Any:
+        """Vector r - factor times the deflection of the cells that the points of ``face`` lie in.
+
+        ``change`` is the load, a vector of the face ``loaded``. What single points deflect under their own load is left out.
+        """
 
 
 class Survey(Protocol):
@@ -164,7 +179,7 @@ class Survey(Protocol):
         """Working set at ``level``, with vectors of the precision ``dtype``.
 
         Its points are those strictly between the bounds, and those at a bound whose gap is on the wrong side of the
-        level of their neighbourhood (see ``neighbourhood``).
+        level of their neighbourhood (see ``neighbourhood``). Negative pressures count as 0, but do not enter.
         """
 
 
