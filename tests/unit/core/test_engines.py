@@ -285,7 +285,7 @@ def test_points_that_pull_are_counted_and_cleared(engine: Engine, dtype: str) ->
     assert following.size == wanted.size - below
     # what is laid on a field, and what has changed
     change = face.difference(p, old, 1.5)
-    face.lay_on(change, 0.5, field)
+    face.lay(change, field, added=0.5)
     rounding = 1e-14 if dtype == "float64" else 4.0 * EPS[dtype] * np.abs(step).max()
     np.testing.assert_allclose(engine.numpy(field), 2.0 * step, atol=rounding)
 

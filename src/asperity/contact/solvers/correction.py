@@ -128,7 +128,7 @@ def _together(
         z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, face.zeros())
         t, _, kt = _direction(tools, face, r, (z, total, overlap), last, centred=centred)
         length = inverse.step
-    pending.face.lay_on(pending.values, 1.0 / length, tools.field)
+    pending.face.lay(pending.values, tools.field, added=1.0 / length)
     tools.fast.apply(tools.field, tools.response)
     tools.engine.release(pending.face, tools.field)
     kt, total, _, _ = face.gather(tools.response, t, t, kt)

@@ -131,12 +131,9 @@ def _above(row, level, shape):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def relieve(span, levels, shape, rows, index, values, other, factor, s, out, sums):  # type: ignore[no-untyped-def]
-    """out = values - factor times the mean of the deflections of two hierarchies in s.
-
-    Per row: sums of out, with values, with other.
-    """
-    half = s.dtype.type(0.5 * factor)
+def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
+    """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
+    half = s.dtype.type(0.5)
     one, two = levels[0, 1], levels[1, 1]
     merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
     end_one, end_two = shape[1] + one[OFFSET_Y], shape[1] + two[OFFSET_Y]

@@ -34,12 +34,12 @@ class CpuCells:
     def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``."""
         self._sweep("deflect", face, r, self._g)
-        return self._relieved(face, r, other, 1.0, out)
+        return self._relieved(face, r, other, out)
 
     def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
         """r - factor times the deflection of the cells."""
-        self._sweep("deflect", loaded, change, self._one)
-        return np.asarray(self._relieved(face, r, r, factor, np.empty_like(r)).vector)
+        self._sweep("deflect", loaded, change * change.dtype.type(factor), self._one)
+        return np.asarray(self._relieved(face, r, r, np.empty_like(r)).vector)
 
     @cached_property
     def _one(self) -> RealArray:
@@ -50,10 +50,10 @@ class CpuCells:
             whole[first : first + (nx + 2) * stride].reshape(nx + 2, stride)[1:-1, 1:-1] = 1.0
         return whole
 
-    def _relieved(self, face: Face, r: RealArray, other: RealArray, factor: float, out: RealArray) -> Products:
+    def _relieved(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         assert isinstance(face, CpuFace)
         sums = np.zeros((self._shape[0], 3))
-        arguments = (self._levels, self._shape, face.rows, face.index, r, other, factor, self._s, out, sums)
+        arguments = (self._levels, self._shape, face.rows, face.index, r, other, self._s, out, sums)
         relieve = self._blocks.cell_kernels.relieve
         self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
         total, first, second = (float(value) for value in sums.sum(axis=0))

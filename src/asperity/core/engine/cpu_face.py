@@ -60,13 +60,12 @@ class CpuFace:
         """Vector of zeros."""
         return np.zeros_like(self.start)
 
-    def lay(self, values: RealArray, field: RealArray) -> None:
-        """Lay ``values`` out in the field."""
-        self._run("scatter", self.place(field), values, memory(field))
-
-    def lay_on(self, values: RealArray, factor: float, field: RealArray) -> None:
-        """field += factor values."""
-        self._run("lay_on", self.place(field), values, values.dtype.type(factor), memory(field))
+    def lay(self, values: RealArray, field: RealArray, added: float | None = None) -> None:
+        """Lay ``values`` out in the field, or add to it."""
+        if added is None:
+            self._run("scatter", self.place(field), values, memory(field))
+        else:
+            self._run("scatter_more", self.place(field), values, values.dtype.type(added), memory(field))
 
     def difference(self, values: RealArray, old: RealArray, scale: float) -> RealArray:
         """(values - old) / scale."""

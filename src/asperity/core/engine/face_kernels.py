@@ -26,7 +26,7 @@ def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def lay_on(span, index, values, factor, field):  # type: ignore[no-untyped-def]
+def scatter_more(span, index, values, factor, field):  # type: ignore[no-untyped-def]
     """field[index] += factor values."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         field[index[k]] += factor * values[k]

@@ -34,13 +34,9 @@ class ArrayFace:
         """Vector of zeros."""
         return self.library.xp.zeros_like(self.start)
 
-    def lay(self, values: Any, field: Any) -> None:
-        """Lay ``values`` out in the field."""
-        field[...] = values
-
-    def lay_on(self, values: Any, factor: float, field: Any) -> None:
-        """field += factor values."""
-        field[...] = field + float(factor) * values
+    def lay(self, values: Any, field: Any, added: float | None = None) -> None:
+        """Lay ``values`` out in the field, or add to it."""
+        field[...] = values if added is None else field + float(added) * values
 
     def difference(self, values: Any, old: Any, scale: float) -> Any:
         """(values - old) / scale."""

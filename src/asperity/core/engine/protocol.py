@@ -112,11 +112,8 @@ class Face(Protocol):
     def zeros(self) -> Any:
         """Vector of zeros."""
 
-    def lay(self, values: Any, field: Any) -> None:
-        """Lay the vector ``values`` out in the field of the convolution."""
-
-    def lay_on(self, values: Any, factor: float, field: Any) -> None:
-        """Add ``factor`` times the vector ``values`` to what lies in the field."""
+    def lay(self, values: Any, field: Any, added: float | None = None) -> None:
+        """Lay the vector ``values`` out in the field of the convolution; or add ``added`` times it to what lies there."""
 
     def difference(self, values: Any, old: Any, scale: float) -> Any:
         """Vector (values - old) / scale, ``old`` being what ``pick`` gave of the array ``values`` before a change."""
