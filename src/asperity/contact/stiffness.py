@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from .operators.protocol import Operator
-from .solvers.correction import Effort, correction
+from .solvers.correction import Effort, System, correction
 from .solvers.workspace import bench
 
 _EFFORT = Effort(reduction=1e-4, limit=500)
@@ -31,7 +31,7 @@ def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealA
     if face.size == operator.grid.n_points and operator.zero_mean_mode:
         return math.inf
     unit, _ = face.pick(engine.array(np.ones(shape), tools.dtype))
-    found = correction(tools, face, unit, None, _EFFORT, centred=False)
+    found = correction(System(tools, face, centred=False), unit, None, _EFFORT)
     if not found.reached:
         return math.nan
     face.lay(found.d, tools.field)

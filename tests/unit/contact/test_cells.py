@@ -7,7 +7,7 @@ import pytest
 
 import asperity as asp
 from asperity.contact.solvers.cells import hierarchies, pixel_compliance
-from asperity.contact.solvers.correction import Effort, correction
+from asperity.contact.solvers.correction import Effort, System, correction
 from asperity.contact.solvers.preconditioner import NestedCells, RestrictedInverse, preconditioner
 from asperity.contact.solvers.workspace import Bench, bench
 from asperity.core.arrays import RealArray
@@ -120,7 +120,7 @@ def steps_to(inside: RealArray, reduction: float, compliance: object = BODY, bou
     tools, face = on_set(inside, compliance, boundary)
     r, _ = face.pick(np.random.default_rng(0).standard_normal(inside.shape).cumsum(axis=0))
     r -= r.mean()
-    found = correction(tools, face, r, None, Effort(reduction, 200), centred=True)
+    found = correction(System(tools, face, centred=True), r, None, Effort(reduction, 200))
     assert found.reached
     return found.pairs / tools.operator.pairs_per_application
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, Self
 
@@ -10,7 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Face, Survey, Totals
-from .correction import Direction, Effort, Follow, carried, correction
+from .correction import Direction, Effort, Beside, System, carried, correction
 from .feasible import feasible_start
 from .moves import LEAST_SHARE, bounded_move, brought_back, free_move
 from .nested import COARSEST, nested_start
@@ -148,7 +149,8 @@ class ActiveSet:
             _carried(memory, face),
         )
         pending = brought_back(work, memory.face) if memory.face is not None and memory.clipped else None
-        found = correction(work.bench, face, r, last, effort, centred=centred, pending=pending, follow=_following(work))
+        beside = Beside(pending, _following(work))
+        found = correction(System(work.bench, face, centred), r, last, effort, beside)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
@@ -162,7 +164,7 @@ class ActiveSet:
         tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
         r, last = face.residual(centred=centred), _carried(memory, face)
         effort = self._effort(memory, face, spent.error)
-        d, pairs, last, _ = correction(tools, face, face.copied(r), last, effort, centred=centred)
+        d, pairs, last, _ = correction(System(tools, face, centred), face.copied(r), last, effort)
         spent = replace(spent, extra_pairs=spent.extra_pairs + pairs)
         if d is None:
             return self._gradient_step(memory, spent)
@@ -235,7 +237,7 @@ def _carried(memory: _Memory, face: Face) -> Direction | None:
     return carried(memory.work.bench, face, memory.last)
 
 
-def _following(work: Workspace) -> Follow:
+def _following(work: Workspace) -> Callable[[float], None]:
     """Adds what every step of a correction deflects to the deflection of the iterate."""
     tools, factor = work.bench, work.qp.height_scale
     return lambda length: work.engine.add(tools.response, length * factor, work.deflection)

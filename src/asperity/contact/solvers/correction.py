@@ -22,11 +22,48 @@ class Direction:
     total: float
 
 
+@dataclass(frozen=True, eq=False)
+class System:
+    """Equations K d = r on a ``face``; if ``centred`` up to a constant, d summing to zero. ``tools`` to solve them with."""
+
+    tools: Bench
+    face: Face
+    centred: bool
+
+    def mean(self, total: float) -> float:
+        """Mean of a vector that sums to ``total``, where it is to be taken out."""
+        return total / self.face.size if self.centred else 0.0
+
+    def direction(self, r: Any, found: tuple[Any, float, float], last: Direction | None) -> tuple[Any, float, Any]:
+        """Search direction from the preconditioned residual ``found``, with its sum and its product with K ``last``.
+
+        Laid out in the field; with its product with ``r`` and memory for its own product with K.
+        """
+        z, total, overlap = found
+        mean, ratio = self.mean(total), 0.0
+        if last is not None and last.curvature > 0.0:
+            ratio = -(overlap - mean * last.total) / last.curvature
+        t, kt = (self.face.zeros(), self.face.zeros()) if last is None else (last.t, last.kt)
+        t, slope = self.face.direct(z, mean, ratio, t, r, self.tools.field)
+        return t, slope, kt
+
+
 class Change(NamedTuple):
     """``values`` by which the pressure on the ``face`` has changed, in the units of a correction."""
 
     face: Face
     values: Any
+
+
+class Beside(NamedTuple):
+    """What goes on beside a correction.
+
+    ``pending`` is a change whose deflection is not in the residual yet, None where there is none. ``follow`` is told the
+    length of every step while its product with the compliance lies in the response of the bench.
+    """
+
+    pending: Change | None
+    follow: Callable[[float], None]
 
 
 class Effort(NamedTuple):
@@ -45,10 +82,6 @@ class Correction(NamedTuple):
     reached: bool
 
 
-Follow = Callable[[float], None]
-"""Told the length of every step while its product with the compliance lies in the response of the bench."""
-
-
 def carried(tools: Bench, face: Face, last: Direction) -> Direction:
     """Search direction ``last`` on the new ``face``."""
     last.face.lay(last.t, tools.field)
@@ -61,26 +94,18 @@ def carried(tools: Bench, face: Face, last: Direction) -> Direction:
 
 
 def correction(
-    tools: Bench,
-    face: Face,
-    r: Any,
-    last: Direction | None,
-    effort: Effort,
-    *,
-    centred: bool,
-    pending: Change | None = None,
-    follow: Follow | None = None,
+    system: System, r: Any, last: Direction | None, effort: Effort, beside: Beside | None = None
 ) -> Correction:
-    """Solve K d = r on ``face`` with this ``effort``; if ``centred`` up to a constant, d summing to zero.
+    """Solve the ``system`` for the residual ``r`` with this ``effort``.
 
-    What a ``pending`` change deflects is not in ``r`` yet; a first step takes care of it. ``r`` may be overwritten, as may
-    the vectors of ``last``, a search direction to begin with.
+    ``r`` may be overwritten, as may the vectors of ``last``, a search direction to begin with.
     """
+    tools, face = system.tools, system.face
     inverse = preconditioner(tools, face)
     d, z = face.zeros(), face.zeros()
     first, pairs, taken, reached = 0.0, 0.0, 0, False
-    if pending is not None:
-        d, r, first = _together(tools, face, inverse, r, last, pending, centred=centred, follow=follow)
+    if beside is not None and beside.pending is not None:
+        d, r, first = _together(system, inverse, r, last, beside)
         last, pairs, taken = None, tools.operator.pairs_per_application, 1
     while taken < effort.limit:
         z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
@@ -89,67 +114,41 @@ def correction(
         if reached:
             break
         first = first or product
-        t, slope, kt = _direction(tools, face, r, (z, total, overlap), last, centred=centred)
+        t, slope, kt = system.direction(r, (z, total, overlap), last)
         tools.fast.apply(tools.field, tools.response)
         pairs += tools.operator.pairs_per_application
         kt, total, curvature, _ = face.gather(tools.response, t, t, kt)
-        if curvature <= 0.0:
-            last = None
+        last = Direction(face, t, kt, curvature, total) if curvature > 0.0 else None
+        if last is None:
             break
-        last = Direction(face, t, kt, curvature, total)
         taken += 1
-        length = slope / curvature
-        if follow is not None:
-            follow(length)
-        d, r = face.advance(length, t, kt, total / face.size if centred else 0.0, d, r)
+        if beside is not None:
+            beside.follow(slope / curvature)
+        d, r = face.advance(slope / curvature, t, kt, system.mean(total), d, r)
     return Correction(d if taken else None, pairs, last, reached)
 
 
 def _together(
-    tools: Bench,
-    face: Face,
-    inverse: Preconditioner,
-    r: Any,
-    last: Direction | None,
-    pending: Change,
-    *,
-    centred: bool,
-    follow: Follow | None,
+    system: System, inverse: Preconditioner, r: Any, last: Direction | None, beside: Beside
 ) -> tuple[Any, Any, float]:
-    """First step d, of fixed length, by one product with the compliance that serves the ``pending`` change as well.
+    """First step d, of fixed length, by one product with the compliance that serves the pending change as well.
 
     The residual that the change will leave is foreseen where the preconditioner can, else the step is nothing. Returns d,
     the residual after both, and the foreseen one times its preconditioned self.
     """
+    tools, face, pending = system.tools, system.face, beside.pending
+    assert pending is not None
     foreseen = inverse.foreseen(r, *pending)
     if foreseen is None:
         t, kt, length, product = face.zeros(), face.zeros(), 1.0, 0.0
     else:
         z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, face.zeros())
-        t, _, kt = _direction(tools, face, r, (z, total, overlap), last, centred=centred)
+        t, _, kt = system.direction(r, (z, total, overlap), last)
         length = inverse.step
     pending.face.lay(pending.values, tools.field, added=1.0 / length)
     tools.fast.apply(tools.field, tools.response)
     tools.engine.release(pending.face, tools.field)
     kt, total, _, _ = face.gather(tools.response, t, t, kt)
-    if follow is not None:
-        follow(length)
-    d, r = face.advance(length, t, kt, total / face.size if centred else 0.0, face.zeros(), r)
+    beside.follow(length)
+    d, r = face.advance(length, t, kt, system.mean(total), face.zeros(), r)
     return d, r, product
-
-
-def _direction(
-    tools: Bench, face: Face, r: Any, found: tuple[Any, float, float], last: Direction | None, *, centred: bool
-) -> tuple[Any, float, Any]:
-    """Search direction from the preconditioned residual ``found`` (with its sum and its product with K ``last``).
-
-    Laid out in the field; with its product with ``r`` and memory for its own product with K.
-    """
-    z, total, overlap = found
-    mean = total / face.size if centred else 0.0
-    ratio = 0.0
-    if last is not None and last.curvature > 0.0:
-        ratio = -(overlap - mean * last.total) / last.curvature
-    t, kt = (face.zeros(), face.zeros()) if last is None else (last.t, last.kt)
-    t, slope = face.direct(z, mean, ratio, t, r, tools.field)
-    return t, slope, kt
