@@ -11,7 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Face, Survey, Totals
-from .correction import Direction, Effort, Beside, System, carried, correction
+from .correction import Beside, Direction, Effort, System, carried, correction
 from .feasible import feasible_start
 from .moves import LEAST_SHARE, bounded_move, brought_back, free_move
 from .nested import COARSEST, nested_start

@@ -122,7 +122,8 @@ class CpuSurvey:
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
         if self.cap is None:
-            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, SIDE, levels, mask, counts)
+            loaded = self.squares[..., 0]
+            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, SIDE, levels, loaded, mask, counts)
         else:
             self._share(kernels.mark_face, self.p, self.u, self.h, bound(self.cap), row, SIDE, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
