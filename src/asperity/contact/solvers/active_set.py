@@ -148,7 +148,9 @@ class ActiveSet:
             face.residual(centred=centred),
             _carried(memory, face),
         )
-        pending = brought_back(work, memory.face) if memory.face is not None and memory.clipped else None
+        pending = None
+        if memory.face is not None and memory.clipped:
+            pending = brought_back(work, memory.face, memory.survey.totals.pressure)
         beside = Beside(pending, _following(work))
         found = correction(System(work.bench, face, centred), r, last, effort, beside)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
@@ -180,7 +182,7 @@ class ActiveSet:
         work = memory.work
         qp, engine = work.qp, work.engine
         if memory.face is not None:
-            brought_back(work, memory.face)
+            brought_back(work, memory.face, memory.survey.totals.pressure)
         work.exact.apply(work.pressure, work.deflection)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))
@@ -206,7 +208,7 @@ class ActiveSet:
         due = due or error < _REFRESH * memory.computed_at or (memory.idle is None and memory.face is not None)
         if spent.iterations and due:
             if memory.face is not None:
-                brought_back(work, memory.face)
+                brought_back(work, memory.face, memory.survey.totals.pressure)
             work.exact.apply(work.pressure, work.deflection)
             memory = replace(memory, survey=_survey(work), face=None, pull=0.0)
             spent = replace(spent, applications=spent.applications + 1)

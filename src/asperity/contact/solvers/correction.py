@@ -105,7 +105,7 @@ def correction(
     d, z = face.zeros(), face.zeros()
     first, pairs, taken, reached = 0.0, 0.0, 0, False
     if beside is not None and beside.pending is not None:
-        d, r, first = _together(system, inverse, r, last, beside)
+        d, r, first = _together(system, inverse, r, last, beside, (d, z))
         last, pairs, taken = None, tools.operator.pairs_per_application, 1
     while taken < effort.limit:
         z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
@@ -129,12 +129,12 @@ def correction(
 
 
 def _together(
-    system: System, inverse: Preconditioner, r: Any, last: Direction | None, beside: Beside
+    system: System, inverse: Preconditioner, r: Any, last: Direction | None, beside: Beside, memory: tuple[Any, Any]
 ) -> tuple[Any, Any, float]:
     """First step d, of fixed length, by one product with the compliance that serves the pending change as well.
 
     The residual that the change will leave is foreseen where the preconditioner can, else the step is nothing. Returns d,
-    the residual after both, and the foreseen one times its preconditioned self.
+    the residual after both, and the foreseen one times its preconditioned self. ``memory``: for d (zeros), and to work in.
     """
     tools, face, pending = system.tools, system.face, beside.pending
     assert pending is not None
@@ -142,7 +142,7 @@ def _together(
     if foreseen is None:
         t, kt, length, product = face.zeros(), face.zeros(), 1.0, 0.0
     else:
-        z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, face.zeros())
+        z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, memory[1])
         t, _, kt = system.direction(r, (z, total, overlap), last)
         length = inverse.step
     pending.face.lay(pending.values, tools.field, added=1.0 / length)
@@ -150,5 +150,5 @@ def _together(
     tools.engine.release(pending.face, tools.field)
     kt, total, _, _ = face.gather(tools.response, t, t, kt)
     beside.follow(length)
-    d, r = face.advance(length, t, kt, system.mean(total), face.zeros(), r)
+    d, r = face.advance(length, t, kt, system.mean(total), memory[0], r)
     return d, r, product

@@ -24,15 +24,12 @@ def free_move(work: Workspace, face: Face, d: Any) -> tuple[int, float]:
     return face.shift(work.pressure, d, work.unit)
 
 
-def brought_back(work: Workspace, face: Face) -> Change:
-    """Clear the points of the ``face`` that pull and scale the others to the prescribed load; the change."""
-    p = work.pressure
-    old, _ = face.pick(p)
-    found, _ = face.move(p, face.zeros(), 0.0, None)
-    constraint = work.qp.constraint
-    if isinstance(constraint, FixedMean):
-        _restore_load(face, p, None, found, constraint.mean_pressure * work.qp.profile.size)
-    return Change(face, face.difference(p, old, work.unit))
+def brought_back(work: Workspace, face: Face, total: float) -> Change:
+    """Clear the points of the ``face`` that pull and scale the others, of the sum ``total``, to the load; the change."""
+    constraint, factor = work.qp.constraint, 1.0
+    if isinstance(constraint, FixedMean) and total > 0.0:
+        factor = constraint.mean_pressure * work.qp.profile.size / total
+    return Change(face, face.press(work.pressure, factor, work.unit))
 
 
 def bounded_move(work: Workspace, face: Face, d: Any, r: Any, total: float) -> tuple[int, float]:

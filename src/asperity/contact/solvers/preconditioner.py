@@ -39,7 +39,7 @@ class NestedCells:
         self._cells = tools.cells
         self._unit = tools.cell_unit
         self._face = face
-        self._cells.restrict(face)
+        self._prepared = False
 
     @property
     def step(self) -> float:
@@ -48,10 +48,14 @@ class NestedCells:
 
     def solve(self, r: Any, other: Any, out: Any) -> Products:
         """Inverse times ``r``."""
+        if not self._prepared:
+            self._cells.restrict(self._face)
+            self._prepared = True
         return self._cells.solve(self._face, r, other, out)
 
     def foreseen(self, r: Any, loaded: Face, change: Any) -> Any:
         """``r`` less the deflection of the cells."""
+        self._prepared = False
         return self._cells.relieved(self._face, r, loaded, change, self._unit)
 
 

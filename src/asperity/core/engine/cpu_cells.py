@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -29,26 +28,19 @@ class CpuCells:
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
-        self._sweep("stiffen", face, self._nothing, self._g)
+        self._sweep("stiffen", face, self._nothing)
 
     def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``."""
-        self._sweep("deflect", face, r, self._g)
+        self._sweep("deflect", face, r)
         return self._relieved(face, r, other, out)
 
     def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
-        """r - factor times the deflection of the cells."""
-        self._sweep("deflect", loaded, change * change.dtype.type(factor), self._one)
+        """r - factor times the deflection of the cells, which pass everything on: g = 1, and 0 on the rims."""
+        for start, nx, ny, stride in self._levels[:, 1:, :4].reshape(-1, 4):
+            self._g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
+        self._sweep("deflect", loaded, change * change.dtype.type(factor))
         return np.asarray(self._relieved(face, r, r, np.empty_like(r)).vector)
-
-    @cached_property
-    def _one(self) -> RealArray:
-        """Cells that pass everything on: 1, and 0 on the rims."""
-        whole = np.zeros_like(self._g)
-        for start, nx, _ny, stride in self._levels[:, 1:, :4].reshape(-1, 4):
-            first = start - stride - 1
-            whole[first : first + (nx + 2) * stride].reshape(nx + 2, stride)[1:-1, 1:-1] = 1.0
-        return whole
 
     def _relieved(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         assert isinstance(face, CpuFace)
@@ -59,9 +51,9 @@ class CpuCells:
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
-    def _sweep(self, kernel: str, face: Face, values: RealArray, g: RealArray) -> None:
+    def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
         assert isinstance(face, CpuFace)
-        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, g, self._s)
+        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, self._g, self._s)
         call = getattr(self._blocks.cell_kernels, kernel)
         self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < FEW)
 

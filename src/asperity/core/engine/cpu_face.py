@@ -67,11 +67,10 @@ class CpuFace:
         else:
             self._run("scatter_more", self.place(field), values, values.dtype.type(added), memory(field))
 
-    def difference(self, values: RealArray, old: RealArray, scale: float) -> RealArray:
-        """(values - old) / scale."""
-        change = np.empty_like(self.start)
-        self._run("difference", self.index, values.ravel(), old, scale, change)
-        return change
+    def press(self, p: RealArray, factor: float, scale: float) -> RealArray:
+        """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
+        self._run("press", self.index, p.ravel(), factor, scale, self.start)
+        return self.start
 
     def lay_change(self, old: RealArray, values: RealArray, r: RealArray, field: RealArray) -> tuple[RealArray, float]:
         """Lay ``values`` - ``old`` out in the field."""

@@ -33,10 +33,13 @@ def scatter_more(span, index, values, factor, field):  # type: ignore[no-untyped
 
 
 @compiled
-def difference(span, index, values, old, scale, change):  # type: ignore[no-untyped-def]
-    """change = (values[index] - old) / scale."""
+def press(span, index, p, factor, scale, change):  # type: ignore[no-untyped-def]
+    """p[index] = factor max(p, 0); change = what that adds to p over scale."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
-        change[k] = (values[index[k]] - old[k]) / scale
+        old = np.float64(p[index[k]])
+        value = factor * max(old, 0.0)
+        p[index[k]] = value
+        change[k] = (value - old) / scale
 
 
 @compiled

@@ -38,9 +38,11 @@ class ArrayFace:
         """Lay ``values`` out in the field, or add to it."""
         field[...] = values if added is None else field + float(added) * values
 
-    def difference(self, values: Any, old: Any, scale: float) -> Any:
-        """(values - old) / scale."""
-        change = self.library.select(self.inside, values - old) / float(scale)
+    def press(self, p: Any, factor: float, scale: float) -> Any:
+        """p = factor max(p, 0) and the change over scale."""
+        value = self.library.select(self.inside & (p > 0.0), float(factor) * p)
+        change = self.library.select(self.inside, value - p) / float(scale)
+        self._put(value, p)
         return self.library.xp.astype(change, self.start.dtype)
 
     def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:

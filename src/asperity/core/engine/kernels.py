@@ -150,7 +150,7 @@ def mark_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # typ
     for band in range(span[0], span[1]):
         for j in range(row):
             line[j] = levels[band, j // side]
-        members = 0
+        members = np.int64(0)
         for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
             pressure, deflection, heights = p[start : start + row], u[start : start + row], h[start : start + row]
             inside = mask[start : start + row]

@@ -115,8 +115,11 @@ class Face(Protocol):
     def lay(self, values: Any, field: Any, added: float | None = None) -> None:
         """Lay the vector ``values`` out in the field of the convolution; or add ``added`` times it to what lies there."""
 
-    def difference(self, values: Any, old: Any, scale: float) -> Any:
-        """Vector (values - old) / scale, ``old`` being what ``pick`` gave of the array ``values`` before a change."""
+    def press(self, p: Any, factor: float, scale: float) -> Any:
+        """Set p on the face to factor times p where it is positive, else to 0; the change over ``scale`` as a vector.
+
+        The residual vector may be overwritten.
+        """
 
     def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
         """Vector ``values`` - ``old``, also laid out in the field, and its product with r.
@@ -162,6 +165,7 @@ class Cells(Protocol):
         """Vector r - factor times the deflection of the cells that the points of ``face`` lie in.
 
         ``change`` is the load, a vector of the face ``loaded``. What single points deflect under their own load is left out.
+        Afterwards the inverse must be prepared again.
         """
 
 
