@@ -1,12 +1,12 @@
 """Compiled passes from the spectra of surface tractions to the spectra of the fields on a plane at depth.
 
-A row of wavevectors first gets its panel polynomials (see ``panels``), then the coefficients of each field under each
-load, turned from the frame of every wavevector into that of the grid; its mirror image has the same ones up to signs.
-Loops are short and touch few arrays, so that compilers turn them into vector instructions.
+A line of wavevectors along x first gets its panel polynomials (see ``panels``) where ξ >= 0. Field after field, they are
+turned from the frame of every wavevector into that of the grid and multiplied with the loads, mirrored for ξ < 0. Loops
+are short and touch few arrays, which all stay in the cache, so that compilers turn them into vector instructions.
 
-``waves`` holds the components of the wavevectors (first halves, not negative), each also with the highest one of an even
-grid set to zero: there an odd function of it vanishes, c, s and c s among them, while c² and s² do not. ``table`` holds
-breaks, coefficients and the wavenumber beyond which all is zero.
+``waves`` holds the components of the wavevectors across and along the lines (first halves, not negative), each also with
+the highest one of an even grid set to zero: there an odd function of it vanishes, c, s and c s among them, while c² and
+s² do not. ``table`` holds breaks, coefficients and the wavenumber beyond which all is zero.
 """
 
 from __future__ import annotations
@@ -20,214 +20,280 @@ from .panels import TERMS
 
 _compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
+_WHOLE = (
+    32  # elements by which a loop over a panel ends late: whole vectors, and the next panel puts right what is past it
+)
+
 
 @_compiled
-def _columns_below(limit, xi, eta):  # type: ignore[no-untyped-def]
-    """Number of columns of a row whose wavenumber is below ``limit``, give or take rounding; eta is evenly spaced."""
-    if xi >= limit:
+def _waves_below(limit, eta, xi):  # type: ignore[no-untyped-def]
+    """Number of waves of a half line whose wavenumber is below ``limit``, give or take rounding; xi is evenly spaced."""
+    if eta >= limit:
         return 0
-    if eta.size == 1 or limit == np.inf:
-        return eta.size
-    return min(eta.size, int(np.sqrt(limit * limit - xi * xi) / eta[1]) + 1)
+    if xi.size == 1 or limit == np.inf:
+        return xi.size
+    return min(xi.size, int(np.sqrt(limit * limit - eta * eta) / xi[1]) + 1)
 
 
 @_compiled
-def _amplitudes(xi, eta, table, alpha, t, values):  # type: ignore[no-untyped-def]
-    """Wavenumbers of a row and the functions there; returns the number of columns below the limit."""
+def _amplitudes(eta, xi, table, alpha, t, values):  # type: ignore[no-untyped-def]
+    """Wavenumbers of a half line, and the functions there; the arrays are longer than the line by ``_WHOLE``."""
     breaks, coefficients, limit = table
     last = breaks.size - 2
-    for j in range(eta.size):
-        alpha[j] = np.sqrt(xi * xi + eta[j] * eta[j])
+    for i in range(xi.size):
+        alpha[i] = np.sqrt(xi[i] * xi[i] + eta * eta)
     alpha[0] = max(alpha[0], breaks[0])
-    used = _columns_below(limit, xi, eta)
+    used = _waves_below(limit, eta, xi)
     panel = 0
     start = 0
     while start < used:
         while panel < last and alpha[start] >= breaks[panel + 1]:
             panel += 1
-        stop = used if panel == last else min(used, max(start + 1, _columns_below(breaks[panel + 1], xi, eta)))
+        stop = used if panel == last else min(used, max(start + 1, _waves_below(breaks[panel + 1], eta, xi)))
         middle = 0.5 * (breaks[panel] + breaks[panel + 1])
         scale = 2.0 / (breaks[panel + 1] - breaks[panel])
-        for j in range(start, stop):
-            t[j] = (alpha[j] - middle) * scale
+        count = -(-(stop - start) // _WHOLE) * _WHOLE
+        here = alpha[start : start + count]
+        for i in range(count):
+            t[i] = (here[i] - middle) * scale
         for f in range(values.shape[0]):
             c = coefficients[panel, f]
-            for j in range(start, stop):
+            found = values[f, start : start + count]
+            for i in range(count):
                 value = c[TERMS - 1]
                 for k in range(TERMS - 2, -1, -1):
-                    value = value * t[j] + c[k]
-                values[f, j] = value
+                    value = value * t[i] + c[k]
+                found[i] = value
         start = stop
-    return used
+    values[:, used:] = 0.0
 
 
 @_compiled
-def _directions(i, waves, alpha, used, d):  # type: ignore[no-untyped-def]
-    """Rows c, s, c², s², c s of the row ``i``."""
-    _, xi_odd, eta, eta_odd = waves
+def _directions(eta, eta_odd, xi, xi_odd, alpha, d):  # type: ignore[no-untyped-def]
+    """Half lines c, s, c², s², c s."""
     c, s, cc, ss, cs = d
-    for j in range(used):
-        scale = 1.0 / alpha[j]
-        c[j] = xi_odd[i] * scale
-        s[j] = eta_odd[j] * scale
-    for j in range(used):
-        square = eta[j] * eta[j] / (alpha[j] * alpha[j])
-        ss[j] = square
-        cc[j] = 1.0 - square
-    for j in range(used):
-        cs[j] = c[j] * s[j]
+    for i in range(xi.size):
+        scale = 1.0 / alpha[i]
+        c[i] = xi_odd[i] * scale
+        s[i] = eta_odd * scale
+        cs[i] = xi_odd[i] * scale * (eta_odd * scale)
+    for i in range(xi.size):
+        square = eta * eta / (alpha[i] * alpha[i])
+        ss[i] = square
+        cc[i] = 1.0 - square
 
 
 @_compiled
-def _stress_under_pressure(used, d, v, nu, K):  # type: ignore[no-untyped-def]
-    """Coefficients of xx, yy, zz, xy (real) and xz, yz (imaginary); functions τ_zz, τ_Lz, LL_z."""
+def _stress_along(d, v, nu, sheared, K):  # type: ignore[no-untyped-def]
+    """Coefficients of xx under p (real), q_x, q_y (imaginary); of yy with the axes exchanged in ``d`` and ``K``."""
+    c, s, cc, ss, _ = d
+    p, x, y = K
+    M, A = v[0], v[2]
+    for i in range(p.size):
+        p[i] = cc[i] * A[i] + ss[i] * nu * (A[i] - M[i])
+    if sheared:
+        M, A, g = v[3], v[5], v[7]
+        for i in range(p.size):
+            x[i] = -c[i] * (cc[i] * A[i] + ss[i] * (nu * (A[i] - M[i]) - 2.0 * g[i]))
+        for i in range(p.size):
+            y[i] = -s[i] * (cc[i] * (A[i] + 2.0 * g[i]) + ss[i] * nu * (A[i] - M[i]))
+
+
+@_compiled
+def _stress_normal(d, v, sheared, K):  # type: ignore[no-untyped-def]
+    """Coefficients of zz under p (real), q_x, q_y (imaginary)."""
+    c, s, _, _, _ = d
+    p, x, y = K
+    M = v[0]
+    for i in range(p.size):
+        p[i] = -M[i]
+    if sheared:
+        M = v[3]
+        for i in range(p.size):
+            x[i] = c[i] * M[i]
+        for i in range(p.size):
+            y[i] = s[i] * M[i]
+
+
+@_compiled
+def _stress_across(d, v, nu, sheared, K):  # type: ignore[no-untyped-def]
+    """Coefficients of xy under p (real), q_x, q_y (imaginary)."""
     c, s, cc, ss, cs = d
-    M, m, A = v[0], v[1], v[2]
-    xx, yy, zz, xy, xz, yz = K
-    for j in range(used):
-        T = nu * (A[j] - M[j])
-        xx[j] = cc[j] * A[j] + ss[j] * T
-        yy[j] = ss[j] * A[j] + cc[j] * T
-    for j in range(used):
-        zz[j] = -M[j]
-        xy[j] = cs[j] * (A[j] - nu * (A[j] - M[j]))
-    for j in range(used):
-        xz[j] = -c[j] * m[j]
-        yz[j] = -s[j] * m[j]
+    p, x, y = K
+    M, A = v[0], v[2]
+    for i in range(p.size):
+        p[i] = cs[i] * (A[i] - nu * (A[i] - M[i]))
+    if sheared:
+        M, A, g = v[3], v[5], v[7]
+        for i in range(p.size):
+            x[i] = -s[i] * (cc[i] * (A[i] - nu * (A[i] - M[i])) + (cc[i] - ss[i]) * g[i])
+        for i in range(p.size):
+            y[i] = -c[i] * (ss[i] * (A[i] - nu * (A[i] - M[i])) + (ss[i] - cc[i]) * g[i])
 
 
 @_compiled
-def _stress_under_shear(used, d, v, nu, K):  # type: ignore[no-untyped-def]
-    """Coefficients under q_x of xx, yy, zz, xy (imaginary), xz, yz (real); functions τ_zL, τ_LL, LL_L, τ_T, LT.
-
-    Under q_y they are those of exchanged axes: ``d`` and ``K`` with x and y exchanged.
-    """
-    c, s, cc, ss, cs = d
-    M, n, A, w, g = v[3], v[4], v[5], v[6], v[7]
-    xx, yy, zz, xy, xz, yz = K
-    for j in range(used):
-        T = nu * (A[j] - M[j])
-        xx[j] = -c[j] * (cc[j] * A[j] + ss[j] * (T - 2.0 * g[j]))
-        yy[j] = -c[j] * (ss[j] * (A[j] + 2.0 * g[j]) + cc[j] * T)
-    for j in range(used):
-        xy[j] = -s[j] * (cc[j] * (A[j] - nu * (A[j] - M[j])) + (cc[j] - ss[j]) * g[j])
-    for j in range(used):
-        zz[j] = c[j] * M[j]
-    for j in range(used):
-        xz[j] = -cc[j] * n[j] - ss[j] * w[j]
-    for j in range(used):
-        yz[j] = -cs[j] * (n[j] - w[j])
-
-
-@_compiled
-def _displacement_under_pressure(used, d, v, K):  # type: ignore[no-untyped-def]
-    """Coefficients of x, y (imaginary) and z (real); functions U_z, W_z."""
-    x, y, z = K
-    for j in range(used):
-        x[j] = d[0][j] * v[0, j]
-        y[j] = d[1][j] * v[0, j]
-    for j in range(used):
-        z[j] = v[1, j]
-
-
-@_compiled
-def _displacement_under_shear(used, d, v, K):  # type: ignore[no-untyped-def]
-    """Coefficients under q_x of x, y (real) and z (imaginary), functions U_L, W_L, u_T; under q_y exchanged."""
+def _stress_through(d, v, sheared, K):  # type: ignore[no-untyped-def]
+    """Coefficients of xz under p (imaginary), q_x, q_y (real); of yz with the axes exchanged in ``d`` and ``K``."""
     c, _, cc, ss, cs = d
-    U, W, T = v[2], v[3], v[4]
-    x, y, z = K
-    for j in range(used):
-        x[j] = cc[j] * U[j] + ss[j] * T[j]
-        y[j] = cs[j] * (U[j] - T[j])
-    for j in range(used):
-        z[j] = -c[j] * W[j]
+    p, x, y = K
+    m = v[1]
+    for i in range(p.size):
+        p[i] = -c[i] * m[i]
+    if sheared:
+        n, w = v[4], v[6]
+        for i in range(p.size):
+            x[i] = -cc[i] * n[i] - ss[i] * w[i]
+        for i in range(p.size):
+            y[i] = -cs[i] * (n[i] - w[i])
 
 
 @_compiled
-def _field(used, parity, mirror, K, loads, out):  # type: ignore[no-untyped-def]
-    """One field on one row, coefficients ``K`` under p, q_x, q_y times loads.
+def _displacement_along(d, v, K):  # type: ignore[no-untyped-def]
+    """Coefficients of x under p (imaginary), q_x, q_y (real); of y with the axes exchanged in ``d`` and ``K``."""
+    c, _, cc, ss, cs = d
+    p, x, y = K
+    for i in range(p.size):
+        p[i] = c[i] * v[0, i]
+    U, T = v[2], v[4]
+    for i in range(p.size):
+        x[i] = cc[i] * U[i] + ss[i] * T[i]
+    for i in range(p.size):
+        y[i] = cs[i] * (U[i] - T[i])
 
-    ``parity`` says whether the coefficient under p is real and whether it is odd in c, hence changes its sign on the
-    ``mirror`` row. That under q_y is as odd, that under q_x is not; both are imaginary where the first is real.
+
+@_compiled
+def _displacement_normal(d, v, K):  # type: ignore[no-untyped-def]
+    """Coefficients of z under p (real), q_x, q_y (imaginary)."""
+    c, s, _, _, _ = d
+    p, x, y = K
+    for i in range(p.size):
+        p[i] = v[1, i]
+    W = v[3]
+    for i in range(p.size):
+        x[i] = -c[i] * W[i]
+    for i in range(p.size):
+        y[i] = -s[i] * W[i]
+
+
+@_compiled
+def _combined(kx, x, ky, y, total, difference):  # type: ignore[no-untyped-def]
+    """Write kx x + ky y, and ky y - kx x."""
+    for i in range(total.size):
+        total[i] = kx * x[i] + ky * y[i]
+    for i in range(total.size):
+        difference[i] = ky * y[i] - kx * x[i]
+
+
+@_compiled
+def _product(a, b, mirror, p, out):  # type: ignore[no-untyped-def]
+    """(a + i b) p for ξ >= 0; behind, sign (a + i b) p with the mirror images of others, ``mirror`` = sign, a, b."""
+    for i in range(a.size):
+        out[i] = complex(a[i] * p[i].real - b[i] * p[i].imag, a[i] * p[i].imag + b[i] * p[i].real)
+    sign, a, b = mirror
+    p, out = p[a.size :], out[a.size :]
+    for i in range(out.size):
+        k = np.uintp(out.size - i)
+        u, v, w = sign * a[k], sign * b[k], p[i]
+        out[i] = complex(u * w.real - v * w.imag, u * w.imag + v * w.real)
+
+
+@_compiled
+def _sum(real, sign, K, p, x, y, out):  # type: ignore[no-untyped-def]
+    """If ``real``, a p + i (b x + c y), else i a p + b x + c y; behind, with mirror images times sign, -sign, sign."""
+    a, b, c = K
+    r, i = (1.0, 0.0) if real else (0.0, 1.0)  # all times r + i i, with b and c turned back by its square
+    turn = r - i
+    for k in range(a.size):
+        u, v, w, e, f = p[k], x[k], y[k], turn * b[k], turn * c[k]
+        m, n = a[k] * u.real - e * v.imag - f * w.imag, a[k] * u.imag + e * v.real + f * w.real
+        out[k] = complex(r * m - i * n, i * m + r * n)
+    p, x, y, out = p[a.size :], x[a.size :], y[a.size :], out[a.size :]
+    r, i = sign * r, sign * i
+    for k in range(out.size):
+        j = np.uintp(out.size - k)
+        u, v, w, e, f = p[k], x[k], y[k], -turn * b[j], turn * c[j]
+        m, n = a[j] * u.real - e * v.imag - f * w.imag, a[j] * u.imag + e * v.real + f * w.real
+        out[k] = complex(r * m - i * n, i * m + r * n)
+
+
+@_compiled
+def _field(parity, K, loads, lines, out):  # type: ignore[no-untyped-def]
+    """One field on one line, coefficients ``K`` under p, q_x, q_y times loads.
+
+    ``parity`` says whether the coefficient under p is real and whether it is odd in c, hence has another sign at -ξ.
+    That under q_y is as odd, that under q_x is not; both are imaginary where the first is real.
     """
     real, odd = parity
     p, kx, ky, fields, qx, qy = loads
-    z = -1.0 if mirror and odd else 1.0
-    x = -1.0 if mirror and not odd else 1.0
-    A, X, Y = K
-    if fields and real:
-        for j in range(used):
-            a, b, c, u, v, w = z * A[j], x * X[j], z * Y[j], p[j], qx[j], qy[j]
-            out[j] = complex(a * u.real - b * v.imag - c * w.imag, a * u.imag + b * v.real + c * w.real)
-    elif fields:
-        for j in range(used):
-            a, b, c, u, v, w = z * A[j], x * X[j], z * Y[j], p[j], qx[j], qy[j]
-            out[j] = complex(b * v.real + c * w.real - a * u.imag, b * v.imag + c * w.imag + a * u.real)
-    elif real:
-        a, b = x * kx, z * ky
-        for j in range(used):
-            out[j] = complex(z * A[j], a * X[j] + b * Y[j]) * p[j]
+    sign = -1.0 if odd else 1.0
+    b, mirrored = lines
+    if fields:
+        _sum(real, sign, K, p, qx, qy, out)
     else:
-        a, b = x * kx, z * ky
-        for j in range(used):
-            out[j] = complex(a * X[j] + b * Y[j], z * A[j]) * p[j]
-    out[used:] = 0.0
+        if kx != 0.0 or ky != 0.0:
+            _combined(kx, K[1], ky, K[2], b, mirrored)
+        if real:
+            _product(K[0], b, (sign, K[0], mirrored), p, out)
+        else:
+            _product(b, K[0], (sign, mirrored, K[0]), p, out)
 
 
 @_compiled
-def _rows(r, traction):  # type: ignore[no-untyped-def]
-    """Row ``r`` of the loads: p, the ratios of the shear to it, whether there are shear fields besides, and these."""
+def _line(r, traction):  # type: ignore[no-untyped-def]
+    """Line ``r`` of the loads: p, the ratios of the shear to it, whether there are shear fields besides, and these."""
     p, kx, ky, fields, qx, qy = traction
     return p[r], kx, ky, fields, qx[r], qy[r]
 
 
 @_compiled
-def _sheared(traction):  # type: ignore[no-untyped-def]
-    """Whether there is shear along x, and along y."""
-    _, kx, ky, fields, _, _ = traction
-    return fields or kx != 0.0, fields or ky != 0.0
+def _room(functions, n):  # type: ignore[no-untyped-def]
+    """Arrays for a line: functions, wavenumbers, t; directions, these exchanged; coefficients, these exchanged; two more."""
+    v, alpha, t = np.zeros((functions, n + _WHOLE)), np.zeros(n + _WHOLE), np.empty(n + _WHOLE)
+    half = np.zeros((10, n))
+    c, s, cc, ss, cs, p, x, y = half[0], half[1], half[2], half[3], half[4], half[5], half[6], half[7]
+    return v, alpha, t, (c, s, cc, ss, cs), (s, c, ss, cc, cs), (p, x, y), (p, y, x), (half[8], half[9])
 
 
 @_compiled
 def stress_spectra(span, waves, table, nu, traction, out):  # type: ignore[no-untyped-def]
-    """Spectra xx, yy, zz, xy, xz, yz; functions τ_zz, τ_Lz, LL_z, and for shear τ_zL, τ_LL, LL_L, τ_T, LT."""
-    nx, n = traction[0].shape[0], traction[0].shape[1]
-    v, alpha, t, rows = np.zeros((table[1].shape[1], n)), np.empty(n), np.empty(n), np.empty((5, n))
-    K = np.zeros((6, 3, n))  # by field and load
-    sheared_x, sheared_y = _sheared(traction)
-    d = (rows[0], rows[1], rows[2], rows[3], rows[4])
-    turned = (d[1], d[0], d[3], d[2], d[4])
-    for i in range(span[0], span[1]):
-        used = _amplitudes(waves[0][i], waves[2], table, alpha, t, v)
-        _directions(i, waves, alpha, used, d)
-        _stress_under_pressure(used, d, v, nu, (K[0, 0], K[1, 0], K[2, 0], K[3, 0], K[4, 0], K[5, 0]))
-        if sheared_x:
-            _stress_under_shear(used, d, v, nu, (K[0, 1], K[1, 1], K[2, 1], K[3, 1], K[4, 1], K[5, 1]))
-        if sheared_y:
-            _stress_under_shear(used, turned, v, nu, (K[1, 2], K[0, 2], K[2, 2], K[3, 2], K[5, 2], K[4, 2]))
-        for mirror in range(1 if i == 0 or 2 * i == nx else 2):
-            r = nx - i if mirror else i
-            loads = _rows(r, traction)
-            for f in range(6):
-                _field(used, (f < 4, f == 3 or f == 4), mirror == 1, (K[f, 0], K[f, 1], K[f, 2]), loads, out[f, r])
+    """Spectra xx, yy, zz, xy, xz, yz; functions τ_zz, τ_Lz, LL_z, and for shear τ_zL, τ_LL, LL_L, τ_T, LT.
+
+    Line ``span[0]`` of the waves and loads goes to the first line of ``out``, and so on to ``span[1]``; ``out`` may have
+    more lines and longer ones.
+    """
+    (_, kx, ky, fields, _, _), (eta, eta_odd, xi, xi_odd), nx = traction, waves, traction[0].shape[1]
+    v, alpha, t, d, turned, K, exchanged, lines = _room(table[1].shape[1], xi.size)
+    sheared = fields or kx != 0.0 or ky != 0.0
+    for r in range(span[0], span[1]):
+        _amplitudes(eta[r], xi, table, alpha, t, v)
+        _directions(eta[r], eta_odd[r], xi, xi_odd, alpha, d)
+        loads, to = _line(r, traction), r - span[0]
+        _stress_along(d, v, nu, sheared, K)
+        _field((True, False), K, loads, lines, out[0, to, :nx])
+        _stress_along(turned, v, nu, sheared, exchanged)
+        _field((True, False), K, loads, lines, out[1, to, :nx])
+        _stress_normal(d, v, sheared, K)
+        _field((True, False), K, loads, lines, out[2, to, :nx])
+        _stress_across(d, v, nu, sheared, K)
+        _field((True, True), K, loads, lines, out[3, to, :nx])
+        _stress_through(d, v, sheared, K)
+        _field((False, True), K, loads, lines, out[4, to, :nx])
+        _stress_through(turned, v, sheared, exchanged)
+        _field((False, False), K, loads, lines, out[5, to, :nx])
 
 
 @_compiled
 def displacement_spectra(span, waves, table, traction, out):  # type: ignore[no-untyped-def]
-    """Spectra x, y, z of the displacement; functions U_z, W_z, U_L, W_L, u_T."""
-    nx, n = traction[0].shape[0], traction[0].shape[1]
-    v, alpha, t, rows = np.zeros((5, n)), np.empty(n), np.empty(n), np.empty((5, n))
-    K = np.zeros((3, 3, n))
-    d = (rows[0], rows[1], rows[2], rows[3], rows[4])
-    turned = (d[1], d[0], d[3], d[2], d[4])
-    for i in range(span[0], span[1]):
-        used = _amplitudes(waves[0][i], waves[2], table, alpha, t, v)
-        _directions(i, waves, alpha, used, d)
-        _displacement_under_pressure(used, d, v, (K[0, 0], K[1, 0], K[2, 0]))
-        _displacement_under_shear(used, d, v, (K[0, 1], K[1, 1], K[2, 1]))
-        _displacement_under_shear(used, turned, v, (K[1, 2], K[0, 2], K[2, 2]))
-        for mirror in range(1 if i == 0 or 2 * i == nx else 2):
-            r = nx - i if mirror else i
-            loads = _rows(r, traction)
-            for f in range(3):
-                _field(used, (f == 2, f == 0), mirror == 1, (K[f, 0], K[f, 1], K[f, 2]), loads, out[f, r])
+    """Spectra x, y, z of the displacement; functions U_z, W_z, U_L, W_L, u_T. Lines as in ``stress_spectra``."""
+    (eta, eta_odd, xi, xi_odd), nx = waves, traction[0].shape[1]
+    v, alpha, t, d, turned, K, exchanged, lines = _room(table[1].shape[1], xi.size)
+    for r in range(span[0], span[1]):
+        _amplitudes(eta[r], xi, table, alpha, t, v)
+        _directions(eta[r], eta_odd[r], xi, xi_odd, alpha, d)
+        loads, to = _line(r, traction), r - span[0]
+        _displacement_along(d, v, K)
+        _field((False, True), K, loads, lines, out[0, to, :nx])
+        _displacement_along(turned, v, exchanged)
+        _field((False, False), K, loads, lines, out[1, to, :nx])
+        _displacement_normal(d, v, K)
+        _field((True, False), K, loads, lines, out[2, to, :nx])

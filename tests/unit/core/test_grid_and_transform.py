@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.core import spectral
-from asperity.core.spectral import RealTransform, fast_length, thread_count
+from asperity.core.spectral import RealTransform, SplitTransform, fast_length, thread_count
 
 SHAPES = st.tuples(st.integers(1, 17), st.integers(1, 17))
 
@@ -82,6 +82,31 @@ def test_transform_pair_is_numpys_with_either_library(library, shape, seed):
         transform.forward(field, out)
         transform.backward(out.copy(), back)
         np.testing.assert_allclose(back, field, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("library", ["ducc0", "numpy"])
+@pytest.mark.parametrize(("dtype", "rounding"), [("float64", 1e-13), ("float32", 1e-4)])
+@given(shape=SHAPES | st.just((5, 130)) | st.just((130, 5)), seed=st.integers(0, 999))
+def test_inverse_in_two_steps_and_parts(library, dtype, rounding, shape, seed):
+    """Lines and rows in parts of seven and of seventy, the latter longer than a block."""
+    if library == "ducc0" and not importlib.util.find_spec("ducc0"):
+        pytest.skip("the extra 'fast' is not installed")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(spectral, "fft_library", lambda: library)
+        transform = SplitTransform(shape)
+        field = np.random.default_rng(seed).standard_normal(shape).astype(dtype)
+        spectrum = transform.forward(field)
+        np.testing.assert_allclose(spectrum, np.fft.rfft2(field.astype(float)).T, rtol=0, atol=10 * rounding)
+        (between,), (made,) = transform.between(1, spectrum.dtype), transform.lines(1, 7, spectrum.dtype)
+        for start in range(0, len(spectrum), 7):
+            lines = spectrum[start : start + 7]
+            made[: len(lines), : shape[0]] = lines
+            transform.lines_back(made, (start, start + len(lines)), between)
+        back = np.empty_like(field)
+        for start in range(0, shape[0], 70):
+            transform.rows_back(between, (start, min(shape[0], start + 70)), back)
+        assert back.dtype == dtype
+        np.testing.assert_allclose(back, field, rtol=0, atol=rounding)
 
 
 def test_numpy_serves_where_ducc_is_missing(monkeypatch):

@@ -277,3 +277,13 @@ def test_results_do_not_depend_on_threads():
     one, two = (PeriodicPlanes(loads, BODY, threads=n).stress(plane) for n in (1, 2))
     for name in STRESSES:
         np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=0, atol=1e-5)
+
+
+def test_order_of_planes_does_not_matter():
+    """Waves that do not reach a deep plane leave nothing of a shallow one behind, in stress or in displacement."""
+    grid = asp.Grid((32, 24), (1e-9, 1e-9))
+    loads, found = random_loads(grid), planes(BODY, [2e-9, 40e-9, 300e-9])
+    shallow, deep, deepest = found
+    source = PeriodicPlanes(loads, BODY, threads=2)
+    for plane in (shallow, deepest, deep, deepest, shallow, deep):
+        np.testing.assert_array_equal(fields_of(source, plane), fields_of(PeriodicPlanes(loads, BODY), plane))
