@@ -198,9 +198,9 @@ def _product(a, b, mirror, p, out):  # type: ignore[no-untyped-def]
 
 
 @_compiled
-def _sum(real, sign, K, p, x, y, out):  # type: ignore[no-untyped-def]
+def _sum(real, sign, K, loads, out):  # type: ignore[no-untyped-def]
     """If ``real``, a p + i (b x + c y), else i a p + b x + c y; behind, with mirror images times sign, -sign, sign."""
-    a, b, c = K
+    (a, b, c), (p, x, y) = K, loads
     r, i = (1.0, 0.0) if real else (0.0, 1.0)  # all times r + i i, with b and c turned back by its square
     turn = r - i
     for k in range(a.size):
@@ -228,7 +228,7 @@ def _field(parity, K, loads, lines, out):  # type: ignore[no-untyped-def]
     sign = -1.0 if odd else 1.0
     b, mirrored = lines
     if fields:
-        _sum(real, sign, K, p, qx, qy, out)
+        _sum(real, sign, K, (p, qx, qy), out)
     else:
         if kx != 0.0 or ky != 0.0:
             _combined(kx, K[1], ky, K[2], b, mirrored)
