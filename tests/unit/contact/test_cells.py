@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 import asperity as asp
+from asperity.contact.solvers import workspace
+from asperity.contact.solvers.cell_waves import Waves, waves_of
 from asperity.contact.solvers.cells import hierarchies, pixel_compliance
 from asperity.contact.solvers.correction import Effort, System, correction
 from asperity.contact.solvers.preconditioner import NestedCells, RestrictedInverse, preconditioner
 from asperity.contact.solvers.workspace import Bench, bench
 from asperity.core.arrays import RealArray
-from asperity.core.engine import Face, Hierarchy
+from asperity.core.engine import Engine, Face, Hierarchy
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solids.compliance.protocol import Compliance
 
 BODY = HalfSpace(2.0)
 SHAPES = [(1, 1), (1, 64), (37, 1), (16, 16), (12, 50), (31, 17)]
@@ -108,14 +111,21 @@ def rough_set(shape: tuple[int, int], share: float, seed: int) -> RealArray:
     return np.where(heights > np.quantile(heights, 1.0 - share), 1.0, 0.0)
 
 
-def on_set(inside: RealArray, compliance: object = BODY, boundary: object = None) -> tuple[Bench, Face]:
-    operator = asp.prepare_operator(compliance, grid(inside.shape), boundary or asp.Periodic())  # type: ignore[arg-type]
+def on_set(
+    inside: RealArray,
+    compliance: Compliance = BODY,
+    boundary: asp.Boundary | None = None,
+    engine: Engine | None = None,
+) -> tuple[Bench, Face]:
+    operator = asp.prepare_operator(compliance, grid(inside.shape), boundary or asp.Periodic(), engine=engine)
     tools = bench(operator, "float64", 1.0)
     zero = np.zeros(inside.shape)
     return tools, operator.engine.survey(inside, zero, zero, None).face(0.0, 1.0, "float64")
 
 
-def steps_to(inside: RealArray, reduction: float, compliance: object = BODY, boundary: object = None) -> float:
+def steps_to(
+    inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.Boundary | None = None
+) -> float:
     """FFT pairs of the grid to reduce the residual of a rough right side."""
     tools, face = on_set(inside, compliance, boundary)
     r, _ = face.pick(np.random.default_rng(0).standard_normal(inside.shape).cumsum(axis=0))
@@ -140,11 +150,17 @@ def test_lines_and_other_boundaries_converge_as_well(shape: tuple[int, int]) -> 
     assert steps_to(rough_set((96, 80), 0.2, 5), 1e-6, boundary=asp.Free()) <= 30.0
 
 
-@pytest.mark.parametrize("ratio", [0.1, 10.0])
-def test_layers_converge_as_well(ratio: float) -> None:
-    layered = asp.Layered([asp.Layer(asp.Elastic(ratio, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
-    problem = asp.ContactProblem(asp.Surface(rough_set((128, 128), 0.2, 7), 1.0, 1.0, periodic=True), layered)
-    assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, problem.compliance) <= 30.0
+def film(ratio: float, thickness: float = 4.0) -> Compliance:
+    """Compliance of a film over that of its base."""
+    layered = asp.Layered([asp.Layer(asp.Elastic(ratio, 0.3), thickness)], base=asp.Elastic(1.0, 0.3))
+    return asp.ContactProblem(asp.Surface(np.zeros((8, 8)), 1.0, 1.0, periodic=True), layered).compliance
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
+@pytest.mark.parametrize(("ratio", "thickness"), [(0.1, 4.0), (2.0, 4.0), (10.0, 4.0), (10.0, 10.0)])
+def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.Boundary) -> None:
+    """A factor 0.44 a step at worst, 1e-6 in 17 steps; a twentieth more pairs for waves."""
+    assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, film(ratio, thickness), boundary) <= 17.0 * 1.06
 
 
 def test_the_inverse_of_cells_is_symmetric_and_positive() -> None:
@@ -157,6 +173,67 @@ def test_the_inverse_of_cells_is_symmetric_and_positive() -> None:
     ba = cells.solve(a, b, face.zeros()).second
     assert ab == pytest.approx(ba, rel=1e-12)
     assert cells.solve(a, a, face.zeros()).first > 0.0
+
+
+def without_waves(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workspace, "waves_of", lambda operator: None)
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
+def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch, boundary: asp.Boundary) -> None:
+    """Reductions measured at 512²: 0.26 for 0.40 per step, of which the cost of waves leaves 0.27."""
+    inside, compliance = rough_set((128, 128), 0.2, 7), film(10.0, 10.0)
+    tools, _ = on_set(inside, compliance, boundary)
+    assert tools.waves is not None
+    assert tools.waves.pairs <= 0.07 * tools.operator.pairs_per_application
+    fewer = steps_to(inside, 1e-6, compliance, boundary)
+    without_waves(monkeypatch)
+    assert fewer < 0.85 * steps_to(inside, 1e-6, compliance, boundary)
+
+
+def waves_on(shape: tuple[int, int], compliance: Compliance, spacing: tuple[float, float] = (1.0, 1.0)) -> Waves | None:
+    boundary = asp.Periodic() if min(shape) > 1 else asp.FreeLine()
+    return waves_of(asp.prepare_operator(compliance, grid(shape, spacing), boundary))
+
+
+def test_waves_are_for_steep_compliances_on_grids_that_their_cells_divide() -> None:
+    stiff = film(10.0)
+    found = waves_on((64, 96), stiff)
+    assert found is not None
+    assert found.form.cells == found.form.padded == (8, 12)
+    assert found.form.kernel.min() >= 0.0
+    for gentle in (BODY, film(0.5), film(2.0)):
+        assert waves_on((64, 96), gentle) is None
+    for shape in ((65, 96), (64, 92), (24, 64), (512, 1)):
+        assert waves_on(shape, stiff) is None
+    assert waves_on((64, 64), stiff, (1.0, 3.0)) is None
+    free = waves_of(asp.prepare_operator(stiff, grid((65, 90)), asp.Free()))
+    assert free is not None
+    assert free.form.cells == (9, 13)  # room for cells that begin up to seven points outside
+
+
+def test_the_inverse_with_waves_is_nearly_symmetric_and_positive() -> None:
+    """It is the same matrix for all loads but for the length of the inner step, which they decide: measured 2e-5."""
+    rng = np.random.default_rng(2)
+    inside = rough_set((64, 64), 0.3, 11)
+    tools, face = on_set(inside, film(10.0))
+    cells = NestedCells(tools, face)
+    a, b = (face.pick(rng.standard_normal(inside.shape))[0] for _ in range(2))
+    ab, aa = cells.solve(b, a, face.zeros()).second, cells.solve(a, a, face.zeros()).first
+    ba, bb = cells.solve(a, b, face.zeros()).second, cells.solve(b, b, face.zeros()).first
+    assert abs(ab - ba) < 1e-3 * np.sqrt(aa * bb)
+    assert min(aa, bb) > 0.0
+
+
+def test_waves_do_not_depend_on_the_number_of_threads() -> None:
+    inside = rough_set((256, 256), 0.3, 5)
+    r, found = np.random.default_rng(6).standard_normal(inside.shape), []
+    for threads in (1, 2, 3):
+        tools, face = on_set(inside, film(10.0), engine=asp.CpuEngine(threads))
+        picked, _ = face.pick(r)
+        found.append(NestedCells(tools, face).solve(picked, picked, face.zeros()).vector)
+    assert np.array_equal(found[0], found[1])
+    assert np.array_equal(found[0], found[2])
 
 
 def test_full_contact_is_left_to_the_inverse_that_is_exact_there() -> None:

@@ -17,7 +17,7 @@ import asperity as asp
 from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
 from asperity.core.arrays import RealArray
-from asperity.core.engine import Engine, Hierarchy, Load, Merge
+from asperity.core.engine import CellWaves, Engine, Hierarchy, Load, Merge
 from asperity.core.engine.neighbourhood import SIDE, local_means
 
 REFERENCE = asp.CpuEngine(1)
@@ -354,7 +354,7 @@ def test_an_empty_face(engine: Engine, dtype: str) -> None:
     _, *sums = face.gather(engine.array(np.ones((3, 4)), dtype), r, r, face.zeros())
     assert sums == [0.0, 0.0, 0.0]
     assert face.move(p, face.zeros(), 1.0, None) == (Load(0.0, 0.0, 0), 0)
-    cells = engine.cells((3, 4), (HIERARCHY,), dtype)
+    cells = engine.cells((3, 4), (HIERARCHY, SHIFTED), None, dtype)
     cells.restrict(face)
     assert list(cells.solve(face, r, r, face.zeros())[1:]) == [0.0, 0.0, 0.0]
     engine.release(face, field)
@@ -414,7 +414,7 @@ def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
 def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str, wraps: bool) -> None:
     rng = np.random.default_rng(shape)
     hierarchies = (HIERARCHY, rolled(shape) if wraps else SHIFTED)
-    cells = engine.cells(shape, hierarchies, dtype)
+    cells = engine.cells(shape, hierarchies, None, dtype)
     for share in (0.2, 0.6, 1.0):  # the same buffers for one set after the other
         inside = rng.uniform(size=shape) < share
         p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
@@ -446,7 +446,7 @@ def test_nested_cells_deflect_under_a_change_elsewhere(engine: Engine, shape: tu
     """Whatever they were prepared for before. Points that change and are watched both deflect by their cells alone."""
     rng = np.random.default_rng(shape)
     hierarchies = (HIERARCHY, SHIFTED)
-    cells = engine.cells(shape, hierarchies, dtype)
+    cells = engine.cells(shape, hierarchies, None, dtype)
     masks = [rng.uniform(size=shape) < share for share in (0.4, 0.7)]
     changed, watched = (
         engine.survey(
@@ -470,6 +470,119 @@ def test_nested_cells_deflect_under_a_change_elsewhere(engine: Engine, shape: tu
     wanted = np.where(masks[1].ravel(), laid(watched, r) - 0.3 * (model @ given), 0.0)
     found = laid(watched, cells.relieved(watched, r, changed, load, 0.3))
     np.testing.assert_allclose(found, wanted, atol=100.0 * EPS[dtype] * (1.0 + np.abs(given).sum()))
+
+
+def hierarchy_of_waves(periodic: bool) -> tuple[Hierarchy, Hierarchy]:
+    """Cells of weights that fall off from level to level, until few are left."""
+    weights = (0.4, 0.15, 0.05, 0.02, 0.01)
+    if periodic:
+        merges = tuple(Merge(True, True, 0, 0, weight) for weight in weights)
+        return Hierarchy(merges), Hierarchy(merges, (5, 3))
+    first, second = (
+        tuple(Merge(True, True, (k + one) % 2, (k + one + 1) % 2, weight) for k, weight in enumerate(weights))
+        for one in (0, 1)
+    )
+    return Hierarchy(first), Hierarchy(second)
+
+
+def waves_on(shape: tuple[int, int], periodic: bool) -> CellWaves:
+    """Convolution on cells of 4 x 4 points, from positive coefficients that fall off with distance."""
+    nx, ny = (n // 4 if periodic else n // 4 + 1 for n in shape)
+    padded = (nx, ny) if periodic else (2 * nx - 1, 2 * ny)
+    x, y = (np.minimum(np.arange(n), n - np.arange(n)) for n in padded)
+    response = 0.1 * np.exp(-0.8 * np.hypot(x[:, None], y[None, :]))
+    kernel = np.fft.rfft2(response).real
+    assert kernel.min() > 0.0
+    return CellWaves(2, kernel, (nx, ny), padded)
+
+
+def places(shape: tuple[int, int], hierarchy: Hierarchy, depth: int) -> tuple[Any, Any]:
+    """Cell of the level along x and y of every point."""
+    x, y = ((axis.ravel() + roll) % n for axis, roll, n in zip(np.indices(shape), hierarchy.roll, shape, strict=True))
+    for merge in hierarchy.merges[:depth]:
+        x, y = (x + merge.offset_x) // 2, (y + merge.offset_y) // 2
+    return x, y
+
+
+def one_step(
+    shape: tuple[int, int], hierarchy: Hierarchy, waves: CellWaves, inside: RealArray, r: RealArray
+) -> RealArray:
+    """One step of conjugate gradients from the answer of nested cells, for the loads f on cells, by dense matrices."""
+    low = cells_matrix(shape, Hierarchy(hierarchy.merges[: waves.depth - 1], hierarchy.roll))[np.ix_(inside, inside)]
+    x, y = (axis[inside] for axis in places(shape, hierarchy, waves.depth))
+    cell, inverse = np.unique(x * waves.cells[1] + y, return_inverse=True)
+    member = np.zeros((x.size, cell.size))
+    member[np.arange(x.size), inverse] = 1.0
+    cx, cy = np.divmod(cell, waves.cells[1])
+    response = np.fft.irfft2(waves.kernel, s=waves.padded)
+    a = response[np.subtract.outer(cx, cx) % waves.padded[0], np.subtract.outer(cy, cy) % waves.padded[1]]
+    model = np.zeros_like(a)
+    for number, merge in enumerate(hierarchy.merges[waves.depth - 1 :]):
+        if number:
+            cx, cy = (cx + merge.offset_x) // 2, (cy + merge.offset_y) // 2
+        model += merge.weight * ((cx[:, None] == cx) & (cy[:, None] == cy))
+    below = np.linalg.inv(low)
+    passed, unit = member.T @ below @ r, np.diag(member.T @ below @ member)
+    nested = np.linalg.inv(np.diag(1.0 / unit) + model)
+    f = nested @ (passed / unit)
+    residual = passed / unit - f / unit - a @ f
+    t = nested @ residual
+    f = f + (t @ residual) / (t @ (t / unit + a @ t)) * t
+    return np.asarray(below @ (r - member @ ((passed - f) / unit)))
+
+
+@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
+@pytest.mark.parametrize("shape", [(16, 16), (24, 32)], ids=str)
+@pytest.mark.parametrize("periodic", [True, False], ids=["round", "free"])
+@every_type
+def test_cells_with_waves_take_one_step_of_conjugate_gradients(
+    engine: Engine, shape: tuple[int, int], periodic: bool, dtype: str
+) -> None:
+    rng = np.random.default_rng(shape)
+    hierarchies, waves = hierarchy_of_waves(periodic), waves_on(shape, periodic)
+    cells = engine.cells(shape, hierarchies, waves, dtype)
+    for share in (0.1, 0.6, 1.0):
+        inside = rng.uniform(size=shape) < share
+        p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
+        arrays = (engine.array(values, "float64") for values in (p, np.where(inside, 0.0, 100.0), h))
+        face = engine.survey(*arrays, None).face(-10.0, 1.0, dtype)
+        cells.restrict(face)
+        r = face.residual(centred=False)
+        z, total, first, _ = cells.solve(face, r, r, face.zeros())
+        field = engine.zeros(shape, dtype)
+        face.lay(r, field)
+        load = engine.numpy(field).astype(float)[inside]
+        face.lay(z, field)
+        found = engine.numpy(field).astype(float)
+        chosen = inside.ravel()
+        wanted = np.mean([one_step(shape, hierarchy, waves, chosen, load) for hierarchy in hierarchies], axis=0)
+        tolerance = 100.0 * EPS[dtype] * (1.0 + np.abs(load).sum())
+        np.testing.assert_allclose(found[inside], wanted, atol=tolerance)
+        assert not found[~inside].any()
+        assert total == pytest.approx(wanted.sum(), abs=tolerance * load.size)
+        assert first == pytest.approx(wanted @ load, abs=tolerance * load.size)
+
+
+@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
+def test_waves_that_nested_cells_can_tell_are_inverted_exactly(engine: Engine) -> None:
+    """Constants over cells of the level and over the whole grid: the guess is the answer, and the step is none."""
+    shape, own, everywhere = (16, 16), 0.05, 0.003
+    merges = tuple(Merge(True, True, 0, 0, weight) for weight in (0.4, own, 0.0, everywhere))
+    hierarchies = Hierarchy(merges), Hierarchy(merges, (5, 3))
+    kernel = np.full((4, 3), own)
+    kernel[0, 0] += everywhere * 16
+    rng = np.random.default_rng(3)
+    inside = rng.uniform(size=shape) < 0.4
+    arrays = (engine.array(np.where(inside, *pair), "float64") for pair in ((1.0, 0.0), (0.0, 100.0)))
+    face = engine.survey(*arrays, engine.array(rng.standard_normal(shape), "float64"), None).face(0.0, 1.0, "float64")
+    r, found = face.residual(centred=False), []
+    for waves in (None, CellWaves(2, kernel, (4, 4), (4, 4))):
+        cells = engine.cells(shape, hierarchies, waves, "float64")
+        cells.restrict(face)
+        field = engine.zeros(shape, "float64")
+        face.lay(cells.solve(face, r, r, face.zeros()).vector, field)
+        found.append(engine.numpy(field))
+    np.testing.assert_allclose(found[1], found[0], atol=1e-13 * np.abs(found[0]).max())
 
 
 @every_cap

@@ -46,19 +46,19 @@ class FreeOperator:
         self._influence = boundary.influence(compliance, grid)
         self._prepared: dict[tuple[str, float], Convolution] = {}
         self._preconditioners: dict[tuple[str, float], Convolution] = {}
-        self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
-        self.pairs_per_application = 0.75 * self._padded[0] * self._padded[1] / grid.n_points  # pruned along y
+        self.padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
+        self.pairs_per_application = 0.75 * self.padded[0] * self.padded[1] / grid.n_points  # pruned along y
 
     @cached_property
     def kernel(self) -> RealArray:
         """Transform of the influence coefficients (m/Pa) on the padded grid."""
-        return RealTransform(self._padded).forward(wrapped(self._influence, self._padded)).real.copy()
+        return RealTransform(self.padded).forward(wrapped(self._influence, self.padded)).real.copy()
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         if (dtype, scale) not in self._prepared:
             kernel = self.kernel if scale == 1.0 else self.kernel / scale
-            self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self._padded, dtype)
+            self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self.padded, dtype)
         return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:

@@ -46,6 +46,11 @@ class PeriodicOperator:
         self._prepared: dict[tuple[str, float], Convolution] = {}
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
 
+    @property
+    def padded(self) -> tuple[int, int]:
+        """Shape of the grid of the kernel: no padding."""
+        return self.grid.shape
+
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         if (dtype, scale) not in self._prepared:

@@ -43,6 +43,10 @@ class Operator(Protocol):
         """Compliance (m/Pa) on the half spectrum of the grid or of its padded form; the largest entry sets the scale."""
 
     @property
+    def padded(self) -> tuple[int, int]:
+        """Shape of the grid whose half spectrum ``kernel`` holds."""
+
+    @property
     def coarsened(self) -> Operator:
         """Operator of the same solid on half as many points per side."""
 

@@ -25,8 +25,8 @@ _SQUARE = 1.5
 
 def hierarchies(compliance: Compliance, grid: Grid, *, periodic: bool) -> tuple[Hierarchy, Hierarchy]:
     """Nested cells on ``grid`` that follow the normal ``compliance``, as square as its pixels allow."""
-    merges = _merges(grid)
-    sides, points = _octaves(grid, merges)
+    merges = merges_of(grid)
+    sides, points = octaves(grid, merges)
     detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
     weights = np.diff(detail) / points[1:] / detail[0]
     if periodic:
@@ -52,11 +52,11 @@ def _third(n: int) -> int:
 
 def pixel_compliance(compliance: Compliance, grid: Grid) -> float:
     """Deflection (m/Pa) of a point of ``grid`` under its own pressure, in the model of nested cells."""
-    sides, _ = _octaves(grid, _merges(grid))
+    sides, _ = octaves(grid, merges_of(grid))
     return float(np.asarray(compliance.spectral(np.pi / sides[:1]))[0])
 
 
-def _merges(grid: Grid) -> list[tuple[bool, bool]]:
+def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
     """Axes along which the cells of each level merge in pairs, until one cell is left."""
     counts, sides = list(grid.shape), list(grid.spacing)
     merges: list[tuple[bool, bool]] = []
@@ -70,7 +70,7 @@ def _merges(grid: Grid) -> list[tuple[bool, bool]]:
     return merges
 
 
-def _octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, RealArray]:
+def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, RealArray]:
     """Side (m) of the cells of every level along the axes in which they merge, and their number of points."""
     cell, points, sides, numbers = list(grid.spacing), 1.0, [], []
     for x, y in (*merges, merges[-1]):

@@ -106,7 +106,8 @@ def correction(
     first, pairs, taken, reached = 0.0, 0.0, 0, False
     if beside is not None and beside.pending is not None:
         d, r, first = _together(system, inverse, r, last, beside, (d, z))
-        last, pairs, taken = None, tools.operator.pairs_per_application, 1
+        last, taken = None, 1
+        pairs = tools.operator.pairs_per_application + (inverse.pairs if first else 0.0)
     while taken < effort.limit:
         z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
         pairs += inverse.pairs

@@ -31,11 +31,10 @@ class Preconditioner(Protocol):
 
 
 class NestedCells:
-    """Inverse of the compliance of nested cells (see ``cells``)."""
-
-    pairs = 0.0
+    """Inverse of the compliance of nested cells, and of waves on the larger of them (see ``cells``, ``cell_waves``)."""
 
     def __init__(self, tools: Bench, face: Face) -> None:
+        self.pairs = 0.0 if tools.waves is None else tools.waves.pairs
         self._cells = tools.cells
         self._unit = tools.cell_unit
         self._face = face

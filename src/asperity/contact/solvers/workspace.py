@@ -12,6 +12,7 @@ from ...core.arrays import RealArray
 from ...core.engine import Cells, Convolution, Engine
 from ..boundary import Periodic
 from ..operators.protocol import Operator
+from .cell_waves import Waves, waves_of
 from .cells import hierarchies, pixel_compliance
 from .protocol import ContactQP, FixedOffset
 
@@ -40,9 +41,15 @@ class Bench:
     @cached_property
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
-        periodic = isinstance(self.operator.boundary, Periodic)
-        nested = hierarchies(self.operator.compliance, self.operator.grid, periodic=periodic)
-        return self.engine.cells(self.operator.grid.shape, nested, self.dtype)
+        operator = self.operator
+        nested = hierarchies(operator.compliance, operator.grid, periodic=isinstance(operator.boundary, Periodic))
+        waves = None if self.waves is None else self.waves.form
+        return self.engine.cells(operator.grid.shape, nested, waves, self.dtype)
+
+    @cached_property
+    def waves(self) -> Waves | None:
+        """True compliance that takes the place of large cells, where it can."""
+        return waves_of(self.operator)
 
     @cached_property
     def cell_unit(self) -> float:

@@ -2,10 +2,24 @@
 
 from .cpu import CpuEngine
 from .generic import ArrayEngine
-from .protocol import Cells, Convolution, Engine, Face, Hierarchy, Load, Merge, Products, Survey, Totals, Violation
+from .protocol import (
+    Cells,
+    CellWaves,
+    Convolution,
+    Engine,
+    Face,
+    Hierarchy,
+    Load,
+    Merge,
+    Products,
+    Survey,
+    Totals,
+    Violation,
+)
 
 __all__ = [
     "ArrayEngine",
+    "CellWaves",
     "Cells",
     "Convolution",
     "CpuEngine",

@@ -39,6 +39,11 @@ class Blocks:
         """Sweeps over nested cells."""
         return import_module(".cell_kernels", __package__)
 
+    @cached_property
+    def wave_kernels(self) -> Any:
+        """Sweeps over nested cells that end at a convolution."""
+        return import_module(".wave_kernels", __package__)
+
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
         blocks = -(-size // self.kernels.BLOCK)

@@ -21,7 +21,7 @@ START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL
 
 
 @compiled
-def _collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
+def collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
     """First level of cells: s = sum of the values of its points; unit values where ``values`` is empty."""
     unit = values.size == 0
     one = s.dtype.type(1.0)
@@ -83,12 +83,30 @@ def _spread_down(above, level, weight, g, s):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _top_down(level, weight, g, s):  # type: ignore[no-untyped-def]
-    """s = g weight s on the coarsest level, which has no parent."""
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(base, base + level[COLUMNS]):
-            s[j] *= g[j] * weight
+def rise(levels, first, last, g, s):  # type: ignore[no-untyped-def]
+    """s of the levels beyond the ``first`` up to the ``last``."""
+    for depth in range(first + 1, last + 1):
+        _sum_up(levels[depth - 1], levels[depth], g, s)
+
+
+@compiled
+def fall(levels, weights, first, last, g, s):  # type: ignore[no-untyped-def]
+    """Deflections, in s, of the levels below the ``first`` down to the ``last``."""
+    for depth in range(first - 1, last - 1, -1):
+        _spread_down(levels[depth + 1], levels[depth], weights[depth], g, s)
+
+
+@compiled
+def bounce(levels, weights, depth, g, s):  # type: ignore[no-untyped-def]
+    """Deflections, in s, of the level ``depth`` under its sums s: up to the coarsest, which has no parent, and down."""
+    last = levels.shape[0] - 1
+    rise(levels, depth, last, g, s)
+    top = levels[last]
+    for cell in range(top[ROWS]):
+        base = top[START] + cell * top[STRIDE]
+        for j in range(base, base + top[COLUMNS]):
+            s[j] *= g[j] * weights[last]
+    fall(levels, weights, last, depth, g, s)
 
 
 @compiled
@@ -99,7 +117,7 @@ def stiffen(span, levels, weights, shape, rows, index, nothing, g, s):  # type: 
         for depth in range(1, last + 1):
             level = levels[hierarchy, depth]
             if depth == 1:
-                _collect(level, shape, rows, index, nothing, s)
+                collect(level, shape, rows, index, nothing, s)
             else:
                 _sum_up(levels[hierarchy, depth - 1], level, g, s)
             weight = weights[depth]
@@ -113,13 +131,8 @@ def stiffen(span, levels, weights, shape, rows, index, nothing, g, s):  # type: 
 def deflect(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
     """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads ``values``."""
     for hierarchy in range(span[0], span[1]):
-        last = levels.shape[1] - 1
-        _collect(levels[hierarchy, 1], shape, rows, index, values, s)
-        for depth in range(2, last + 1):
-            _sum_up(levels[hierarchy, depth - 1], levels[hierarchy, depth], g, s)
-        _top_down(levels[hierarchy, last], weights[last], g, s)
-        for depth in range(last - 1, 0, -1):
-            _spread_down(levels[hierarchy, depth + 1], levels[hierarchy, depth], weights[depth], g, s)
+        collect(levels[hierarchy, 1], shape, rows, index, values, s)
+        bounce(levels[hierarchy], weights, 1, g, s)
 
 
 @compiled

@@ -12,8 +12,9 @@ from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
 from .blocks import FEW, Blocks
 from .cpu_cells import CpuCells
 from .cpu_face import ROW_PAD, CpuFace, bound, memory
+from .cpu_waves import CpuWaves
 from .neighbourhood import SIDE, local_means
-from .protocol import Cells, Convolution, Face, Hierarchy, Totals, Violation
+from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Totals, Violation
 
 
 class CpuEngine:
@@ -54,9 +55,19 @@ class CpuEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads), kernel, dtype)
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
-        """Nested cells."""
-        return CpuCells(self.blocks, shape, hierarchies, dtype)
+    def cells(
+        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+    ) -> Cells:
+        """Nested cells. Two hierarchies work side by side, so their transforms share the threads."""
+        cells = CpuCells(self.blocks, shape, hierarchies, dtype)
+        if waves is None:
+            return cells
+        threads = max(1, self.threads // len(hierarchies))
+        parts = waves.cells, waves.padded
+        transform = RealTransform(parts[0], threads) if parts[0] == parts[1] else PaddedTransform(*parts, threads)
+        alone = Blocks(1)
+        products = tuple(_Convolution(alone, transform, waves.kernel, dtype) for _ in hierarchies)
+        return CpuWaves(self.blocks, cells, waves, products, dtype)
 
     def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
         """Pressure on the points of ``heights`` from a coarser one."""

@@ -20,10 +20,10 @@ class CpuCells:
     ) -> None:
         self._blocks = blocks
         self._shape = shape
-        self._levels, size = _layout(shape, hierarchies)
-        self._weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
-        self._g = np.zeros(size, dtype)
-        self._s = np.zeros(size, dtype)
+        self.levels, size = _layout(shape, hierarchies)
+        self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
+        self.g = np.zeros(size, dtype)
+        self.s = np.zeros(size, dtype)
         self._nothing = np.empty(0, dtype)
 
     def restrict(self, face: Face) -> None:
@@ -33,19 +33,20 @@ class CpuCells:
     def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``."""
         self._sweep("deflect", face, r)
-        return self._relieved(face, r, other, out)
+        return self.at_points(face, r, other, out)
 
     def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
         """r - factor times the deflection of the cells, which pass everything on: g = 1, and 0 on the rims."""
-        for start, nx, ny, stride in self._levels[:, 1:, :4].reshape(-1, 4):
-            self._g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
+        for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
+            self.g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
         self._sweep("deflect", loaded, change * change.dtype.type(factor))
-        return np.asarray(self._relieved(face, r, r, np.empty_like(r)).vector)
+        return np.asarray(self.at_points(face, r, r, np.empty_like(r)).vector)
 
-    def _relieved(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+    def at_points(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """``r`` less the deflections of the finest cells that lie in s."""
         assert isinstance(face, CpuFace)
         sums = np.zeros((self._shape[0], 3))
-        arguments = (self._levels, self._shape, face.rows, face.index, r, other, self._s, out, sums)
+        arguments = (self.levels, self._shape, face.rows, face.index, r, other, self.s, out, sums)
         relieve = self._blocks.cell_kernels.relieve
         self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
         total, first, second = (float(value) for value in sums.sum(axis=0))
@@ -53,9 +54,9 @@ class CpuCells:
 
     def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
         assert isinstance(face, CpuFace)
-        arguments = (self._levels, self._weights, self._shape, face.rows, face.index, values, self._g, self._s)
+        arguments = (self.levels, self.weights, self._shape, face.rows, face.index, values, self.g, self.s)
         call = getattr(self._blocks.cell_kernels, kernel)
-        self._blocks.share(call, len(self._levels), *arguments, alone=self._g.size < FEW)
+        self._blocks.share(call, len(self.levels), *arguments, alone=self.g.size < FEW)
 
 
 def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:

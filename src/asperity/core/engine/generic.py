@@ -10,7 +10,7 @@ from ..arrays import RealArray
 from .generic_cells import ArrayCells
 from .generic_survey import ArraySurvey
 from .library import Library, bound, compat
-from .protocol import Cells, Convolution, Face, Hierarchy, Violation
+from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Violation
 
 
 class ArrayEngine:
@@ -53,9 +53,14 @@ class ArrayEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self._library, kernel, shape, padded, dtype)
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
+    def cells(
+        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+    ) -> Cells:
         """Nested cells."""
-        return ArrayCells(self._library, hierarchies, dtype)
+        product = None
+        if waves is not None:
+            product = _Convolution(self._library, waves.kernel, waves.cells, waves.padded, dtype)
+        return ArrayCells(self._library, hierarchies, waves, product, dtype)
 
     def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
         """Pressure on the points of ``heights`` from a coarser one."""

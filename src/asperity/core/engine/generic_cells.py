@@ -6,17 +6,26 @@ from typing import Any
 
 from .generic_face import ArrayFace
 from .library import Library
-from .protocol import Face, Hierarchy, Merge, Products
+from .protocol import CellWaves, Convolution, Face, Hierarchy, Merge, Products
 
 
 class ArrayCells:
-    """Exact inverse of nested cells on a working set."""
+    """Inverse of nested cells on a working set, exact without ``waves`` (see ``wave_kernels`` for the step with them)."""
 
-    def __init__(self, library: Library, hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> None:
+    def __init__(
+        self,
+        library: Library,
+        hierarchies: tuple[Hierarchy, Hierarchy],
+        waves: CellWaves | None,
+        product: Convolution | None,
+        dtype: str,
+    ) -> None:
         self._library = library
         self._hierarchies = hierarchies
+        self._waves = waves
+        self._product = product
         self._dtype = dtype
-        self._stiff: tuple[list[Any], ...] = ()
+        self._stiff: tuple[tuple[list[Any], list[Any]], ...] = ()
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
@@ -35,31 +44,72 @@ class ArrayCells:
         return face.products(z, r, other)
 
     def relieved(self, face: Face, r: Any, loaded: Face, change: Any, factor: float) -> Any:
-        """r - factor times the deflection of the cells."""
+        """r - factor times the deflection of nested cells."""
         assert isinstance(face, ArrayFace)
-        ones = tuple([1.0] * len(hierarchy.merges) for hierarchy in self._hierarchies)
+        ones: tuple[tuple[list[Any], list[Any]], ...]
+        ones = tuple(([1.0] * len(hierarchy.merges), []) for hierarchy in self._hierarchies)
         return r - float(factor) * self._library.select(face.inside, self._mean_deflection(ones, change))
 
-    def _mean_deflection(self, stiff: tuple[list[Any], ...], load: Any) -> Any:
+    def _mean_deflection(self, stiff: tuple[tuple[list[Any], list[Any]], ...], load: Any) -> Any:
         """Mean over the hierarchies of the deflection of the points by the cells they lie in."""
         roll, deflection = self._library.xp.roll, self._library.xp.zeros_like(load)
-        for hierarchy, g in zip(self._hierarchies, stiff, strict=True):
+        for hierarchy, (g, units) in zip(self._hierarchies, stiff, strict=True):
             back = (-hierarchy.roll[0], -hierarchy.roll[1])
-            moved = self._deflected(hierarchy.merges, g, roll(load, hierarchy.roll, axis=(0, 1)))
+            moved = self._deflected(hierarchy.merges, g, units, roll(load, hierarchy.roll, axis=(0, 1)))
             deflection = deflection + roll(moved, back, axis=(0, 1))
         return deflection / float(len(self._hierarchies))
 
-    def _stiffened(self, merges: tuple[Merge, ...], passed: Any) -> list[Any]:
-        """g = 1 / (1 + w T) on every level of a hierarchy, from the sums ``passed`` up by single points."""
-        levels = []
+    def _stiffened(self, merges: tuple[Merge, ...], passed: Any) -> tuple[list[Any], list[Any]]:
+        """g = 1 / (1 + w T) and T on every level of a hierarchy, from the sums ``passed`` up by single points."""
+        levels, units = [], []
         for merge in merges:
-            total = self._summed(passed, merge)
-            levels.append(1.0 / (1.0 + merge.weight * total))
-            passed = levels[-1] * total
-        return levels
+            units.append(self._summed(passed, merge))
+            levels.append(1.0 / (1.0 + merge.weight * units[-1]))
+            passed = levels[-1] * units[-1]
+        return levels, units
 
-    def _deflected(self, merges: tuple[Merge, ...], g: list[Any], passed: Any) -> Any:
-        """Deflection of the points by the cells they lie in under the loads ``passed`` up by the points."""
+    def _deflected(self, merges: tuple[Merge, ...], g: list[Any], units: list[Any], passed: Any) -> Any:
+        """Deflection of points by the cells they lie in under the loads ``passed`` up by them; without ``units`` no waves."""
+        if self._waves is None or not units:
+            return self._by_cells(merges, g, passed)
+        depth, sums, shapes = self._waves.depth, [], []
+        for merge, stiff in zip(merges[:depth], g, strict=False):
+            shapes.append(passed.shape)
+            sums.append(self._summed(passed, merge))
+            passed = stiff * sums[-1]
+        deflection = self._by_waves(merges[depth - 1 :], g[depth - 1 :], units[depth - 1], sums[-1])
+        for level in range(depth - 1, -1, -1):
+            deflection = _spread(self._library.xp, deflection, merges[level], shapes[level])
+            if level > 0:
+                deflection = g[level - 1] * (deflection + merges[level - 1].weight * sums[level - 1])
+        return deflection
+
+    def _by_waves(self, merges: tuple[Merge, ...], g: list[Any], unit: Any, total: Any) -> Any:
+        """Deflection of the cells of the level of the waves, the first of those given, under the loads ``total``."""
+        xp, sum_of = self._library.xp, self._library.xp.sum
+        guess = self._of_level(merges, g, total)
+        residual = guess - self._convolved(total - unit * guess)
+        step = residual - self._of_level(merges, g, unit * residual)
+        t = unit * step
+        curvature = sum_of(t * (step + self._convolved(t)), dtype=xp.float64)
+        product = sum_of(t * residual, dtype=xp.float64)
+        safe = xp.where(curvature > 0.0, curvature, xp.ones_like(curvature))
+        return guess - xp.astype(xp.where(curvature > 0.0, product / safe, xp.zeros_like(product)), t.dtype) * step
+
+    def _of_level(self, merges: tuple[Merge, ...], g: list[Any], total: Any) -> Any:
+        """Deflection of the cells of the first level given, under the loads ``total``, by nested cells from there on."""
+        return g[0] * (self._by_cells(merges[1:], g[1:], g[0] * total) + merges[0].weight * total)
+
+    def _convolved(self, loads: Any) -> Any:
+        """True deflection of cells under ``loads``."""
+        assert self._waves is not None
+        assert self._product is not None
+        (nx, ny), out = loads.shape, self._library.zeros(self._waves.cells, self._dtype)
+        out[:nx, :ny] = loads
+        return self._product.apply(out, out)[:nx, :ny]
+
+    def _by_cells(self, merges: tuple[Merge, ...], g: list[Any], passed: Any) -> Any:
+        """Deflection of parts by the cells they lie in under the loads ``passed`` up by them."""
         sums, shapes = [], []
         for merge, stiff in zip(merges, g, strict=True):
             shapes.append(passed.shape)

@@ -82,6 +82,21 @@ class Hierarchy:
     roll: tuple[int, int] = (0, 0)
 
 
+@dataclass(frozen=True, eq=False)
+class CellWaves:
+    """True compliance of pressures constant on the cells of level ``depth``, in place of constants from there on up.
+
+    ``kernel`` is the half spectrum, on the grid ``padded``, of a convolution of fields of the shape ``cells`` (at least
+    that of the level): deflection by unit loads on cells, as in ``Merge``, beyond what the levels below give. It is not
+    negative. On a periodic grid ``padded`` is ``cells``.
+    """
+
+    depth: int
+    kernel: RealArray
+    cells: tuple[int, int]
+    padded: tuple[int, int]
+
+
 class Convolution(Protocol):
     """Prepared product with a real, even kernel in Fourier space; owns its buffers."""
 
@@ -153,7 +168,10 @@ class Face(Protocol):
 
 
 class Cells(Protocol):
-    """A compliance of nested cells and its exact inverse on a working set; the mean over two hierarchies."""
+    """A compliance of nested cells and its inverse on a working set; the mean over two hierarchies.
+
+    The inverse is exact without waves; with them but for the loads on their cells, found by one step of conjugate gradients.
+    """
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
@@ -211,7 +229,9 @@ class Engine(Protocol):
     ) -> Convolution:
         """Free convolution: fields of ``shape`` zero-padded to ``padded``, where ``kernel`` lives."""
 
-    def cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> Cells:
+    def cells(
+        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+    ) -> Cells:
         """Nested cells on points of ``shape``, for vectors of the precision ``dtype``."""
 
     def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
