@@ -23,15 +23,14 @@ class CpuWaves:
         self._cells = cells
         self._depth = waves.depth
         self._products = products
-        self._unit, self._guess, self._step, self._field, self._response = (
-            np.zeros((len(products), *waves.cells), dtype) for _ in range(5)
-        )
+        self._fields = np.zeros((len(products), 5, *waves.cells), dtype)
 
     def restrict(self, face: Face) -> None:
         """Prepare for the points of ``face``."""
         self._cells.restrict(face)
-        for levels, unit in zip(self._cells.levels, self._unit, strict=True):
-            self._blocks.wave_kernels.take(levels[self._depth], self._cells.s, unit)
+        kernels = self._blocks.wave_kernels
+        for levels, fields in zip(self._cells.levels, self._fields, strict=True):
+            kernels.take(levels[self._depth], self._cells.s, fields[kernels.UNIT])
 
     def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, nearly."""
@@ -47,14 +46,12 @@ class CpuWaves:
         """Deflections of the finest cells of the hierarchies of the span."""
         kernels: Any = self._blocks.wave_kernels
         cells = self._cells
-        points = face.shape, face.rows, face.index, r
         for number in range(*span):
-            tower = cells.levels[number], cells.weights, self._depth
-            guess, step, field, response = (
-                arrays[number] for arrays in (self._guess, self._step, self._field, self._response)
-            )
-            kernels.begin(*tower, *points, cells.g, cells.s, self._unit[number], guess, field)
-            self._products[number].apply(field, response)
-            product = kernels.improve(*tower, cells.g, cells.s, self._unit[number], guess, response, step, field)
-            self._products[number].apply(field, response)
-            kernels.finish(*tower, product, cells.g, cells.s, guess, response, step, field)
+            tower = cells.levels[number], cells.weights, cells.g, cells.s, self._depth
+            fields, apply = self._fields[number], self._products[number].apply
+            field, response = fields[kernels.FIELD], fields[kernels.RESPONSE]
+            kernels.begin(tower, face.shape, face.rows, face.index, r, fields)
+            apply(field, response)
+            product = kernels.improve(tower, fields)
+            apply(field, response)
+            kernels.finish(tower, fields, product)

@@ -3,7 +3,9 @@
 With S and T what the levels below pass up for given and for unit loads, the loads f on the cells follow from
 (1/T + A) f = S/T, and the deflections are d = A f = (S - f)/T. Nested cells from there on up give a guess d0 and hence
 f0 = S - T d0, whose residual is d0 - A f0; one step of conjugate gradients follows, preconditioned by nested cells again.
-The arrays ``unit`` (T), ``guess`` (d0), ``step`` and ``field`` hold a number for each cell of the level.
+
+``tower`` holds what ``cell_kernels`` has of one hierarchy (levels, weights, g and s) and the number of the level; ``fields``
+for each cell of the level T, d0, the direction t of the step over T, and what goes into a product with A and comes out of it.
 """
 
 from __future__ import annotations
@@ -12,6 +14,8 @@ import numpy as np
 
 from .cell_kernels import COLUMNS, ROWS, START, STRIDE, bounce, collect, fall, rise
 from .kernels import compiled
+
+UNIT, GUESS, STEP, FIELD, RESPONSE = range(5)
 
 
 @compiled
@@ -24,8 +28,10 @@ def take(level, s, unit):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def begin(levels, weights, depth, shape, rows, index, values, g, s, unit, guess, field):  # type: ignore[no-untyped-def]
-    """Guess by nested cells under the loads ``values`` of points; field = f0."""
+def begin(tower, shape, rows, index, values, fields):  # type: ignore[no-untyped-def]
+    """Guess by nested cells under the loads ``values`` of points; f0 goes into a product."""
+    levels, weights, g, s, depth = tower
+    unit, guess, field = fields[UNIT], fields[GUESS], fields[FIELD]
     collect(levels[1], shape, rows, index, values, s)
     rise(levels, 1, depth, g, s)
     take(levels[depth], s, field)
@@ -39,8 +45,10 @@ def begin(levels, weights, depth, shape, rows, index, values, g, s, unit, guess,
 
 
 @compiled
-def improve(levels, weights, depth, g, s, unit, guess, response, step, field):  # type: ignore[no-untyped-def]
-    """From response = A f0: step = direction t over T, field = t; its product with the residual is returned."""
+def improve(tower, fields):  # type: ignore[no-untyped-def]
+    """A f0 came out of the product, t goes into the next; its product with the residual is returned."""
+    levels, weights, g, s, depth = tower
+    unit, guess, step, field, response = fields[UNIT], fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
     level = levels[depth]
     for cell in range(level[ROWS]):
         base = level[START] + cell * level[STRIDE]
@@ -63,8 +71,10 @@ def improve(levels, weights, depth, g, s, unit, guess, response, step, field):  
 
 
 @compiled
-def finish(levels, weights, depth, product, g, s, guess, response, step, field):  # type: ignore[no-untyped-def]
-    """From response = A t: deflections d0 - length t / T, spread down to the finest cells."""
+def finish(tower, fields, product):  # type: ignore[no-untyped-def]
+    """A t came out of the product: deflections d0 - length t / T, spread down to the finest cells."""
+    levels, weights, g, s, depth = tower
+    guess, step, field, response = fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
     level = levels[depth]
     curvature = 0.0
     for cell in range(level[ROWS]):
