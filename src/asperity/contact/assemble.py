@@ -80,9 +80,10 @@ def assemble(
 
 def _indentation(problem: ContactProblem, state: InterfaceState | None, permanent: RealArray) -> dict[str, Any]:
     """What a result says of the ``permanent`` indentation (nx, ny) in m that it leaves in place of that of ``state``."""
-    before = np.zeros_like(permanent) if state is None else state.permanent_indentation
-    pixel = problem.grid.pixel_area
-    work = float(work_density(problem.law, before, permanent).sum()) * pixel
+    before = np.broadcast_to(0.0, permanent.shape) if state is None else state.permanent_indentation
+    pixel, work = problem.grid.pixel_area, 0.0
+    if permanent.any():  # indentations never shrink: where there is none now there was none
+        work = float(work_density(problem.law, before, permanent).sum()) * pixel
     return {
         "permanent_indentation": permanent,
         "plastic_work": work,

@@ -36,9 +36,9 @@ _REFRESH = 1e-5
 _ROUNDING = 4.0 * np.finfo(float).eps
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Memory:
-    """What is carried from step to step.
+    """What is carried from step to step. A step takes the vectors out of it, which are many and long.
 
     Buffers; the iterate in them seen as a whole; the error when its deflection was last computed from scratch (as opposed
     to updated); how many points the last step took beyond their bounds; the last search direction; how many steps had to
@@ -129,38 +129,35 @@ class ActiveSet:
         """One working set and its correction, in the arrays of ``state``."""
         memory = state.memory
         assert isinstance(memory, _Memory)
-        level = _level(qp, memory.survey.totals)
-        face = memory.survey.face(level, qp.height_scale, memory.work.bench.dtype)
+        face = memory.survey.face(_level(qp, memory.survey.totals), qp.height_scale, memory.work.bench.dtype)
         step = self._careful_step if memory.idle is None else self._free_step
-        following = step(memory, replace(state, iterations=state.iterations + 1), face)
+        following, spent = step(_taken(memory), replace(state, iterations=state.iterations + 1), face)
         memory.work.engine.release(face, memory.work.bench.field)
-        return following
+        del face
+        return self._state(following, spent)
 
-    def _free_step(self, memory: _Memory, spent: SolverState, face: Face) -> SolverState:
+    def _free_step(self, memory: _Memory, spent: SolverState, face: Face) -> tuple[_Memory, SolverState]:
         """Step after which points may pull.
 
         What clearing those of the step before deflects comes with the first product of this one, and each product is
         added to the deflection as it is found: nothing else needs a transform.
         """
         work, centred = memory.work, isinstance(memory.work.qp.constraint, FixedMean)
-        effort, r, last = (
-            self._effort(memory, face, spent.error),
-            face.residual(centred=centred),
-            _carried(memory, face),
-        )
+        effort, r = self._effort(memory, face, spent.error), face.residual(centred=centred)
+        last, memory.last = _carried(memory, face), None
         pending = None
         if memory.face is not None and memory.clipped:
             pending = brought_back(work, memory.face, memory.survey.totals.pressure)
+            memory.face = None
         beside = Beside(pending, _following(work))
         found = correction(System(work.bench, face, centred), r, last, effort, beside)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
         clipped, pull = free_move(work, face, found.d)
-        memory = replace(memory, survey=_survey(work), clipped=clipped, last=found.last, face=face, pull=pull)
-        return self._state(memory, spent)
+        return replace(memory, survey=_survey(work), clipped=clipped, last=found.last, face=face, pull=pull), spent
 
-    def _careful_step(self, memory: _Memory, spent: SolverState, face: Face) -> SolverState:
+    def _careful_step(self, memory: _Memory, spent: SolverState, face: Face) -> tuple[_Memory, SolverState]:
         """Step clipped to the bounds and shortened where the energy would rise."""
         work, qp = memory.work, memory.work.qp
         tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
@@ -175,9 +172,9 @@ class ActiveSet:
         if share < LEAST_SHARE:
             return self._gradient_step(memory, spent)
         work.engine.add(tools.response, share * tools.scale, work.deflection)
-        return self._state(replace(memory, survey=_survey(work), clipped=clipped, last=last), spent)
+        return replace(memory, survey=_survey(work), clipped=clipped, last=last), spent
 
-    def _gradient_step(self, memory: _Memory, spent: SolverState) -> SolverState:
+    def _gradient_step(self, memory: _Memory, spent: SolverState) -> tuple[_Memory, SolverState]:
         """Step along the projected gradient from the iterate in the buffers; exhausted if not even that goes down."""
         work = memory.work
         qp, engine = work.qp, work.engine
@@ -189,8 +186,7 @@ class ActiveSet:
         work.pressure[...] = engine.array(lower.pressure, work.dtype)
         work.exact.apply(work.pressure, work.deflection)
         spent = replace(spent, applications=lower.applications + 3, exhausted=lower.exhausted)
-        memory = _Memory(work, _survey(work), memory.computed_at, clipped=1, setbacks=memory.setbacks + 1)
-        return self._state(memory, spent)
+        return _Memory(work, _survey(work), memory.computed_at, clipped=1, setbacks=memory.setbacks + 1), spent
 
     def _state(self, memory: _Memory, spent: SolverState) -> SolverState:
         """State at the iterate of ``memory`` with the work ``spent``.
@@ -209,8 +205,9 @@ class ActiveSet:
         if spent.iterations and due:
             if memory.face is not None:
                 brought_back(work, memory.face, memory.survey.totals.pressure)
+            memory.face = memory.last = None
             work.exact.apply(work.pressure, work.deflection)
-            memory = replace(memory, survey=_survey(work), face=None, pull=0.0)
+            memory = replace(memory, survey=_survey(work), pull=0.0)
             spent = replace(spent, applications=spent.applications + 1)
             error = _relative_error(work, memory.survey.totals)
             memory = replace(memory, computed_at=error)
@@ -230,6 +227,13 @@ class ActiveSet:
         if changed:
             return Effort(min(_REDUCTION, max(wanted, _SETTLING_REDUCTION)), _SETTLING_STEPS)
         return Effort(min(_REDUCTION, max(wanted, _SMALLEST_REDUCTION)), _SETTLED_STEPS)
+
+
+def _taken(memory: _Memory) -> _Memory:
+    """``memory`` with the vectors, which it loses."""
+    taken = replace(memory)
+    memory.last = memory.face = None
+    return taken
 
 
 def _carried(memory: _Memory, face: Face) -> Direction | None:
