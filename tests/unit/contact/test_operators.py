@@ -81,3 +81,24 @@ def test_dense_form_of_a_large_grid_is_refused():
     for boundary in (asp.Periodic(), asp.Free()):
         with pytest.raises(asp.InputError, match="at most 4096 points"):
             prepared((100, 100), boundary).matrix()
+
+
+def test_octaves_are_computed_once_for_all_grids():
+    asked = []
+
+    class Counted(HalfSpace):
+        def spectral(self, wavenumber):
+            asked.append(len(wavenumber))
+            return super().spectral(wavenumber)
+
+    body = Counted(2.0)
+    for boundary in (asp.Periodic(), asp.Free()):
+        operator = asp.prepare_operator(body, asp.Grid((64, 48), (0.3, 0.3)), boundary)
+        coarser = operator.coarsened
+        assert coarser.octaves is operator.octaves
+        asked.clear()
+        for side in (0.6, 0.3):  # the coarser grid asks first
+            q = np.pi / (side * 2.0 ** np.arange(5))
+            np.testing.assert_allclose(operator.octaves.spectral(q), body.spectral(q), rtol=1e-8)
+        assert asked.count(5) == 2  # the two of this test
+        assert len(asked) == 3

@@ -13,6 +13,7 @@ from ..boundary import Free, FreeLine
 from .application import displacement
 from .coarse import coarse_grid
 from .convolution import toeplitz_matrix
+from .octaves import Octaves
 from .periodic import spectral_kernel
 
 
@@ -31,16 +32,25 @@ class FreeOperator:
         ``Free()`` or, for strips in plane strain, ``FreeLine()``.
     engine
         Machine to compute on; the CPU with its default threads if not given.
+    octaves
+        Values of the compliance to share, from the operator of a finer grid.
     """
 
     zero_mean_mode = False
 
     def __init__(
-        self, compliance: Compliance, grid: Grid, boundary: Free | FreeLine = Free(), *, engine: Engine | None = None
+        self,
+        compliance: Compliance,
+        grid: Grid,
+        boundary: Free | FreeLine = Free(),
+        *,
+        engine: Engine | None = None,
+        octaves: Octaves | None = None,
     ) -> None:
         nx, ny = grid.shape
         self.grid = grid
         self.compliance = compliance
+        self.octaves = octaves or Octaves(compliance)
         self.boundary: Free | FreeLine = boundary
         self.engine: Engine = engine or CpuEngine()
         self._influence = boundary.influence(compliance, grid)
@@ -71,7 +81,8 @@ class FreeOperator:
     @cached_property
     def coarsened(self) -> FreeOperator:
         """Operator on the grid of half as many points per side."""
-        return FreeOperator(self.compliance, coarse_grid(self.grid), self.boundary, engine=self.engine)
+        grid = coarse_grid(self.grid)
+        return FreeOperator(self.compliance, grid, self.boundary, engine=self.engine, octaves=self.octaves)
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m) under ``pressure`` (Pa), zero at infinity (strips: at the datum)."""

@@ -14,6 +14,7 @@ from ..boundary import Boundary, Periodic
 from .application import displacement
 from .coarse import coarse_grid
 from .convolution import circulant_matrix
+from .octaves import Octaves
 
 
 class PeriodicOperator:
@@ -31,15 +32,24 @@ class PeriodicOperator:
         Machine to compute on; the CPU with its default threads if not given.
     kernel
         Compliance (m/Pa) on the half spectrum of ``grid`` where it is known already.
+    octaves
+        Values of the compliance to share, from the operator of a finer grid.
     """
 
     pairs_per_application = 1.0
 
     def __init__(
-        self, compliance: Compliance, grid: Grid, *, engine: Engine | None = None, kernel: RealArray | None = None
+        self,
+        compliance: Compliance,
+        grid: Grid,
+        *,
+        engine: Engine | None = None,
+        kernel: RealArray | None = None,
+        octaves: Octaves | None = None,
     ) -> None:
         self.grid = grid
         self.compliance = compliance
+        self.octaves = octaves or Octaves(compliance)
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
         self.kernel = spectral_kernel(compliance, grid) if kernel is None else kernel
@@ -70,7 +80,7 @@ class PeriodicOperator:
         row = np.arange(rows)
         of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
         kernel = self.kernel[of_wave, : columns // 2 + 1]
-        return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel)
+        return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel, octaves=self.octaves)
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""

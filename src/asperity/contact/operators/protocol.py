@@ -9,6 +9,7 @@ from ...core.engine import Convolution, Engine
 from ...core.grid import Grid
 from ...solids.compliance.protocol import Compliance
 from ..boundary import Boundary
+from .octaves import Octaves
 
 
 class Operator(Protocol):
@@ -21,6 +22,10 @@ class Operator(Protocol):
     @property
     def compliance(self) -> Compliance:
         """Solid it was prepared for."""
+
+    @property
+    def octaves(self) -> Octaves:
+        """Its values at a few wavenumbers, shared with the operators of coarser grids."""
 
     @property
     def boundary(self) -> Boundary:

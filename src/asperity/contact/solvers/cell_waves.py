@@ -50,7 +50,7 @@ def waves_of(operator: Operator) -> Waves | None:
     if periodic and any(n % side for n in grid.shape):
         return None
     sides, points = octaves(grid, merges)
-    detail = np.asarray(operator.compliance.spectral(np.pi / sides), dtype=float)
+    detail = operator.octaves.spectral(np.pi / sides)
     if np.max(detail[_DEPTH:] / detail[_DEPTH - 1 : -1]) < _STEEP:
         return None
     nx, ny = (n // side if periodic else -(-(n + side - 1) // side) for n in grid.shape)  # the cells may lie anywhere

@@ -13,17 +13,25 @@ load).
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Hierarchy, Merge
 from ...core.grid import Grid
-from ...solids.compliance.protocol import Compliance
 
 _SQUARE = 1.5
 
 
-def hierarchies(compliance: Compliance, grid: Grid, *, periodic: bool) -> tuple[Hierarchy, Hierarchy]:
+class Spectral(Protocol):
+    """Compliance, or what is known of it."""
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
+
+
+def hierarchies(compliance: Spectral, grid: Grid, *, periodic: bool) -> tuple[Hierarchy, Hierarchy]:
     """Nested cells on ``grid`` that follow the normal ``compliance``, as square as its pixels allow."""
     merges = merges_of(grid)
     sides, points = octaves(grid, merges)
@@ -50,7 +58,7 @@ def _third(n: int) -> int:
     return third
 
 
-def pixel_compliance(compliance: Compliance, grid: Grid) -> float:
+def pixel_compliance(compliance: Spectral, grid: Grid) -> float:
     """Deflection (m/Pa) of a point of ``grid`` under its own pressure, in the model of nested cells."""
     sides, _ = octaves(grid, merges_of(grid))
     return float(np.asarray(compliance.spectral(np.pi / sides[:1]))[0])

@@ -53,7 +53,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
     state = run(solver.loosened(tolerance), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
     share = coarse.profile.size / qp.profile.size
-    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.compliance, qp.operator.grid)
+    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid)
     start = qp.operator.engine.refined(state.pressure, coarse.profile, qp.profile, stiffness)
     if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
         return feasible_start(qp, start), pairs * share

@@ -42,7 +42,7 @@ class Bench:
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
         operator = self.operator
-        nested = hierarchies(operator.compliance, operator.grid, periodic=isinstance(operator.boundary, Periodic))
+        nested = hierarchies(operator.octaves, operator.grid, periodic=isinstance(operator.boundary, Periodic))
         waves = None if self.waves is None else self.waves.form
         return self.engine.cells(operator.grid.shape, nested, waves, self.dtype)
 
@@ -54,7 +54,7 @@ class Bench:
     @cached_property
     def cell_unit(self) -> float:
         """Deflection of a point under its own load in the model of nested cells, over ``scale``."""
-        return pixel_compliance(self.operator.compliance, self.operator.grid) / self.scale
+        return pixel_compliance(self.operator.octaves, self.operator.grid) / self.scale
 
     @cached_property
     def inverse(self) -> Convolution:
