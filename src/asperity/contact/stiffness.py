@@ -31,7 +31,7 @@ def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealA
     if face.size == operator.grid.n_points and operator.zero_mean_mode:
         return math.inf
     unit, _ = face.pick(engine.array(np.ones(shape), tools.dtype))
-    found = correction(System(tools, face, centred=False), unit, None, _EFFORT)
+    found = correction(System(tools, face, centred=False), unit, _EFFORT)
     if not found.reached:
         return math.nan
     face.lay(found.d, tools.field)

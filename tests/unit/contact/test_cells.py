@@ -130,7 +130,7 @@ def steps_to(
     tools, face = on_set(inside, compliance, boundary)
     r, _ = face.pick(np.random.default_rng(0).standard_normal(inside.shape).cumsum(axis=0))
     r -= r.mean()
-    found = correction(System(tools, face, centred=True), r, None, Effort(reduction, 200))
+    found = correction(System(tools, face, centred=True), r, Effort(reduction, 200))
     assert found.reached
     return found.pairs / tools.operator.pairs_per_application
 

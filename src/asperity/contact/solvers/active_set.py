@@ -11,7 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Face, Survey, Totals
-from .correction import Beside, Direction, Effort, System, carried, correction
+from .correction import Beside, Effort, System, correction
 from .feasible import feasible_start
 from .moves import LEAST_SHARE, bounded_move, brought_back, free_move
 from .nested import COARSEST, nested_start
@@ -25,11 +25,10 @@ _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 14
 _SETTLING_STEPS = 8
 _REDUCTION = 0.3
-_SETTLING_REDUCTION = 0.05
+_SETTLING_REDUCTION = 0.1
 _SMALLEST_REDUCTION = 1e-4
 _MARGIN = 0.8
 _FEW = 0.003
-_CARRIED = 0.1
 _IDLE = 2
 _MOST_SETBACKS = 4
 _REFRESH = 1e-5
@@ -38,11 +37,11 @@ _ROUNDING = 4.0 * np.finfo(float).eps
 
 @dataclass(eq=False)
 class _Memory:
-    """What is carried from step to step. A step takes the vectors out of it, which are many and long.
+    """What is carried from step to step. A step takes the face out of it, whose vectors are long.
 
     Buffers; the iterate in them seen as a whole; the error when its deflection was last computed from scratch (as opposed
-    to updated); how many points the last step took beyond their bounds; the last search direction; how many steps had to
-    be replaced so far, each of which doubles the effort put into the next.
+    to updated); how many points the last step took beyond their bounds; how many steps had to be replaced so far, each of
+    which doubles the effort put into the next.
 
     Of free steps: how many in a row have not made the ``lowest`` error smaller, None where no step may be free any more;
     the ``face`` of the last, on which points may pull, and the sum of their pressures, as long as they do.
@@ -52,7 +51,6 @@ class _Memory:
     survey: Survey
     computed_at: float
     clipped: int
-    last: Direction | None = None
     setbacks: int = 0
     idle: int | None = None
     lowest: float = np.inf
@@ -144,26 +142,24 @@ class ActiveSet:
         """
         work, centred = memory.work, isinstance(memory.work.qp.constraint, FixedMean)
         effort, r = self._effort(memory, face, spent.error), face.residual(centred=centred)
-        last, memory.last = _carried(memory, face), None
         pending = None
         if memory.face is not None and memory.clipped:
             pending = brought_back(work, memory.face, memory.survey.totals.pressure)
             memory.face = None
         beside = Beside(pending, _following(work))
-        found = correction(System(work.bench, face, centred), r, last, effort, beside)
+        found = correction(System(work.bench, face, centred), r, effort, beside)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
         clipped, pull = free_move(work, face, found.d)
-        return replace(memory, survey=_survey(work), clipped=clipped, last=found.last, face=face, pull=pull), spent
+        return replace(memory, survey=_survey(work), clipped=clipped, face=face, pull=pull), spent
 
     def _careful_step(self, memory: _Memory, spent: SolverState, face: Face) -> tuple[_Memory, SolverState]:
         """Step clipped to the bounds and shortened where the energy would rise."""
         work, qp = memory.work, memory.work.qp
         tools, centred = work.bench, isinstance(qp.constraint, FixedMean)
-        r, last = face.residual(centred=centred), _carried(memory, face)
-        effort = self._effort(memory, face, spent.error)
-        d, pairs, last, _ = correction(System(tools, face, centred), face.copied(r), last, effort)
+        effort, r = self._effort(memory, face, spent.error), face.residual(centred=centred)
+        d, pairs, _ = correction(System(tools, face, centred), face.copied(r), effort)
         spent = replace(spent, extra_pairs=spent.extra_pairs + pairs)
         if d is None:
             return self._gradient_step(memory, spent)
@@ -172,7 +168,7 @@ class ActiveSet:
         if share < LEAST_SHARE:
             return self._gradient_step(memory, spent)
         work.engine.add(tools.response, share * tools.scale, work.deflection)
-        return replace(memory, survey=_survey(work), clipped=clipped, last=last), spent
+        return replace(memory, survey=_survey(work), clipped=clipped), spent
 
     def _gradient_step(self, memory: _Memory, spent: SolverState) -> tuple[_Memory, SolverState]:
         """Step along the projected gradient from the iterate in the buffers; exhausted if not even that goes down."""
@@ -205,7 +201,7 @@ class ActiveSet:
         if spent.iterations and due:
             if memory.face is not None:
                 brought_back(work, memory.face, memory.survey.totals.pressure)
-            memory.face = memory.last = None
+            memory.face = None
             work.exact.apply(work.pressure, work.deflection)
             memory = replace(memory, survey=_survey(work), pull=0.0)
             spent = replace(spent, applications=spent.applications + 1)
@@ -230,17 +226,10 @@ class ActiveSet:
 
 
 def _taken(memory: _Memory) -> _Memory:
-    """``memory`` with the vectors, which it loses."""
+    """``memory`` with its face, which it loses."""
     taken = replace(memory)
-    memory.last = memory.face = None
+    memory.face = None
     return taken
-
-
-def _carried(memory: _Memory, face: Face) -> Direction | None:
-    """Last search direction on the new ``face``, if the set has changed so little that it still helps."""
-    if memory.last is None or memory.clipped + face.entering > _CARRIED * face.size:
-        return None
-    return carried(memory.work.bench, face, memory.last)
 
 
 def _following(work: Workspace) -> Callable[[float], None]:

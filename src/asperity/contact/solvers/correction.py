@@ -11,11 +11,9 @@ from .preconditioner import Preconditioner, preconditioner
 from .workspace import Bench
 
 
-@dataclass(frozen=True, eq=False)
-class Direction:
-    """Last search direction ``t`` on its ``face``, K t, their product and the sum of K t."""
+class Direction(NamedTuple):
+    """Search direction ``t``, K t, their product and the sum of K t."""
 
-    face: Face
     t: Any
     kt: Any
     curvature: float
@@ -41,7 +39,7 @@ class System:
         """
         z, total, overlap = found
         mean, ratio = self.mean(total), 0.0
-        if last is not None and last.curvature > 0.0:
+        if last is not None:
             ratio = -(overlap - mean * last.total) / last.curvature
         t, kt = (self.face.zeros(), self.face.zeros()) if last is None else (last.t, last.kt)
         t, slope = self.face.direct(z, mean, ratio, t, r, self.tools.field)
@@ -74,39 +72,23 @@ class Effort(NamedTuple):
 
 
 class Correction(NamedTuple):
-    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; ``last`` search direction; whether ``reached``."""
+    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction was ``reached``."""
 
     d: Any
     pairs: float
-    last: Direction | None
     reached: bool
 
 
-def carried(tools: Bench, face: Face, last: Direction) -> Direction:
-    """Search direction ``last`` on the new ``face``."""
-    last.face.lay(last.t, tools.field)
-    nothing = face.zeros()
-    t = face.gather(tools.field, nothing, nothing, face.zeros()).vector
-    last.face.lay(last.kt, tools.field)
-    kt, total, curvature, _ = face.gather(tools.field, t, t, nothing)
-    tools.engine.release(last.face, tools.field)
-    return Direction(face, t, kt, curvature, total)
-
-
-def correction(
-    system: System, r: Any, last: Direction | None, effort: Effort, beside: Beside | None = None
-) -> Correction:
-    """Solve the ``system`` for the residual ``r`` with this ``effort``.
-
-    ``r`` may be overwritten, as may the vectors of ``last``, a search direction to begin with.
-    """
+def correction(system: System, r: Any, effort: Effort, beside: Beside | None = None) -> Correction:
+    """Solve the ``system`` for the residual ``r``, which may be overwritten, with this ``effort``."""
     tools, face = system.tools, system.face
     inverse = preconditioner(tools, face)
     d, z = face.zeros(), face.zeros()
+    last: Direction | None = None
     first, pairs, taken, reached = 0.0, 0.0, 0, False
     if beside is not None and beside.pending is not None:
-        d, r, first = _together(system, inverse, r, last, beside, (d, z))
-        last, taken = None, 1
+        d, r, first = _together(system, inverse, r, beside, (d, z))
+        taken = 1
         pairs = tools.operator.pairs_per_application + (inverse.pairs if first else 0.0)
     while taken < effort.limit:
         z, total, product, overlap = inverse.solve(r, r if last is None else last.kt, z)
@@ -119,18 +101,18 @@ def correction(
         tools.fast.apply(tools.field, tools.response)
         pairs += tools.operator.pairs_per_application
         kt, total, curvature, _ = face.gather(tools.response, t, t, kt)
-        last = Direction(face, t, kt, curvature, total) if curvature > 0.0 else None
-        if last is None:
+        if curvature <= 0.0:
             break
+        last = Direction(t, kt, curvature, total)
         taken += 1
         if beside is not None:
             beside.follow(slope / curvature)
         d, r = face.advance(slope / curvature, t, kt, system.mean(total), d, r)
-    return Correction(d if taken else None, pairs, last, reached)
+    return Correction(d if taken else None, pairs, reached)
 
 
 def _together(
-    system: System, inverse: Preconditioner, r: Any, last: Direction | None, beside: Beside, memory: tuple[Any, Any]
+    system: System, inverse: Preconditioner, r: Any, beside: Beside, memory: tuple[Any, Any]
 ) -> tuple[Any, Any, float]:
     """First step d, of fixed length, by one product with the compliance that serves the pending change as well.
 
@@ -143,8 +125,8 @@ def _together(
     if foreseen is None:
         t, kt, length, product = face.zeros(), face.zeros(), 1.0, 0.0
     else:
-        z, total, product, overlap = inverse.solve(foreseen, foreseen if last is None else last.kt, memory[1])
-        t, _, kt = system.direction(r, (z, total, overlap), last)
+        z, total, product, overlap = inverse.solve(foreseen, foreseen, memory[1])
+        t, _, kt = system.direction(r, (z, total, overlap), None)
         length = inverse.step
     pending.face.lay(pending.values, tools.field, added=1.0 / length)
     tools.fast.apply(tools.field, tools.response)
