@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -116,9 +116,7 @@ class SphereYield:
 
     def at_friction(self, friction: ArrayLike) -> OnsetCurve:
         """First yield at friction coefficients (n,), >= 0."""
-        return OnsetCurve.of(
-            [sphere_yield_onset(self.nu, float(mu)) for mu in curve(friction, "friction coefficients")]
-        )
+        return OnsetCurve.of(_onsets(_sphere, self.nu, curve(friction, "friction coefficients")))
 
 
 @dataclass(frozen=True)
@@ -137,9 +135,7 @@ class CylinderYield:
 
     def at_friction(self, friction: ArrayLike) -> OnsetCurve:
         """First yield at friction coefficients (n,), >= 0."""
-        return OnsetCurve.of(
-            [cylinder_yield_onset(self.nu, float(mu)) for mu in curve(friction, "friction coefficients")]
-        )
+        return OnsetCurve.of(_onsets(_cylinder, self.nu, curve(friction, "friction coefficients")))
 
 
 def sphere_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
@@ -150,55 +146,67 @@ def sphere_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
     InputError
         If Poisson's ratio or the friction coefficient is out of range.
     """
-
-    def stress(x: RealArray, z: RealArray) -> StressTensor:
-        y = np.zeros_like(x)
-        normal = hertz_normal(x, y, z, 1.0, shear=1.0, nu=nu).stress
-        return normal + hertz_shear(x, y, z, 1.0, shear=1.0, nu=nu).stress * friction
-
-    return _onset(stress, nu, friction)
+    return _onsets(_sphere, nu, np.array([float(friction)]))[0]
 
 
 def cylinder_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
     """First yield of a line contact in plane strain; see ``sphere_yield_onset``."""
-
-    def stress(x: RealArray, z: RealArray) -> StressTensor:
-        normal = hertz_line_normal(x, z, 1.0, shear=1.0, nu=nu).stress
-        return normal + hertz_line_shear(x, z, 1.0, shear=1.0, nu=nu).stress * friction
-
-    return _onset(stress, nu, friction)
+    return _onsets(_cylinder, nu, np.array([float(friction)]))[0]
 
 
-def _onset(stress: Callable[[RealArray, RealArray], StressTensor], nu: float, friction: float) -> YieldOnset:
+def _sphere(nu: float, x: RealArray, z: RealArray) -> tuple[StressTensor, StressTensor]:
+    y = np.zeros_like(x)
+    normal = hertz_normal(x, y, z, 1.0, shear=1.0, nu=nu).stress
+    return normal, hertz_shear(x, y, z, 1.0, shear=1.0, nu=nu).stress
+
+
+def _cylinder(nu: float, x: RealArray, z: RealArray) -> tuple[StressTensor, StressTensor]:
+    normal = hertz_line_normal(x, z, 1.0, shear=1.0, nu=nu).stress
+    return normal, hertz_line_shear(x, z, 1.0, shear=1.0, nu=nu).stress
+
+
+_Fields: TypeAlias = Callable[[float, RealArray, RealArray], tuple[StressTensor, StressTensor]]
+"""Stress under the pressure, and under a shear traction equal to it, at (x, z) for a Poisson's ratio."""
+
+
+def _onsets(fields: _Fields, nu: float, friction: RealArray) -> list[YieldOnset]:
+    """First yield at every one of the friction coefficients (n,)."""
     poissons_ratio(nu)
-    require.not_negative(friction, "friction coefficient")
-
-    def root_J2(x: RealArray, z: RealArray) -> RealArray:
-        root: RealArray = np.sqrt(second_invariant(stress(x, z)))
-        return root
-
+    for coefficient in friction:
+        require.not_negative(float(coefficient), "friction coefficient")
+    at_surface, x_surface, _ = _largest(fields, nu, friction, (0.0, 0.0))
+    inside, x, z = _largest(fields, nu, friction, (0.05, 1.5))
     # without friction all is symmetric, and the place of a maximum is known to the root of the rounding only
-    side = 0.0 if friction == 0.0 else 1.0
-    surface, x_surface, _ = _largest(root_J2, (-1.0, 1.0), (0.0, 0.0))
-    inside, x, z = _largest(root_J2, (-1.0, 1.0), (0.05, 1.5))
-    if surface >= inside:
-        return YieldOnset(surface, x_surface, 0.0, surface)
-    return YieldOnset(inside, side * x, z, surface)
+    x[friction == 0.0] = 0.0
+    deeper = inside > at_surface
+    columns = np.maximum(inside, at_surface), np.where(deeper, x, x_surface), np.where(deeper, z, 0.0), at_surface
+    return [YieldOnset(*map(float, values)) for values in zip(*columns, strict=True)]
 
 
 def _largest(
-    function: Callable[[RealArray, RealArray], RealArray], along: tuple[float, float], down: tuple[float, float]
-) -> tuple[float, float, float]:
-    """Largest value in a rectangle and its place, by ever finer grids about the largest of the last one."""
-    (low, high), (top, bottom) = along, down
-    columns, rows = 161, 59 if bottom > top else 1
-    while True:
-        x, z = np.meshgrid(np.linspace(low, high, columns), np.linspace(top, bottom, rows))
-        values = function(x, z)
-        best = np.unravel_index(np.argmax(values), values.shape)
-        step_x, step_z = (high - low) / (columns - 1), (bottom - top) / max(rows - 1, 1)
-        if step_x < 5.0**-_ROUNDS:
-            return float(values[best]), float(x[best]), float(z[best])
-        low, high = max(along[0], float(x[best]) - step_x), min(along[1], float(x[best]) + step_x)
-        top, bottom = max(0.0, float(z[best]) - step_z), float(z[best]) + step_z
-        columns, rows = 11, 11 if step_z > 0.0 else 1
+    fields: _Fields, nu: float, friction: RealArray, down: tuple[float, float]
+) -> tuple[RealArray, RealArray, RealArray]:
+    """Largest sqrt(J2) at depths ``down`` below the contact for every friction, and its place x, z.
+
+    By ever finer grids about the largest value of the last one, of all frictions at once.
+    """
+    along, rows = (-1.0, 1.0), 11 if down[1] > down[0] else 1
+    x, z = (a.ravel() for a in np.meshgrid(np.linspace(*along, 161), np.linspace(*down, 59 if rows > 1 else 1)))
+    normal, shear = fields(nu, x, z)
+    values = np.zeros_like(friction)
+    best = [int(np.argmax(second_invariant(normal + shear * mu))) for mu in friction]
+    step_x, step_z = np.array(2.0 / 160), np.array((down[1] - down[0]) / 58)
+    x, z, each = x[best], z[best], np.arange(friction.size)
+    for _ in range(_ROUNDS):
+        low, high = np.maximum(along[0], x - step_x), np.minimum(along[1], x + step_x)
+        top, bottom = np.maximum(0.0, z - step_z), z + step_z
+        grid_x, grid_z = np.broadcast_arrays(
+            np.linspace(low, high, 11, axis=-1)[:, None, :], np.linspace(top, bottom, rows, axis=-1)[:, :, None]
+        )
+        grid_x, grid_z = grid_x.reshape(friction.size, -1), grid_z.reshape(friction.size, -1)
+        normal, shear = fields(nu, grid_x, grid_z)
+        root_J2 = np.sqrt(second_invariant(normal + shear.map(lambda component: component * friction[:, None])))
+        highest = np.argmax(root_J2, axis=1)
+        values, x, z = root_J2[each, highest], grid_x[each, highest], grid_z[each, highest]
+        step_x, step_z = (high - low) / 10.0, (bottom - top) / max(rows - 1, 1)
+    return values, x, z
