@@ -1,240 +1,131 @@
-"""Contact mechanics of layered rough surfaces."""
+"""Contact mechanics of layered rough surfaces.
 
-from . import theories
-from .contact import solvers
-from .contact.advice import advise, review
-from .contact.boundary import Free, FreeLine, Periodic
-from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
-from .contact.energy import EnergyBalance, energy_balance
-from .contact.finding import Advice
-from .contact.laws import Hardness, HardWall, LayeredHardness
-from .contact.operators import prepare_operator
-from .contact.path import LoadPath, solve_path
-from .contact.plastic_load import PlasticLoad, plastic_load
-from .contact.problem import ContactProblem, Flat
-from .contact.ramps import ramps
-from .contact.result import ContactResult
-from .contact.roughness import roughness_of
-from .contact.sliding import SlidingResult, solve_sliding
-from .contact.solve import Keep, solve
-from .contact.state import InterfaceState
-from .contact.wet import Friction, Steady, solve_wet
-from .contact.wet_advice import review_wet
-from .contact.wet_result import WetContactResult
-from .contact.wet_theory import WetTheory, wet_theory
-from .contact.wetting import LiquidFilm
-from .core.citations import cite
-from .core.engine import ArrayEngine, CpuEngine
-from .core.errors import (
-    AsperityError,
-    ConvergenceError,
-    FileFormatError,
-    InputError,
-    NoSolutionError,
-    OutputError,
-    UnitError,
-)
-from .core.grid import Grid
-from .io.disk_surface import save_gaussian
-from .io.export import export_csv, export_vtk
-from .io.path_files import export_path_csv, save_path
-from .io.results import load, open_dataset, save
-from .io.stress_files import save_stress
-from .io.stress_vtk import export_stress_vtk
-from .io.surface_files import save_surface
-from .io.tiles import save_endless
-from .io.wet_results import load_wet, save_wet
-from .plots.figures import save_plots, save_surface_plot
-from .plots.path_figures import save_path_plots
-from .plots.surface_figures import save_roughness_plots
-from .report.comparison import write_comparison_report
-from .report.roughness import write_roughness_report
-from .report.write import write_report
-from .solids.body import contact_modulus
-from .solids.elastic import Elastic, Rigid
-from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
-from .solids.interface import Bonded, Frictionless
-from .solids.layers import Layer, Layered, RigidBase
-from .solids.library import material, materials
-from .solids.liquids import Liquid, liquid, liquids
-from .solids.strength import Strength
-from .stress.compute import stress, stress_planes
-from .stress.criteria import MaxPrincipal, Tresca, VonMises
-from .stress.field import StressField
-from .stress.fracture import fracture_indicators
-from .stress.sampling import depths_through
-from .stress.tractions import ShearTraction, Sliding
-from .stress.where import DepthProfile, Everywhere, Section
-from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
-from .studies.campaign import Campaign, CampaignState, open_study, run_study
-from .studies.compare import compare
-from .studies.comparison import Comparison
-from .studies.comparison_files import export_comparison_csv, save_comparison
-from .surfaces import generate, roughness
-from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
-from .surfaces.characterise.slopes import rms_slope
-from .surfaces.characterise.summary import Characterisation, characterise
-from .surfaces.common_grid import SurfacePair, on_common_grid
-from .surfaces.pair import composite, turned_over
-from .surfaces.prepare.crop import cropped
-from .surfaces.prepare.fill import filled
-from .surfaces.prepare.filter import filtered
-from .surfaces.prepare.level import levelled
-from .surfaces.prepare.outliers import despiked, line_corrected
-from .surfaces.prepare.resample import resampled
-from .surfaces.prepare.slice import sliced
-from .surfaces.prepare.tip import reliability_cutoff, tip_limited
-from .surfaces.prepare.window import periodised, tapered
-from .surfaces.read import channels, read
-from .surfaces.surface import Surface
-from .theories.roughness import Roughness
+A module is imported when one of its names is asked for. The stub beside this file says the same to type checkers.
+"""
+
+import sys
+from types import MappingProxyType, ModuleType
+from typing import Any
+
+from .core.late import LateNames
 
 __version__ = "0.1.0"
 
-__all__ = [
-    "Advice",
-    "Approach",
-    "ArrayEngine",
-    "AsperityError",
-    "Bonded",
-    "Campaign",
-    "CampaignState",
-    "Characterisation",
-    "Comparison",
-    "ContactProblem",
-    "ContactResult",
-    "ConvergenceError",
-    "CpuEngine",
-    "DepthProfile",
-    "Elastic",
-    "EnergyBalance",
-    "Everywhere",
-    "ExponentialGrading",
-    "FileFormatError",
-    "Flat",
-    "Force",
-    "Free",
-    "FreeLine",
-    "Friction",
-    "Frictionless",
-    "Grid",
-    "HardWall",
-    "Hardness",
-    "InputError",
-    "InterfaceState",
-    "Keep",
-    "Layer",
-    "Layered",
-    "LayeredHardness",
-    "LinearGrading",
-    "Liquid",
-    "LiquidFilm",
-    "LoadAtYield",
-    "LoadPath",
-    "MaxPrincipal",
-    "MeanGap",
-    "MeanPressure",
-    "NoSolutionError",
-    "OutputError",
-    "Periodic",
-    "PlasticLoad",
-    "PowerGrading",
-    "Rigid",
-    "RigidBase",
-    "Roughness",
-    "Section",
-    "ShearTraction",
-    "Sliding",
-    "SlidingResult",
-    "Steady",
-    "Strength",
-    "StressField",
-    "Surface",
-    "SurfacePair",
-    "Tresca",
-    "UnitError",
-    "Unloaded",
-    "VonMises",
-    "WetContactResult",
-    "WetTheory",
-    "YieldReport",
-    "__version__",
-    "advise",
-    "channels",
-    "characterise",
-    "cite",
-    "compare",
-    "composite",
-    "contact_modulus",
-    "cropped",
-    "depths_through",
-    "despiked",
-    "energy_balance",
-    "export_comparison_csv",
-    "export_csv",
-    "export_path_csv",
-    "export_stress_vtk",
-    "export_vtk",
-    "filled",
-    "filtered",
-    "first_yield",
-    "fracture_indicators",
-    "generate",
-    "graded",
-    "levelled",
-    "line_corrected",
-    "liquid",
-    "liquids",
-    "load",
-    "load_at_yield",
-    "load_wet",
-    "material",
-    "materials",
-    "mean_absolute_height",
-    "on_common_grid",
-    "open_dataset",
-    "open_study",
-    "peak_to_valley",
-    "periodised",
-    "plastic_load",
-    "prepare_operator",
-    "ramps",
-    "read",
-    "reliability_cutoff",
-    "resampled",
-    "review",
-    "review_wet",
-    "rms_height",
-    "rms_slope",
-    "roughness",
-    "roughness_of",
-    "run_study",
-    "save",
-    "save_comparison",
-    "save_endless",
-    "save_gaussian",
-    "save_path",
-    "save_path_plots",
-    "save_plots",
-    "save_roughness_plots",
-    "save_stress",
-    "save_surface",
-    "save_surface_plot",
-    "save_wet",
-    "sliced",
-    "solve",
-    "solve_path",
-    "solve_sliding",
-    "solve_wet",
-    "solvers",
-    "stress",
-    "stress_planes",
-    "tapered",
-    "theories",
-    "tip_limited",
-    "turned_over",
-    "wet_theory",
-    "write_comparison_report",
-    "write_report",
-    "write_roughness_report",
-]
+_NAMES = MappingProxyType(
+    {
+        "": ("theories",),
+        "contact": ("solvers",),
+        "contact.advice": ("advise", "review"),
+        "contact.boundary": ("Free", "FreeLine", "Periodic"),
+        "contact.control": ("Approach", "Force", "MeanGap", "MeanPressure", "Unloaded"),
+        "contact.energy": ("EnergyBalance", "energy_balance"),
+        "contact.finding": ("Advice",),
+        "contact.laws": ("Hardness", "HardWall", "LayeredHardness"),
+        "contact.operators": ("prepare_operator",),
+        "contact.path": ("LoadPath", "solve_path"),
+        "contact.plastic_load": ("PlasticLoad", "plastic_load"),
+        "contact.problem": ("ContactProblem", "Flat"),
+        "contact.ramps": ("ramps",),
+        "contact.result": ("ContactResult",),
+        "contact.roughness": ("roughness_of",),
+        "contact.sliding": ("SlidingResult", "solve_sliding"),
+        "contact.solve": ("Keep", "solve"),
+        "contact.state": ("InterfaceState",),
+        "contact.wet": ("Friction", "Steady", "solve_wet"),
+        "contact.wet_advice": ("review_wet",),
+        "contact.wet_result": ("WetContactResult",),
+        "contact.wet_theory": ("WetTheory", "wet_theory"),
+        "contact.wetting": ("LiquidFilm",),
+        "core.citations": ("cite",),
+        "core.engine": ("ArrayEngine", "CpuEngine"),
+        "core.errors": (
+            "AsperityError",
+            "ConvergenceError",
+            "FileFormatError",
+            "InputError",
+            "NoSolutionError",
+            "OutputError",
+            "UnitError",
+        ),
+        "core.grid": ("Grid",),
+        "io.disk_surface": ("save_gaussian",),
+        "io.export": ("export_csv", "export_vtk"),
+        "io.path_files": ("export_path_csv", "save_path"),
+        "io.results": ("load", "open_dataset", "save"),
+        "io.stress_files": ("save_stress",),
+        "io.stress_vtk": ("export_stress_vtk",),
+        "io.surface_files": ("save_surface",),
+        "io.tiles": ("save_endless",),
+        "io.wet_results": ("load_wet", "save_wet"),
+        "plots.figures": ("save_plots", "save_surface_plot"),
+        "plots.path_figures": ("save_path_plots",),
+        "plots.surface_figures": ("save_roughness_plots",),
+        "report.comparison": ("write_comparison_report",),
+        "report.roughness": ("write_roughness_report",),
+        "report.write": ("write_report",),
+        "solids.body": ("contact_modulus",),
+        "solids.elastic": ("Elastic", "Rigid"),
+        "solids.grading": ("ExponentialGrading", "LinearGrading", "PowerGrading", "graded"),
+        "solids.interface": ("Bonded", "Frictionless"),
+        "solids.layers": ("Layer", "Layered", "RigidBase"),
+        "solids.library": ("material", "materials"),
+        "solids.liquids": ("Liquid", "liquid", "liquids"),
+        "solids.strength": ("Strength",),
+        "stress.compute": ("stress", "stress_planes"),
+        "stress.criteria": ("MaxPrincipal", "Tresca", "VonMises"),
+        "stress.field": ("StressField",),
+        "stress.fracture": ("fracture_indicators",),
+        "stress.sampling": ("depths_through",),
+        "stress.tractions": ("ShearTraction", "Sliding"),
+        "stress.where": ("DepthProfile", "Everywhere", "Section"),
+        "stress.yielding": ("LoadAtYield", "YieldReport", "first_yield", "load_at_yield"),
+        "studies.campaign": ("Campaign", "CampaignState", "open_study", "run_study"),
+        "studies.compare": ("compare",),
+        "studies.comparison": ("Comparison",),
+        "studies.comparison_files": ("export_comparison_csv", "save_comparison"),
+        "surfaces": ("generate", "roughness"),
+        "surfaces.characterise.heights": ("mean_absolute_height", "peak_to_valley", "rms_height"),
+        "surfaces.characterise.slopes": ("rms_slope",),
+        "surfaces.characterise.summary": ("Characterisation", "characterise"),
+        "surfaces.common_grid": ("SurfacePair", "on_common_grid"),
+        "surfaces.pair": ("composite", "turned_over"),
+        "surfaces.prepare.crop": ("cropped",),
+        "surfaces.prepare.fill": ("filled",),
+        "surfaces.prepare.filter": ("filtered",),
+        "surfaces.prepare.level": ("levelled",),
+        "surfaces.prepare.outliers": ("despiked", "line_corrected"),
+        "surfaces.prepare.resample": ("resampled",),
+        "surfaces.prepare.slice": ("sliced",),
+        "surfaces.prepare.tip": ("reliability_cutoff", "tip_limited"),
+        "surfaces.prepare.window": ("periodised", "tapered"),
+        "surfaces.read": ("channels", "read"),
+        "surfaces.surface": ("Surface",),
+        "theories.roughness": ("Roughness",),
+    }
+)
+"""Public names by module; ``stress`` is a function, and besides a package that the function is in."""
+
+_find = LateNames(__name__, _NAMES)
+_HOME = _find.home
+
+__all__ = sorted([*_HOME, "__version__"])
+
+
+class _Package(ModuleType):
+    """This package, whose names stay what they are when a package of the same name is imported."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not (isinstance(value, ModuleType) and _HOME.get(name, "").startswith(f"{name}.")):
+            super().__setattr__(name, value)
+
+
+def __getattr__(name: str) -> Any:
+    value = globals()[name] = _find(name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+sys.modules[__name__].__class__ = _Package

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import json
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from heavy_imports import HEAVY
@@ -51,3 +53,53 @@ def test_import_is_light() -> None:
     code = f"import sys, json, asperity; print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     assert json.loads(run.stdout) == [], "import these inside the functions that need them"
+
+
+def printed(code: str) -> object:
+    """What a fresh Python prints as JSON."""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    return json.loads(run.stdout)
+
+
+def test_import_takes_nothing_of_the_library_but_the_table_of_names() -> None:
+    modules = printed("import sys, json, asperity; print(json.dumps([m for m in sys.modules if 'asperity.' in m]))")
+    assert modules == ["asperity.core", "asperity.core.late"]
+
+
+def test_a_name_brings_its_module_and_what_that_needs() -> None:
+    code = "import sys, json, asperity; asperity.{}; print(json.dumps([m for m in {!r} if m in sys.modules]))"
+    assert printed(code.format("Force", ("asperity.contact.control", "asperity.report", "scipy"))) == [
+        "asperity.contact.control"
+    ]
+
+
+@pytest.mark.parametrize(
+    "first", ["asperity.stress.survey", "asperity.stress", "asperity.contact.solve", "asperity.report.write"]
+)
+def test_stress_is_the_function_whatever_is_imported_first(first: str) -> None:
+    code = (
+        f"import json, {first}; from asperity import stress; print(json.dumps([stress.__module__, callable(stress)]))"
+    )
+    assert printed(code) == ["asperity.stress.compute", True]
+    again = f"import json, asperity; asperity.stress; import {first}; print(json.dumps(callable(asperity.stress)))"
+    assert printed(again) is True
+
+
+def test_all_names_are_listed_and_found_and_others_are_not() -> None:
+    assert set(PUBLIC) <= set(dir(asperity))
+    found: dict[str, object] = {}
+    exec("from asperity import *", found)  # noqa: S102 - the statement itself is under test
+    assert set(PUBLIC) <= set(found)
+    assert all(found[name] is getattr(asperity, name) for name in PUBLIC)
+    with pytest.raises(AttributeError, match="module 'asperity' has no attribute 'phlogiston'"):
+        asperity.phlogiston  # type: ignore[attr-defined]  # noqa: B018 - reading the attribute is the test
+
+
+@pytest.mark.parametrize("package", [asperity, asperity.theories], ids=lambda package: package.__name__)
+def test_the_stub_names_the_same_in_the_same_modules(package: ModuleType) -> None:
+    tree = ast.parse(Path(str(package.__file__)).with_suffix(".pyi").read_text(encoding="utf-8"))
+    statements = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
+    stub = {alias.name: node.module or "" for node in statements for alias in node.names}
+    (names,) = (ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))
+    assert stub == dict(package._HOME)
+    assert sorted(names) == package.__all__

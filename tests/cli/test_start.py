@@ -28,6 +28,20 @@ def test_help_imports_nothing_heavy() -> None:
     assert json.loads(done.stderr) == []
 
 
+def test_help_imports_of_the_library_only_the_commands() -> None:
+    """What the commands do lies in other folders; of those only errors, which options raise, and the late names."""
+    code = (
+        "import sys, json\n"
+        "from asperity.cli.main import app\n"
+        "try: app(['--help'])\n"
+        "except SystemExit: pass\n"
+        "sys.stderr.write(json.dumps([m for m in sys.modules if m.startswith('asperity.')]))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    elsewhere = {module for module in json.loads(done.stderr) if not module.startswith("asperity.cli")}
+    assert elsewhere <= {"asperity.core", "asperity.core.errors", "asperity.core.late"}
+
+
 def test_module_is_the_program() -> None:
     done = subprocess.run([sys.executable, "-m", "asperity", "--version"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0

@@ -9,7 +9,6 @@ from typing import Annotated, Any
 
 from typer import Option
 
-from ..core import require
 from ..core.errors import InputError
 
 PREPARATION = "Preparation, in this order"
@@ -68,6 +67,8 @@ _NAMES = {
 
 def steps(preparation: PreparationOptions) -> list[dict[str, Any]]:
     """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so that it comes after that."""
+    from ..core import require
+
     fill = require.one_of(preparation.fill, ("harmonic", "nearest", "mean", "none"), "--fill")
     cutoffs = {"short": preparation.short_cutoff, "long": preparation.long_cutoff}
     given = {key: value for key, value in cutoffs.items() if value is not None}
@@ -107,6 +108,8 @@ def _name(step: str, key: str) -> str:
 
 
 def _level(preparation: PreparationOptions) -> dict[str, Any]:
+    from ..core import require
+
     robust = {"robust": True} if preparation.robust_level else {}
     if preparation.level.isdigit():
         return {"step": "level", "degree": int(preparation.level), **robust}

@@ -8,7 +8,6 @@ from typing import Annotated, Any
 
 from typer import Option
 
-from ..core import require
 from ..core.errors import InputError
 
 STRESS = "Stresses inside the body"
@@ -100,6 +99,8 @@ def stress_names(table: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _inside(text: str) -> str:
+    from ..core import require
+
     chosen = require.one_of(
         text.strip().casefold().replace("counter_body", "counter"), ("body", "counter"), "--stress-in"
     )

@@ -5,9 +5,10 @@ The stub beside this file says the same to type checkers.
 
 from __future__ import annotations
 
-from importlib import import_module
 from types import MappingProxyType
 from typing import Any
+
+from ..core.late import LateNames
 
 _NAMES = MappingProxyType(
     {
@@ -86,16 +87,14 @@ _NAMES = MappingProxyType(
 )
 """Public names by module."""
 
-_HOME = MappingProxyType({name: module for module, names in _NAMES.items() for name in names})
+_find = LateNames(__name__, _NAMES)
+_HOME = _find.home
 
 __all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f".{_HOME[name]}", __name__), name)
-    globals()[name] = value
+    value = globals()[name] = _find(name)
     return value
 
 

@@ -1,0 +1,238 @@
+from . import theories
+from .contact import solvers
+from .contact.advice import advise, review
+from .contact.boundary import Free, FreeLine, Periodic
+from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
+from .contact.energy import EnergyBalance, energy_balance
+from .contact.finding import Advice
+from .contact.laws import Hardness, HardWall, LayeredHardness
+from .contact.operators import prepare_operator
+from .contact.path import LoadPath, solve_path
+from .contact.plastic_load import PlasticLoad, plastic_load
+from .contact.problem import ContactProblem, Flat
+from .contact.ramps import ramps
+from .contact.result import ContactResult
+from .contact.roughness import roughness_of
+from .contact.sliding import SlidingResult, solve_sliding
+from .contact.solve import Keep, solve
+from .contact.state import InterfaceState
+from .contact.wet import Friction, Steady, solve_wet
+from .contact.wet_advice import review_wet
+from .contact.wet_result import WetContactResult
+from .contact.wet_theory import WetTheory, wet_theory
+from .contact.wetting import LiquidFilm
+from .core.citations import cite
+from .core.engine import ArrayEngine, CpuEngine
+from .core.errors import (
+    AsperityError,
+    ConvergenceError,
+    FileFormatError,
+    InputError,
+    NoSolutionError,
+    OutputError,
+    UnitError,
+)
+from .core.grid import Grid
+from .io.disk_surface import save_gaussian
+from .io.export import export_csv, export_vtk
+from .io.path_files import export_path_csv, save_path
+from .io.results import load, open_dataset, save
+from .io.stress_files import save_stress
+from .io.stress_vtk import export_stress_vtk
+from .io.surface_files import save_surface
+from .io.tiles import save_endless
+from .io.wet_results import load_wet, save_wet
+from .plots.figures import save_plots, save_surface_plot
+from .plots.path_figures import save_path_plots
+from .plots.surface_figures import save_roughness_plots
+from .report.comparison import write_comparison_report
+from .report.roughness import write_roughness_report
+from .report.write import write_report
+from .solids.body import contact_modulus
+from .solids.elastic import Elastic, Rigid
+from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
+from .solids.interface import Bonded, Frictionless
+from .solids.layers import Layer, Layered, RigidBase
+from .solids.library import material, materials
+from .solids.liquids import Liquid, liquid, liquids
+from .solids.strength import Strength
+from .stress.compute import stress, stress_planes
+from .stress.criteria import MaxPrincipal, Tresca, VonMises
+from .stress.field import StressField
+from .stress.fracture import fracture_indicators
+from .stress.sampling import depths_through
+from .stress.tractions import ShearTraction, Sliding
+from .stress.where import DepthProfile, Everywhere, Section
+from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
+from .studies.campaign import Campaign, CampaignState, open_study, run_study
+from .studies.compare import compare
+from .studies.comparison import Comparison
+from .studies.comparison_files import export_comparison_csv, save_comparison
+from .surfaces import generate, roughness
+from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
+from .surfaces.characterise.slopes import rms_slope
+from .surfaces.characterise.summary import Characterisation, characterise
+from .surfaces.common_grid import SurfacePair, on_common_grid
+from .surfaces.pair import composite, turned_over
+from .surfaces.prepare.crop import cropped
+from .surfaces.prepare.fill import filled
+from .surfaces.prepare.filter import filtered
+from .surfaces.prepare.level import levelled
+from .surfaces.prepare.outliers import despiked, line_corrected
+from .surfaces.prepare.resample import resampled
+from .surfaces.prepare.slice import sliced
+from .surfaces.prepare.tip import reliability_cutoff, tip_limited
+from .surfaces.prepare.window import periodised, tapered
+from .surfaces.read import channels, read
+from .surfaces.surface import Surface
+from .theories.roughness import Roughness
+
+__version__: str
+
+__all__ = [
+    "Advice",
+    "Approach",
+    "ArrayEngine",
+    "AsperityError",
+    "Bonded",
+    "Campaign",
+    "CampaignState",
+    "Characterisation",
+    "Comparison",
+    "ContactProblem",
+    "ContactResult",
+    "ConvergenceError",
+    "CpuEngine",
+    "DepthProfile",
+    "Elastic",
+    "EnergyBalance",
+    "Everywhere",
+    "ExponentialGrading",
+    "FileFormatError",
+    "Flat",
+    "Force",
+    "Free",
+    "FreeLine",
+    "Friction",
+    "Frictionless",
+    "Grid",
+    "HardWall",
+    "Hardness",
+    "InputError",
+    "InterfaceState",
+    "Keep",
+    "Layer",
+    "Layered",
+    "LayeredHardness",
+    "LinearGrading",
+    "Liquid",
+    "LiquidFilm",
+    "LoadAtYield",
+    "LoadPath",
+    "MaxPrincipal",
+    "MeanGap",
+    "MeanPressure",
+    "NoSolutionError",
+    "OutputError",
+    "Periodic",
+    "PlasticLoad",
+    "PowerGrading",
+    "Rigid",
+    "RigidBase",
+    "Roughness",
+    "Section",
+    "ShearTraction",
+    "Sliding",
+    "SlidingResult",
+    "Steady",
+    "Strength",
+    "StressField",
+    "Surface",
+    "SurfacePair",
+    "Tresca",
+    "UnitError",
+    "Unloaded",
+    "VonMises",
+    "WetContactResult",
+    "WetTheory",
+    "YieldReport",
+    "__version__",
+    "advise",
+    "channels",
+    "characterise",
+    "cite",
+    "compare",
+    "composite",
+    "contact_modulus",
+    "cropped",
+    "depths_through",
+    "despiked",
+    "energy_balance",
+    "export_comparison_csv",
+    "export_csv",
+    "export_path_csv",
+    "export_stress_vtk",
+    "export_vtk",
+    "filled",
+    "filtered",
+    "first_yield",
+    "fracture_indicators",
+    "generate",
+    "graded",
+    "levelled",
+    "line_corrected",
+    "liquid",
+    "liquids",
+    "load",
+    "load_at_yield",
+    "load_wet",
+    "material",
+    "materials",
+    "mean_absolute_height",
+    "on_common_grid",
+    "open_dataset",
+    "open_study",
+    "peak_to_valley",
+    "periodised",
+    "plastic_load",
+    "prepare_operator",
+    "ramps",
+    "read",
+    "reliability_cutoff",
+    "resampled",
+    "review",
+    "review_wet",
+    "rms_height",
+    "rms_slope",
+    "roughness",
+    "roughness_of",
+    "run_study",
+    "save",
+    "save_comparison",
+    "save_endless",
+    "save_gaussian",
+    "save_path",
+    "save_path_plots",
+    "save_plots",
+    "save_roughness_plots",
+    "save_stress",
+    "save_surface",
+    "save_surface_plot",
+    "save_wet",
+    "sliced",
+    "solve",
+    "solve_path",
+    "solve_sliding",
+    "solve_wet",
+    "solvers",
+    "stress",
+    "stress_planes",
+    "tapered",
+    "theories",
+    "tip_limited",
+    "turned_over",
+    "wet_theory",
+    "write_comparison_report",
+    "write_report",
+    "write_roughness_report",
+]
