@@ -42,7 +42,7 @@ def counts(shape: tuple[int, int], hierarchy: Hierarchy) -> list[tuple[int, int]
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 @pytest.mark.parametrize("periodic", [False, True])
 def test_both_hierarchies_end_in_few_cells_and_share_their_weights(shape: tuple[int, int], periodic: bool) -> None:
-    first, second = hierarchies(BODY, grid(shape), periodic=periodic)
+    first, second = hierarchies(BODY, grid(shape), periodic=periodic, share=1.0)
     assert [(m.x, m.y, m.weight) for m in first.merges] == [(m.x, m.y, m.weight) for m in second.merges]
     for hierarchy in (first, second):
         assert max(counts(shape, hierarchy)[-1]) <= 2
@@ -58,7 +58,7 @@ def test_both_hierarchies_end_in_few_cells_and_share_their_weights(shape: tuple[
 
 
 def test_on_a_periodic_grid_the_hierarchies_lie_a_third_of_a_cell_apart() -> None:
-    rolls = hierarchies(BODY, grid((1024, 96)), periodic=True)[1].roll
+    rolls = hierarchies(BODY, grid((1024, 96)), periodic=True, share=1.0)[1].roll
     for roll, n in zip(rolls, (1024, 96), strict=True):
         side = 4
         while side <= n:
@@ -70,7 +70,7 @@ def test_on_a_periodic_grid_the_hierarchies_lie_a_third_of_a_cell_apart() -> Non
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 3.0), (7.0, 1.0)])
 def test_cells_are_as_square_as_the_pixels_allow(spacing: tuple[float, float]) -> None:
     sides = list(spacing)
-    for merge in hierarchies(BODY, grid((256, 256), spacing), periodic=False)[0].merges:
+    for merge in hierarchies(BODY, grid((256, 256), spacing), periodic=False, share=1.0)[0].merges:
         sides = [side * (2.0 if pairs else 1.0) for side, pairs in zip(sides, (merge.x, merge.y), strict=True)]
         if all(side < 256 * step for side, step in zip(sides, spacing, strict=True)):
             assert max(sides) / min(sides) <= max(2.0, max(spacing) / min(spacing))
@@ -93,7 +93,7 @@ def test_weights_are_the_energies_of_haar_functions() -> None:
 
 def test_weights_add_up_to_the_compliance_at_the_wavelength_of_the_cell() -> None:
     spacing = (1e-7, 1e-7)
-    merges = hierarchies(BODY, grid((64, 64), spacing), periodic=True)[0].merges
+    merges = hierarchies(BODY, grid((64, 64), spacing), periodic=True, share=1.0)[0].merges
     own = pixel_compliance(BODY, grid((64, 64), spacing))
     assert own == pytest.approx(float(BODY.spectral(np.array([np.pi / 1e-7]))[0]))
     total, points = 1.0, 1
@@ -137,10 +137,10 @@ def steps_to(
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.4, 0.9])
 def test_the_steps_needed_hardly_depend_on_grid_and_area(share: float) -> None:
-    """A factor 0.37 a step at worst: 1e-6 in 14 steps. Without a preconditioner the number grows with the grid, and with
+    """A factor 0.28 a step at worst: 1e-6 in 11 steps. Without a preconditioner the number grows with the grid, and with
     cells that end at the borders of the periodic grid with the area, to 19."""
     for n in (64, 128, 256):
-        assert steps_to(rough_set((n, n), share, 3), 1e-6) <= 14.0
+        assert steps_to(rough_set((n, n), share, 3), 1e-6) <= 11.0
 
 
 @pytest.mark.parametrize("shape", [(1, 500), (500, 1)])
@@ -179,16 +179,19 @@ def without_waves(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workspace, "waves_of", lambda operator: None)
 
 
-@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
-def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch, boundary: asp.Boundary) -> None:
-    """Reductions measured at 512²: 0.26 for 0.40 per step, of which the cost of waves leaves 0.27."""
-    inside, compliance = rough_set((128, 128), 0.2, 7), film(10.0, 10.0)
-    tools, _ = on_set(inside, compliance, boundary)
-    assert tools.waves is not None
-    assert tools.waves.pairs <= 0.07 * tools.operator.pairs_per_application
-    fewer = steps_to(inside, 1e-6, compliance, boundary)
-    without_waves(monkeypatch)
-    assert fewer < 0.85 * steps_to(inside, 1e-6, compliance, boundary)
+def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four surfaces took 18 or 19 pairs for 20 to 22, the cost of waves included."""
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=128.0, shortest_wavelength=8.0
+    )
+    film = asp.Layered([asp.Layer(asp.Elastic(10.0, 0.3), 20.0)], base=asp.Elastic(1.0, 0.3))
+    problem = asp.ContactProblem(asp.generate.gaussian(grid((512, 512)), spectrum, seed=4), film)
+    solver, pairs = asp.solvers.ActiveSet(tolerance=1e-6), []
+    for number in range(2):
+        if number:
+            without_waves(monkeypatch)
+        pairs.append(asp.solve(problem, asp.MeanPressure(0.4), solver=solver).certificate.fft_pairs)
+    assert pairs[0] < 0.95 * pairs[1]
 
 
 def waves_on(shape: tuple[int, int], compliance: Compliance, spacing: tuple[float, float] = (1.0, 1.0)) -> Waves | None:
@@ -200,6 +203,7 @@ def test_waves_are_for_steep_compliances_on_grids_that_their_cells_divide() -> N
     stiff = film(10.0)
     found = waves_on((64, 96), stiff)
     assert found is not None
+    assert found.pairs == 4.0 / 64.0
     assert found.form.cells == found.form.padded == (8, 12)
     assert found.form.kernel.min() >= 0.0
     for gentle in (BODY, film(0.5), film(2.0)):

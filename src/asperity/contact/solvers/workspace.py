@@ -13,7 +13,7 @@ from ...core.engine import Cells, Convolution, Engine
 from ..boundary import Periodic
 from ..operators.protocol import Operator
 from .cell_waves import Waves, waves_of
-from .cells import hierarchies, pixel_compliance
+from .cells import OWN_SHARE, hierarchies, pixel_compliance
 from .protocol import ContactQP, FixedOffset
 
 _OFF_CENTRE = 10.0
@@ -42,7 +42,8 @@ class Bench:
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
         operator = self.operator
-        nested = hierarchies(operator.octaves, operator.grid, periodic=isinstance(operator.boundary, Periodic))
+        periodic = isinstance(operator.boundary, Periodic)
+        nested = hierarchies(operator.octaves, operator.grid, periodic=periodic, share=self._share)
         waves = None if self.waves is None else self.waves.form
         return self.engine.cells(operator.grid.shape, nested, waves, self.dtype)
 
@@ -54,7 +55,11 @@ class Bench:
     @cached_property
     def cell_unit(self) -> float:
         """Deflection of a point under its own load in the model of nested cells, over ``scale``."""
-        return pixel_compliance(self.operator.octaves, self.operator.grid) / self.scale
+        return self._share * pixel_compliance(self.operator.octaves, self.operator.grid) / self.scale
+
+    @property
+    def _share(self) -> float:
+        return OWN_SHARE if self.waves is None else 1.0
 
     @cached_property
     def inverse(self) -> Convolution:

@@ -13,7 +13,7 @@ from .blocks import FEW, Blocks
 from .cpu_cells import CpuCells
 from .cpu_face import ROW_PAD, CpuFace, bound, memory
 from .cpu_waves import CpuWaves
-from .neighbourhood import SIDE, local_means
+from .neighbourhood import SIDE, entering_levels
 from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Totals, Violation
 
 
@@ -81,7 +81,7 @@ class CpuEngine:
         """Survey of an iterate."""
         nx, ny = p.shape
         flat = p.ravel(), u.ravel(), _read_only(h)
-        squares = np.zeros((-(-nx // SIDE), -(-ny // SIDE), 2))
+        squares = np.zeros((-(-nx // SIDE), -(-ny // SIDE), 3))
         s = np.zeros((len(squares), 3 if cap is None else 7))
         kernels, alone = self.blocks.kernels, p.size < FEW
         if cap is None:
@@ -129,7 +129,7 @@ class CpuSurvey:
     def face(self, level: float, scale: float, dtype: str) -> CpuFace:
         """Working set at ``level``."""
         kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
-        levels = level + local_means(self.squares, level)
+        levels = entering_levels(self.squares, level)
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
         if self.cap is None:

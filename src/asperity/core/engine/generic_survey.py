@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import RealArray
 from .generic_face import ArrayFace
 from .library import Library, bound
-from .neighbourhood import SIDE, local_means
+from .neighbourhood import SIDE, entering_levels
 from .protocol import Totals
 
 
@@ -34,23 +34,28 @@ class ArraySurvey:
     def face(self, level: float, scale: float, dtype: str) -> ArrayFace:
         """Working set at ``level``."""
         library, p, cap = self.library, self.p, self.cap
-        gap, movable = self.u - self.h - float(level), p > 0.0
+        r, movable = self.u - self.h, p > 0.0
         capped = movable & (p >= bound(library, cap, p)) if cap is not None else movable & ~movable
         movable = movable & ~capped
-        apart = gap - self._local(movable, gap)
-        entering = ((p == 0.0) & (apart < 0.0)) | (capped & (apart > 0.0))
+        low, high = self._levels(movable, r, level)
+        entering = ((p == 0.0) & (r < low)) | (capped & (r > high))
         inside = movable | entering
-        start = library.select(inside, library.xp.astype(gap * (-1.0 / float(scale)), getattr(library.xp, dtype)))
+        start = (float(level) - r) * (1.0 / float(scale))
+        start = library.select(inside, library.xp.astype(start, getattr(library.xp, dtype)))
         size, arrived = library.numbers([library.count(inside), library.count(entering)])
         return ArrayFace(library, inside, start, int(size), int(arrived))
 
-    def _local(self, mask: Any, values: Any) -> Any:
-        """Mean of the ``values`` on the ``mask`` near each point."""
-        library, xp = self.library, self.library.xp
-        counted = self._in_squares(xp.astype(mask, values.dtype)), self._in_squares(library.select(mask, values))
-        means = library.array(local_means(np.stack(counted, axis=-1)), "float64")
-        nx, ny = values.shape
-        return xp.repeat(xp.repeat(means, SIDE, axis=0), SIDE, axis=1)[:nx, :ny]
+    def _levels(self, mask: Any, r: Any, level: float) -> list[Any]:
+        """The two levels by which points enter, from ``r`` on the ``mask`` near each point."""
+        library, xp, (nx, ny) = self.library, self.library.xp, r.shape
+        sums = [
+            self._in_squares(xp.astype(mask, r.dtype)),
+            self._in_squares(library.select(mask, r)),
+            self._in_squares(library.select(mask, r * r)),
+        ]
+        levels = entering_levels(np.stack(sums, axis=-1), level)
+        arrays = (library.array(levels[..., side], "float64") for side in (0, 1))
+        return [xp.repeat(xp.repeat(values, SIDE, axis=0), SIDE, axis=1)[:nx, :ny] for values in arrays]
 
     def _in_squares(self, values: Any) -> RealArray:
         """Sums over squares of SIDE x SIDE points."""

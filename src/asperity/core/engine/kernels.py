@@ -32,7 +32,7 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 @compiled
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
-    """Without a cap, per band of ``side`` rows: sum p, sum p·r, min r; per square: number of loaded points, and their sum r.
+    """Without a cap, per band of ``side`` rows: sum p, sum p·r, min r; per square: number of loaded points, their sum r and r².
 
     Where p < 0 it counts as 0. No branches: it vectorises.
     """
@@ -45,6 +45,7 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                 first = start + square * side
                 loaded = 0.0
                 level = 0.0
+                spread = 0.0
                 for i in range(first, min(first + side, start + row)):
                     pi = np.float64(p[i])
                     ri = u[i] - np.float64(h[i])
@@ -54,8 +55,10 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                     pr += max(pi, 0.0) * ri
                     loaded += carries
                     level += carries * ri
+                    spread += carries * ri * ri
                 squares[band, square, 0] += loaded
                 squares[band, square, 1] += level
+                squares[band, square, 2] += spread
         sums[band, 0] = total
         sums[band, 1] = pr
         sums[band, 2] = lowest
@@ -65,7 +68,7 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
 def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Per band: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
 
-    Per square: number of points with 0 < p < cap, and their sum r.
+    Per square: number of points with 0 < p < cap, their sum r and r².
     """
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
     for band in range(span[0], span[1]):
@@ -93,6 +96,7 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
                             weighted += pi * ri
                             squares[band, square, 0] += 1.0
                             squares[band, square, 1] += ri
+                            squares[band, square, 2] += ri * ri
                     else:
                         lowest_open = min(lowest_open, ri)
         sums[band, 0] = total
@@ -149,7 +153,7 @@ def mark_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # typ
     line = np.empty(row)
     for band in range(span[0], span[1]):
         for j in range(row):
-            line[j] = levels[band, j // side]
+            line[j] = levels[band, j // side, 0]
         members = np.int64(0)
         for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
             pressure, deflection, heights = p[start : start + row], u[start : start + row], h[start : start + row]
@@ -166,7 +170,7 @@ def mark_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # typ
 
 @compiled
 def mark_face(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
-    """Mask of the working set by the ``levels`` of squares; per band: number of its points, and of those entering it.
+    """Mask of the working set by two ``levels`` of each square, for points at 0 and at the cap; per band: number of its points, and of those entering it.
 
     Without branches: which points belong is as random as the surface, and a processor cannot guess it.
     """
@@ -178,10 +182,11 @@ def mark_face(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ign
             for square in range(levels.shape[1]):
                 first = start + square * side
                 for i in range(first, min(first + side, start + row)):
-                    gap = u[i] - np.float64(h[i]) - levels[band, square]
+                    r = u[i] - np.float64(h[i])
                     open_ = np.uint8(p[i] <= 0.0)
                     full = np.uint8(p[i] >= cap[i * each])
-                    enters = (open_ & np.uint8(gap < 0.0)) | (full & np.uint8(gap > 0.0))
+                    low, high = np.uint8(r < levels[band, square, 0]), np.uint8(r > levels[band, square, 1])
+                    enters = (open_ & low) | (full & high)
                     mask[i] = enters | (np.uint8(1) - (open_ | full))
                     entering += int(enters)
                     members += int(mask[i])
