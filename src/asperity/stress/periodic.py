@@ -23,7 +23,7 @@ from .tractions import ShearTraction, Tractions
 from .transfer import Transfers
 
 _NEGLIGIBLE = 60.0  # depth times wavenumber from which exp(-αz) is below anything that counts
-_LINES = 16  # made at a time: as many as single-precision numbers in a vector instruction
+_LINES = 32  # made at a time: vector instructions are full, and the lines of all fields stay in the cache
 _PRESSURE = ("tau_zz", "tau_Lz", "LL_z")
 _SHEAR = ("tau_zL", "tau_LL", "LL_L", "tau_T", "LT")
 _DISPLACEMENT = ("U_z", "W_z", "U_L", "W_L", "u_T")
@@ -70,9 +70,9 @@ class PeriodicPlanes:
         make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
         found = StressTensor(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
         if plane.side == "surface":  # exact, whatever the rounding of the transforms
-            found.zz[...] = -self.tractions.pressure
-            found.xz[...] = -self.tractions.shear_x
-            found.yz[...] = -self.tractions.shear_y
+            loads = self.tractions.pressure, self.tractions.shear_x, self.tractions.shear_y
+            for load, component in zip(loads, (found.zz, found.xz, found.yz), strict=True):
+                np.negative(load, out=component, casting="same_kind")
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
