@@ -180,17 +180,18 @@ def without_waves(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Four surfaces took 18 or 19 pairs for 20 to 22, the cost of waves included."""
+    """Surfaces with a tenth in contact took 17 to 19 pairs for 19 and 20, the cost of waves included; here two together."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=128.0, shortest_wavelength=8.0
     )
-    film = asp.Layered([asp.Layer(asp.Elastic(10.0, 0.3), 20.0)], base=asp.Elastic(1.0, 0.3))
-    problem = asp.ContactProblem(asp.generate.gaussian(grid((512, 512)), spectrum, seed=4), film)
-    solver, pairs = asp.solvers.ActiveSet(tolerance=1e-6), []
+    coated = asp.Layered([asp.Layer(asp.Elastic(10.0, 0.3), 20.0)], base=asp.Elastic(1.0, 0.3))
+    solver, pairs = asp.solvers.ActiveSet(tolerance=1e-6), [0.0, 0.0]
     for number in range(2):
         if number:
             without_waves(monkeypatch)
-        pairs.append(asp.solve(problem, asp.MeanPressure(0.4), solver=solver).certificate.fft_pairs)
+        for seed in (1, 3):
+            problem = asp.ContactProblem(asp.generate.gaussian(grid((512, 512)), spectrum, seed=seed), coated)
+            pairs[number] += asp.solve(problem, asp.MeanPressure(0.4), solver=solver).certificate.fft_pairs
     assert pairs[0] < 0.95 * pairs[1]
 
 

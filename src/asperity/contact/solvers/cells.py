@@ -28,6 +28,9 @@ _SQUARE = 1.5
 OWN_SHARE = 0.6
 """Share of c(pi / a) that a pixel of side a is given of its own."""
 
+OWN_SHARE_BELOW_WAVES = 0.8
+"""The same where large cells have their true compliance, which leaves fewer borders."""
+
 
 class Spectral(Protocol):
     """Compliance, or what is known of it."""

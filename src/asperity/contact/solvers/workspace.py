@@ -13,7 +13,7 @@ from ...core.engine import Cells, Convolution, Engine
 from ..boundary import Periodic
 from ..operators.protocol import Operator
 from .cell_waves import Waves, waves_of
-from .cells import OWN_SHARE, hierarchies, pixel_compliance
+from .cells import OWN_SHARE, OWN_SHARE_BELOW_WAVES, hierarchies, pixel_compliance
 from .protocol import ContactQP, FixedOffset
 
 _OFF_CENTRE = 10.0
@@ -59,7 +59,7 @@ class Bench:
 
     @property
     def _share(self) -> float:
-        return OWN_SHARE if self.waves is None else 1.0
+        return OWN_SHARE if self.waves is None else OWN_SHARE_BELOW_WAVES
 
     @cached_property
     def inverse(self) -> Convolution:
