@@ -70,9 +70,12 @@ class PeriodicPlanes:
         make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
         found = StressTensor(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
         if plane.side == "surface":  # exact, whatever the rounding of the transforms
-            loads = self.tractions.pressure, self.tractions.shear_x, self.tractions.shear_y
-            for load, component in zip(loads, (found.zz, found.xz, found.yz), strict=True):
-                np.negative(load, out=component, casting="same_kind")
+            shear, pressure = self.tractions.shear, self.tractions.pressure
+            fields = (shear.x, shear.y) if isinstance(shear, ShearTraction) else (pressure, pressure)
+            factors = (1.0, 1.0) if isinstance(shear, ShearTraction) else shear.ratios
+            loads = zip((pressure, *fields), (1.0, *factors), (found.zz, found.xz, found.yz), strict=True)
+            for load, factor, component in loads:
+                np.multiply(load, -factor, out=component, casting="same_kind")
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
