@@ -13,8 +13,9 @@ import numpy as np
 
 from ..arrays import RealArray
 
-FEW = 1 << 15
-"""Points below which handing work to another thread costs more than it saves."""
+FEW = 1 << 17
+"""Points below which handing work to another thread costs more than it saves. Two threads on grids of 256² points took
+half as long again as one, on 512² they make no difference, above they gain (two-core virtual machine)."""
 
 
 class Blocks:
@@ -47,7 +48,7 @@ class Blocks:
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
         blocks = -(-size // self.kernels.BLOCK)
-        self.share(kernel, blocks, *arguments, alone=blocks < 2 * self.threads)
+        self.share(kernel, blocks, *arguments, alone=size < FEW)
 
     def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, alone: bool) -> None:
         """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless it is to run ``alone``."""

@@ -47,13 +47,13 @@ class CpuEngine:
 
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution."""
-        return _Convolution(self.blocks, RealTransform(shape, self.threads), kernel, dtype)
+        return _Convolution(self.blocks, RealTransform(shape, self._threads_for(shape)), kernel, dtype)
 
     def padded_convolution(
         self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
     ) -> Convolution:
         """Free convolution with pruned transforms."""
-        return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads), kernel, dtype)
+        return _Convolution(self.blocks, PaddedTransform(shape, padded, self._threads_for(padded)), kernel, dtype)
 
     def cells(
         self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
