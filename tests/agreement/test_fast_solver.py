@@ -315,7 +315,7 @@ def test_equal_inputs_give_equal_bits(boundary: Boundary, cap: float) -> None:
 @CAPS
 @each_boundary
 def test_the_number_of_threads_changes_rounding_only(boundary: Boundary, cap: float) -> None:
-    heights = rough((160, 192), 16).heights  # several blocks for each thread
+    heights = rough((384, 360), 16).heights  # large enough for threads
     grid, solver = asp.Grid(heights.shape, (1.0, 1.0)), ActiveSet(tolerance=1e-10, precision="double")
     found = []
     for threads in (1, 2):

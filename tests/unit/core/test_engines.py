@@ -18,6 +18,7 @@ from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
 from asperity.core.arrays import RealArray
 from asperity.core.engine import CellWaves, Engine, Hierarchy, Load, Merge
+from asperity.core.engine.blocks import FEW
 from asperity.core.engine.neighbourhood import SIDE, local_means
 
 REFERENCE = asp.CpuEngine(1)
@@ -606,7 +607,7 @@ def test_waves_that_nested_cells_can_tell_are_inverted_exactly(engine: Engine) -
 
 @every_cap
 def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
-    case = iterate((300, 301), cap)  # several blocks for each of three threads
+    case = iterate((700, 701), cap)  # enough for three threads, on the face too
     one, three = asp.CpuEngine(1), asp.CpuEngine(3)
     first, second = (values_of(e.survey(*case.on(e)).totals) for e in (one, three))
     assert first == second
@@ -614,6 +615,7 @@ def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
         first, second = (values_of(e.violation(*case.on(e), case.level)) for e in (one, three))
         assert first == second
     first, second = (work_on_face(e, case, "float32", centred=True) for e in (one, three))
+    assert first.size > FEW
     for name in vars(first):
         assert np.array_equal(getattr(first, name), getattr(second, name)), name
 

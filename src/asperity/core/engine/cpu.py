@@ -55,6 +55,10 @@ class CpuEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self.blocks, PaddedTransform(shape, padded, self._threads_for(padded)), kernel, dtype)
 
+    def _threads_for(self, shape: tuple[int, int]) -> int:
+        """Threads for transforms of this ``shape``."""
+        return self.threads if shape[0] * shape[1] >= FEW else 1
+
     def cells(
         self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
     ) -> Cells:
