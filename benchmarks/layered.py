@@ -1,8 +1,9 @@
 """Layered bodies against the homogeneous half-space: time, FFT pairs and set-up of the same solver on the same surface.
 
-Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3]
+Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3] [--surfaces 3]
 
-All bodies are solved once in every round, so that all see the same disturbances; medians are given. ``cpu`` is processor time
+All bodies are solved once in every round, so that all see the same disturbances; given are medians over the rounds, and their
+means over some surfaces, for a pair more or less on one of them is chance. ``cpu`` is processor time
 of all threads, the result's extras included, and less sensitive to other work. Loads are chosen for about equal contact areas,
 since the work on the contact set grows with it: a first solve of each body tells its area at the load of the homogeneous one,
 and area is nearly proportional to load. A layered kernel is an array of the grid like any other; what differs is the set-up and
@@ -14,7 +15,8 @@ from __future__ import annotations
 import argparse
 import statistics
 import time
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, field
 
 from surfaces import BODY, self_affine
 
@@ -81,9 +83,29 @@ def once(row: Row, problem: asp.ContactProblem, load: float, tolerance: float, t
     row.pairs, row.area = result.certificate.fft_pairs, result.area_fraction
 
 
-def compare(n: int, load: float, tolerance: float, threads: int, repeats: int) -> None:
-    """Table for n x n points."""
-    surface = self_affine(n)
+@dataclass(frozen=True)
+class Cost:
+    """Medians of a row: seconds in all, of processors and of the set-up; FFT pairs; contact area over the nominal one."""
+
+    total: float
+    cpu: float
+    setup: float
+    pairs: float
+    area: float
+
+    @classmethod
+    def of(cls, row: Row) -> Cost:
+        """Medians of ``row``."""
+        return cls(*(statistics.median(values) for values in (row.total, row.cpu, row.setup)), row.pairs, row.area)
+
+    @classmethod
+    def mean(cls, costs: Sequence[Cost]) -> Cost:
+        """Mean over surfaces."""
+        return cls(*(statistics.fmean(values) for values in zip(*(astuple(cost) for cost in costs), strict=True)))
+
+
+def on_one_surface(surface: asp.Surface, load: float, tolerance: float, threads: int, repeats: int) -> dict[str, Cost]:
+    """Cost of every pair of bodies on ``surface``, at loads for about equal areas."""
     problems = {
         name: asp.ContactProblem(surface, body, counter_body=counter) for name, (body, counter) in bodies().items()
     }
@@ -96,15 +118,20 @@ def compare(n: int, load: float, tolerance: float, threads: int, repeats: int) -
     for _ in range(repeats):
         for name, problem in problems.items():
             once(rows[name], problem, loads[name], tolerance, threads)
-    first = rows["homogeneous"]
-    base, work = statistics.median(first.total), statistics.median(first.cpu)
+    return {name: Cost.of(row) for name, row in rows.items()}
+
+
+def show(n: int, found: list[dict[str, Cost]]) -> None:
+    """Table for n x n points, from the costs on some surfaces."""
+    costs = {name: Cost.mean([one[name] for one in found]) for name in found[0]}
+    base = costs["homogeneous"]
     print(f"| n = {n} | total (s) | × homogeneous | cpu × | pairs | × pairs | set-up (ms) | share of a solve | area |")
     print("|---|---|---|---|---|---|---|---|---|")
-    for name, row in rows.items():
-        total, setup, cpu = (statistics.median(values) for values in (row.total, row.setup, row.cpu))
+    for name, cost in costs.items():
         print(
-            f"| {name} | {total:.3f} | {total / base:.2f} | {cpu / work:.2f} | {row.pairs:.0f} | "
-            f"{row.pairs / first.pairs:.2f} | {1e3 * setup:.1f} | {100.0 * setup / base:.1f} % | {row.area:.3f} |",
+            f"| {name} | {cost.total:.3f} | {cost.total / base.total:.2f} | {cost.cpu / base.cpu:.2f} | {cost.pairs:.1f} | "
+            f"{cost.pairs / base.pairs:.2f} | {1e3 * cost.setup:.1f} | {100.0 * cost.setup / base.total:.1f} % | "
+            f"{cost.area:.3f} |",
             flush=True,
         )
 
@@ -116,12 +143,14 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--threads", type=int, default=thread_count())
     parser.add_argument("--tolerance", type=float, default=1e-6)
+    parser.add_argument("--surfaces", type=int, default=3, help="number of surfaces, of seeds 1, 2, ...")
     given = parser.parse_args()
     print(f"asperity {asp.__version__}, {given.threads} thread(s), tolerance {given.tolerance}, load {given.load}")
     problem = asp.ContactProblem(self_affine(128), BODY)
     once(Row(), problem, given.load, 1e-4, given.threads)  # compiles
     for n in given.sizes:
-        compare(n, given.load, given.tolerance, given.threads, given.repeats)
+        surfaces = [self_affine(n, seed) for seed in range(1, given.surfaces + 1)]
+        show(n, [on_one_surface(s, given.load, given.tolerance, given.threads, given.repeats) for s in surfaces])
 
 
 if __name__ == "__main__":
