@@ -68,8 +68,8 @@ class ActiveSet:
     from coarser grids. Corrections are computed in single precision, the gap they must close in double
     (``precision="mixed"``), so the answer has double precision at nearly the cost of single.
 
-    Without a cap, points that pull after a step are clipped with the next, whose first product with the compliance serves
-    both: two products less for every three. Three such free steps in a row that do not bring the error down end this. From
+    Without a cap, points that pull after a step are cleared with the next, whose first product with the compliance serves
+    both: a product less for every step. Three such free steps in a row that do not bring the error down end this. From
     then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a step that would
     raise it is shortened to the minimum on its way, or replaced by one along the projected gradient.
 
