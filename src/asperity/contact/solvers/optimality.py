@@ -40,11 +40,11 @@ def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: f
 
     Infinite if r < lambda anywhere without a cap (weak duality of the quadratic programme, Kalker 1977).
     """
-    gap = r - at
+    gap = r - at  # sums of products rather than np.vdot, after which idle threads of BLAS keep the processors busy
     if not isinstance(cap, np.ndarray) and cap == np.inf:
-        return np.inf if gap.min() < 0.0 else float(np.vdot(gap, pressure))
-    above = float(np.vdot(np.maximum(gap, 0.0), pressure))
-    return above + float(np.vdot(np.maximum(-gap, 0.0), cap - pressure))
+        return np.inf if gap.min() < 0.0 else float((gap * pressure).sum())
+    above = float((np.maximum(gap, 0.0) * pressure).sum())
+    return above + float((np.maximum(-gap, 0.0) * (cap - pressure)).sum())
 
 
 def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> float:
