@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from typer import Argument, Option
 
+from .panel import option
+
 LOADS, THEORIES, OUTPUT = "Loads", "Theories and solver", "Output"
-
-
-def _option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
-    return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
 
 
 @dataclass(frozen=True)
@@ -32,34 +30,32 @@ class CompareOptions:
 
     pressures: Annotated[
         str | None,
-        _option(
+        option(
             "--pressures",
             "Nominal pressures: a logarithmic range 1MPa..1GPa, or a list 1MPa,10MPa; from 0.004 to 0.25 E* h' by default.",
             LOADS,
             "PRESSURES",
         ),
     ] = None
-    loads: Annotated[int | None, _option("--loads", "Number of loads of a range; 12 by default.", LOADS)] = None
+    loads: Annotated[int | None, option("--loads", "Number of loads of a range; 12 by default.", LOADS)] = None
     theories: Annotated[
         str | None,
-        _option("--theories", "Names with commas between; all that the surface allows by default.", THEORIES, "NAME,…"),
+        option("--theories", "Names with commas between; all that the surface allows by default.", THEORIES, "NAME,…"),
     ] = None
-    no_numerical: Annotated[bool, _option("--no-numerical", "Leave the boundary-element solution out.", THEORIES)] = (
+    no_numerical: Annotated[bool, option("--no-numerical", "Leave the boundary-element solution out.", THEORIES)] = (
         False
     )
     work: Annotated[
-        str | None, _option("--work", "Work of adhesion, for fuller-tabor: 50mJ/m^2.", THEORIES, "ENERGY/AREA")
+        str | None, option("--work", "Work of adhesion, for fuller-tabor: 50mJ/m^2.", THEORIES, "ENERGY/AREA")
     ] = None
     most_contacts: Annotated[
         int | None,
-        _option("--most-contacts", "Contacts up to which interacting-crests are solved; 1000 by default.", THEORIES),
+        option("--most-contacts", "Contacts up to which interacting-crests are solved; 1000 by default.", THEORIES),
     ] = None
-    tolerance: Annotated[float | None, _option("--tolerance", "Relative error at which to stop.", THEORIES)] = None
-    threads: Annotated[int | None, _option("--threads", "Threads of the solver; all cores by default.", THEORIES)] = (
-        None
-    )
+    tolerance: Annotated[float | None, option("--tolerance", "Relative error at which to stop.", THEORIES)] = None
+    threads: Annotated[int | None, option("--threads", "Threads of the solver; all cores by default.", THEORIES)] = None
     out: Annotated[
         Path | None,
-        _option("--out", "Folder for report.html, comparison.nc, comparison.csv and plots.", OUTPUT, "DIR"),
+        option("--out", "Folder for report.html, comparison.nc, comparison.csv and plots.", OUTPUT, "DIR"),
     ] = None
-    force: Annotated[bool, _option("--force", "Replace files that exist.", OUTPUT)] = False
+    force: Annotated[bool, option("--force", "Replace files that exist.", OUTPUT)] = False

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from typer import Argument, Option
 
+from .panel import option
+
 READING, BODIES = "Reading the file", "Bodies and interface"
 LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
-
-
-def _option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
-    return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
 
 
 @dataclass(frozen=True)
@@ -31,15 +29,15 @@ class SourceOptions:
 class ReadingOptions:
     """What a file with heights does not say itself."""
 
-    channel: Annotated[str | None, _option("--channel", "Name or number of the channel.", READING)] = None
+    channel: Annotated[str | None, option("--channel", "Name or number of the channel.", READING)] = None
     size: Annotated[
-        str | None, _option("--size", 'Physical size, such as "20 um x 10 um".', READING, "LENGTH [x LENGTH]")
+        str | None, option("--size", 'Physical size, such as "20 um x 10 um".', READING, "LENGTH [x LENGTH]")
     ] = None
-    height_unit: Annotated[str | None, _option("--height-unit", "Unit of the heights: nm, um, …", READING, "UNIT")] = (
+    height_unit: Annotated[str | None, option("--height-unit", "Unit of the heights: nm, um, …", READING, "UNIT")] = (
         None
     )
     z_scale: Annotated[
-        str | None, _option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
+        str | None, option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
     ] = None
 
 
@@ -49,7 +47,7 @@ class BodyOptions:
 
     body: Annotated[
         str | None,
-        _option(
+        option(
             "--body",
             'Material name, "E=140GPa,nu=0.25,H=15GPa", or layers from the surface down on a base: '
             '"DLC:5nm/Cr:2nm/steel"; ~ behind a thickness: slips on what is below.',
@@ -67,30 +65,30 @@ class BodyOptions:
             metavar="BODY",
         ),
     ] = None
-    materials_file: Annotated[Path | None, _option("--materials-file", "Your own materials, a TOML file.", BODIES)] = (
+    materials_file: Annotated[Path | None, option("--materials-file", "Your own materials, a TOML file.", BODIES)] = (
         None
     )
     counter_surface: Annotated[
-        Path | None, _option("--counter-surface", "File with the surface of the counter body; flat by default.", BODIES)
+        Path | None, option("--counter-surface", "File with the surface of the counter body; flat by default.", BODIES)
     ] = None
     mirror: Annotated[
         str | None,
-        _option("--mirror", "How the counter surface is turned over: x (default), y or none.", BODIES),
+        option("--mirror", "How the counter surface is turned over: x (default), y or none.", BODIES),
     ] = None
     shift: Annotated[
         str | None,
-        _option("--shift", "Place of the counter surface's middle from that of the surface.", BODIES, "LENGTH,LENGTH"),
+        option("--shift", "Place of the counter surface's middle from that of the surface.", BODIES, "LENGTH,LENGTH"),
     ] = None
     rotate: Annotated[
-        str | None, _option("--rotate", "Angle from +x towards +y of the counter surface: 30deg.", BODIES, "ANGLE")
+        str | None, option("--rotate", "Angle from +x towards +y of the counter surface: 30deg.", BODIES, "ANGLE")
     ] = None
     common_grid: Annotated[
         bool,
-        _option("--common-grid", "Bring both surfaces on one grid; so do --shift and --rotate.", BODIES),
+        option("--common-grid", "Bring both surfaces on one grid; so do --shift and --rotate.", BODIES),
     ] = False
     hardness: Annotated[
         str | None,
-        _option(
+        option(
             "--hardness",
             'Limit of the pressure, "body" for the lower known hardness of the materials at the surfaces, or "effective" for '
             "that of the softer body with its layers, by depth.",
@@ -100,7 +98,7 @@ class BodyOptions:
     ] = None
     boundary: Annotated[
         str | None,
-        _option("--boundary", "periodic (default), free, or line (plane strain; see --line).", BODIES),
+        option("--boundary", "periodic (default), free, or line (plane strain; see --line).", BODIES),
     ] = None
 
 
@@ -108,30 +106,30 @@ class BodyOptions:
 class SolveOptions:
     """What is prescribed, and how the problem is solved."""
 
-    pressure: Annotated[str | None, _option("--pressure", "Mean pressure: 50kPa.", LOAD, "PRESSURE")] = None
-    load: Annotated[str | None, _option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
-    approach: Annotated[str | None, _option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
-    mean_gap: Annotated[str | None, _option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
+    pressure: Annotated[str | None, option("--pressure", "Mean pressure: 50kPa.", LOAD, "PRESSURE")] = None
+    load: Annotated[str | None, option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
+    approach: Annotated[str | None, option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
+    mean_gap: Annotated[str | None, option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
     path: Annotated[
         str | None,
-        _option(
+        option(
             "--path", "Load path through turning points: 50MPa,0,80MPa (or forces, or approaches).", LOAD, "VALUE,…"
         ),
     ] = None
     path_steps: Annotated[
-        int | None, _option("--path-steps", "Steps from one turning point to the next; 10 by default.", LOAD)
+        int | None, option("--path-steps", "Steps from one turning point to the next; 10 by default.", LOAD)
     ] = None
     solver: Annotated[
-        str | None, _option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
+        str | None, option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
     ] = None
-    tolerance: Annotated[float | None, _option("--tolerance", "Relative error at which to stop.", SOLVER)] = None
-    max_iterations: Annotated[int | None, _option("--max-iterations", "Iterations after which to give up.", SOLVER)] = (
+    tolerance: Annotated[float | None, option("--tolerance", "Relative error at which to stop.", SOLVER)] = None
+    max_iterations: Annotated[int | None, option("--max-iterations", "Iterations after which to give up.", SOLVER)] = (
         None
     )
     precision: Annotated[
-        str | None, _option("--precision", "Arithmetic of active_set: mixed (default), double or single.", SOLVER)
+        str | None, option("--precision", "Arithmetic of active_set: mixed (default), double or single.", SOLVER)
     ] = None
-    threads: Annotated[int | None, _option("--threads", "Threads of the transforms; all cores by default.", SOLVER)] = (
+    threads: Annotated[int | None, option("--threads", "Threads of the transforms; all cores by default.", SOLVER)] = (
         None
     )
 
@@ -141,27 +139,27 @@ class OutputOptions:
     """Where the whole run, or a part of it, is written."""
 
     out: Annotated[
-        Path | None, _option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
+        Path | None, option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
     ] = None
-    force: Annotated[bool, _option("--force", "Replace files that exist.", OUTPUT)] = False
+    force: Annotated[bool, option("--force", "Replace files that exist.", OUTPUT)] = False
     plastic_load: Annotated[
         bool,
-        _option(
+        option(
             "--plastic-load",
             "Search the load at which 2 % of the real area is at the hardness (some 15 solves).",
             OUTPUT,
         ),
     ] = False
     save_document: Annotated[
-        Path | None, _option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
+        Path | None, option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
     ] = None
-    csv: Annotated[Path | None, _option("--csv", "Write the scalars as a CSV file.", OUTPUT)] = None
-    vtk: Annotated[Path | None, _option("--vtk", "Write the fields as a VTK image file (.vti).", OUTPUT)] = None
+    csv: Annotated[Path | None, option("--csv", "Write the scalars as a CSV file.", OUTPUT)] = None
+    vtk: Annotated[Path | None, option("--vtk", "Write the fields as a VTK image file (.vti).", OUTPUT)] = None
     stress_vtk: Annotated[
-        Path | None, _option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).", OUTPUT)
+        Path | None, option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).", OUTPUT)
     ] = None
     stress_nc: Annotated[
-        Path | None, _option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).", OUTPUT)
+        Path | None, option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).", OUTPUT)
     ] = None
 
     @property

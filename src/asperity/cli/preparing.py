@@ -7,15 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from typer import Option
-
 from ..core.errors import InputError
+from .panel import options_of
 
 PREPARATION = "Preparation, in this order"
 
-
-def _option(name: str, text: str, metavar: str | None = None) -> Any:
-    return Option(name, help=text, rich_help_panel=PREPARATION, metavar=metavar)
+_option = options_of(PREPARATION)
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .options import OUTPUT, OutputOptions
+from .panel import options_of
 from .results import Result
 from .stressing import StressOptions, stress_names, with_stress
 
@@ -19,9 +20,7 @@ if TYPE_CHECKING:
     from ..stress.request import StressRequest
     from ..stress.survey import StressSurvey
 
-
-def _option(name: str, text: str, metavar: str | None = None) -> Any:
-    return typer.Option(name, help=text, rich_help_panel=OUTPUT, metavar=metavar)
+_option = options_of(OUTPUT)
 
 
 @dataclass(frozen=True)

@@ -6,15 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any
 
-from typer import Option
-
 from ..core.errors import InputError
+from .panel import options_of
 
 STRESS = "Stresses inside the body"
 
-
-def _option(name: str, text: str, metavar: str | None = None) -> Any:
-    return Option(name, help=text, rich_help_panel=STRESS, metavar=metavar)
+_option = options_of(STRESS)
 
 
 @dataclass(frozen=True)

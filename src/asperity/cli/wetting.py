@@ -7,15 +7,12 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from typer import Option
-
+from .panel import options_of
 from .stressing import StressOptions
 
 FILM = "Liquid film (with --friction for the static friction)"
 
-
-def _option(name: str, text: str, metavar: str | None = None) -> Any:
-    return Option(name, help=text, rich_help_panel=FILM, metavar=metavar)
+_option = options_of(FILM)
 
 
 @dataclass(frozen=True)
