@@ -174,9 +174,7 @@ class ActiveSet:
         """Step along the projected gradient from the iterate in the buffers; exhausted if not even that goes down."""
         work = memory.work
         qp, engine = work.qp, work.engine
-        if memory.face is not None:
-            brought_back(work, memory.face, memory.survey.totals.pressure)
-        work.exact.apply(work.pressure, work.deflection)
+        _from_scratch(memory)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))
         work.pressure[...] = engine.array(lower.pressure, work.dtype)
@@ -199,10 +197,7 @@ class ActiveSet:
         due = error <= self.tolerance or spent.iterations >= self.max_iterations
         due = due or error < _REFRESH * memory.computed_at or (memory.idle is None and memory.face is not None)
         if spent.iterations and due:
-            if memory.face is not None:
-                brought_back(work, memory.face, memory.survey.totals.pressure)
-            memory.face = None
-            work.exact.apply(work.pressure, work.deflection)
+            _from_scratch(memory)
             memory = replace(memory, survey=_survey(work), pull=0.0)
             spent = replace(spent, applications=spent.applications + 1)
             error = _relative_error(work, memory.survey.totals)
@@ -230,6 +225,15 @@ def _taken(memory: _Memory) -> _Memory:
     taken = replace(memory)
     memory.face = None
     return taken
+
+
+def _from_scratch(memory: _Memory) -> None:
+    """Clear points that pull, and compute the deflection anew instead of from its updates."""
+    work = memory.work
+    if memory.face is not None:
+        brought_back(work, memory.face, memory.survey.totals.pressure)
+    memory.face = None
+    work.exact.apply(work.pressure, work.deflection)
 
 
 def _following(work: Workspace) -> Callable[[float], None]:

@@ -19,7 +19,6 @@ import numpy as np
 
 from ...core.engine import CellWaves
 from ...core.grid import Grid
-from ..boundary import Periodic
 from ..operators import prepare_operator
 from ..operators.protocol import Operator
 from .cells import merges_of, octaves
@@ -44,7 +43,7 @@ def waves_of(operator: Operator) -> Waves | None:
     None where it does not fall to a third over any octave beyond them, where pixels are too oblong, and where the grid is
     too small, a line, or periodic with sides that such cells do not divide.
     """
-    grid, periodic, side = operator.grid, isinstance(operator.boundary, Periodic), 1 << _DEPTH
+    grid, periodic, side = operator.grid, all(operator.boundary.wraps), 1 << _DEPTH
     merges = merges_of(grid)
     if min(grid.shape) < _FEWEST * side or not all(x and y for x, y in merges[:_DEPTH]):
         return None

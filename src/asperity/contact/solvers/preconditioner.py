@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from ...core.engine import Face, Products
-from ..boundary import Periodic
 from .workspace import Bench
 
 _NEARLY_FULL = 0.998
@@ -88,5 +87,5 @@ def preconditioner(tools: Bench, face: Face) -> Preconditioner:
     (17) at 99.95 %. With a free boundary it is nowhere exact, and takes more than twice those of nested cells.
     """
     operator = tools.operator
-    nearly_full = isinstance(operator.boundary, Periodic) and face.size > _NEARLY_FULL * operator.grid.n_points
+    nearly_full = all(operator.boundary.wraps) and face.size > _NEARLY_FULL * operator.grid.n_points
     return RestrictedInverse(tools, face) if nearly_full else NestedCells(tools, face)

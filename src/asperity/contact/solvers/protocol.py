@@ -67,11 +67,11 @@ class ContactQP:
 class SolverState:
     """One iterate, everything needed to continue from it.
 
-    ``pressure`` feasible pressure (Pa), unless a method says that it leaves the bounds on the way; ``deflection`` K·pressure (m); ``error`` its relative optimality error (see
-    ``optimality.relative_error``); ``iterations`` and operator ``applications`` so far, and ``extra_pairs``, FFT pairs of the
-    size of the grid that went into other work (preconditioner, coarser grids); ``exhausted`` when the method
-    cannot improve the iterate; ``memory`` what the method carries from step to step; ``engine`` whose arrays pressure
-    and deflection are, None for NumPy arrays.
+    ``pressure`` feasible pressure (Pa), unless a method says that it leaves the bounds on the way; ``deflection`` K·pressure
+    (m); ``error`` its relative optimality error (see ``optimality.relative_error``); ``iterations`` and operator
+    ``applications`` so far, and ``extra_pairs``, FFT pairs of the size of the grid that went into other work
+    (preconditioner, coarser grids); ``exhausted`` when the method cannot improve the iterate; ``memory`` what the method
+    carries from step to step; ``engine`` whose arrays pressure and deflection are, None for NumPy arrays.
     """
 
     pressure: RealArray

@@ -10,7 +10,6 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Cells, Convolution, Engine
-from ..boundary import Periodic
 from ..operators.protocol import Operator
 from .cell_waves import Waves, waves_of
 from .cells import OWN_SHARE, OWN_SHARE_BELOW_WAVES, hierarchies, pixel_compliance
@@ -42,7 +41,7 @@ class Bench:
     def cells(self) -> Cells:
         """Nested cells that follow the compliance."""
         operator = self.operator
-        periodic = isinstance(operator.boundary, Periodic)
+        periodic = all(operator.boundary.wraps)
         nested = hierarchies(operator.octaves, operator.grid, periodic=periodic, share=self._share)
         waves = None if self.waves is None else self.waves.form
         return self.engine.cells(operator.grid.shape, nested, waves, self.dtype)
