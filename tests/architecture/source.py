@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 PACKAGE = "asperity"
@@ -33,12 +33,18 @@ class Module:
 
 @dataclass(frozen=True)
 class Import:
-    """Absolute ``target`` that is imported on ``line``: a module, or a name in a module."""
+    """Absolute ``target`` that is imported on ``line``: a module, or a name in a module.
+
+    ``late`` if it is imported when a function runs, and ``typing`` if only type checkers read it.
+    """
 
     target: str
     line: int
+    late: bool = False
+    typing: bool = False
 
 
+@cache
 def library() -> list[Module]:
     """All modules of the library."""
     return [_module(path) for path in sorted(ROOT.rglob("*.py"))]
@@ -50,18 +56,31 @@ def _module(path: Path) -> Module:
     return Module(".".join(parts[:-1] if is_package else parts), path.read_text(encoding="utf-8"), is_package)
 
 
-def imports(module: Module) -> Iterator[Import]:
+@cache
+def imports(module: Module) -> list[Import]:
     """Everything that ``module`` imports, anywhere in it: at the top, in functions, for type checking, by name."""
-    for node in ast.walk(module.tree):
-        if isinstance(node, ast.Import):
-            yield from (Import(alias.name, node.lineno) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            origin = _absolute(module, "." * node.level + (node.module or ""))
-            yield from (Import(f"{origin}.{alias.name}", node.lineno) for alias in node.names)
-        elif isinstance(node, ast.Call) and _called(node) in {"import_module", "__import__"} and node.args:
-            name = node.args[0]
-            if isinstance(name, ast.Constant) and isinstance(name.value, str):
-                yield Import(_absolute(module, name.value), node.lineno)
+    return list(_imports(module, module.tree, late=False, typing=False))
+
+
+def _imports(module: Module, parent: ast.AST, late: bool, typing: bool) -> Iterator[Import]:
+    late = late or isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+    typing = typing or (isinstance(parent, ast.If) and ast.unparse(parent.test).endswith("TYPE_CHECKING"))
+    for node in ast.iter_child_nodes(parent):
+        for target in _targets(module, node):
+            yield Import(target, node.lineno, late, typing)  # type: ignore[attr-defined]
+        yield from _imports(module, node, late, typing)
+
+
+def _targets(module: Module, node: ast.AST) -> Iterator[str]:
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        origin = _absolute(module, "." * node.level + (node.module or ""))
+        yield from (f"{origin}.{alias.name}" for alias in node.names)
+    elif isinstance(node, ast.Call) and _called(node) in {"import_module", "__import__"} and node.args:
+        name = node.args[0]
+        if isinstance(name, ast.Constant) and isinstance(name.value, str):
+            yield _absolute(module, name.value)
 
 
 def _absolute(module: Module, name: str) -> str:

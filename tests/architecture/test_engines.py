@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 
-import pytest
 from architecture.source import Module, imports, library
 
 FFT_LIBRARIES = ("numpy.fft", "scipy.fft", "scipy.fftpack", "ducc0", "pyfftw", "mkl_fft")
@@ -17,9 +16,8 @@ def violations(module: Module) -> list[str]:
     """One sentence for each use of a reserved library in ``module``."""
     found = [f"{module.name}:{item.line} imports {item.target}" for item in imports(module) if reserved(item.target)]
     for node in ast.walk(module.tree):
-        text = ast.unparse(node) if isinstance(node, ast.Attribute) else ""
-        if text in FFT_ATTRIBUTES:
-            found.append(f"{module.name}:{node.lineno} uses {text}")
+        if isinstance(node, ast.Attribute) and node.attr in {"fft", "fftpack"} and ast.unparse(node) in FFT_ATTRIBUTES:
+            found.append(f"{module.name}:{node.lineno} uses {ast.unparse(node)}")
     return found
 
 
@@ -28,14 +26,13 @@ def reserved(target: str) -> bool:
     return any(target == name or target.startswith(name + ".") for name in RESERVED)
 
 
-@pytest.mark.parametrize("module", [m for m in library() if m.folder != "core"], ids=lambda module: module.name)
-def test_only_core_names_an_fft_or_accelerator_library(module: Module) -> None:
-    assert violations(module) == [], "use core.spectral and core.grid instead"
+def test_only_core_names_an_fft_or_accelerator_library() -> None:
+    found = [violation for module in library() if module.folder != "core" for violation in violations(module)]
+    assert found == [], "use core.spectral and core.grid instead"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_reserved_libraries_are_found() -> None:
+    samples = [
         "import numpy.fft",
         "from numpy import fft",
         "from numpy.fft import rfft2",
@@ -49,12 +46,10 @@ def test_only_core_names_an_fft_or_accelerator_library(module: Module) -> None:
         "importlib.import_module('torch')",
         "q = np.fft.fftfreq(8)",
         "q = numpy.fft.rfft2(h)",
-    ],
-)
-def test_reserved_libraries_are_found(text: str) -> None:
-    assert violations(Module("asperity.contact.x", text))
+    ]
+    assert [text for text in samples if not violations(Module("asperity.contact.x", text))] == []
 
 
-@pytest.mark.parametrize("text", ["import numpy as np\nnp.sum(h)", "from scipy import optimize", "t.fft(h)"])
-def test_ordinary_code_is_allowed(text: str) -> None:
-    assert violations(Module("asperity.contact.x", text)) == []
+def test_ordinary_code_is_allowed() -> None:
+    samples = ["import numpy as np\nnp.sum(h)", "from scipy import optimize", "t.fft(h)"]
+    assert [text for text in samples if violations(Module("asperity.contact.x", text))] == []

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import pytest
 from architecture.source import PACKAGE, Import, Module, imports, library
 
 LAYERS = {
-    6: ("cli", "web"),
-    5: ("report",),
-    4: ("studies", "plots"),
-    3: ("io",),
+    8: ("cli", "web"),
+    7: ("studies",),
+    6: ("report",),
+    5: ("run",),
+    4: ("parts",),
+    3: ("plots", "io"),
     2: ("contact", "stress"),
     1: ("surfaces", "solids", "theories"),
     0: ("core",),
@@ -21,6 +22,12 @@ DATA_FOLDERS = ("data",)
 
 SIDEWAYS = {("cli", "web"): "the command `asperity app` starts the web application"}
 """Sideways imports that are allowed, each with its reason."""
+
+NOT_YET = {
+    ("plots", "io"): "whole and partial files move to core",
+    ("report", "studies"): "the page of a study moves to the folder of studies",
+}
+"""Imports against the table that are still to go. An entry that is not in use fails."""
 
 LAYER_OF = {folder: layer for layer, folders in LAYERS.items() for folder in folders} | dict.fromkeys(DATA_FOLDERS, -1)
 TOP_LEVEL = {"", "__main__"}
@@ -48,26 +55,32 @@ def allowed(importer: str, imported: str | None) -> bool:
     """Whether a module in the folder ``importer`` may import from the folder ``imported``."""
     if imported is None or importer in TOP_LEVEL or importer == imported:
         return True
-    return LAYER_OF[importer] > LAYER_OF.get(imported, 99) or (importer, imported) in SIDEWAYS
+    return LAYER_OF.get(importer, -1) > LAYER_OF.get(imported, 99) or (importer, imported) in SIDEWAYS
 
 
-@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.name)
-def test_imports_point_downwards(module: Module) -> None:
-    assert violations(module) == []
+def test_imports_point_downwards() -> None:
+    used, found = set(), []
+    for module in MODULES:
+        for item in imports(module):
+            folder = imported_folder(item)
+            if allowed(module.folder, folder):
+                continue
+            if (module.folder, folder) in NOT_YET:
+                used.add((module.folder, folder))
+            else:
+                found.append(f"{module.name}:{item.line} imports {item.target}")
+    assert found == []
+    assert set(NOT_YET) == used, "remove the entries of NOT_YET that are no longer needed"
 
 
-def test_every_folder_has_a_layer() -> None:
+def test_every_folder_has_a_layer_and_the_library_was_found() -> None:
     folders = {module.folder for module in MODULES} - TOP_LEVEL
     assert folders <= set(LAYER_OF), "give the new folder a layer in LAYERS"
+    assert {"core", "solids", "surfaces"} <= folders
 
 
-def test_library_was_found() -> None:
-    assert {"core", "solids", "surfaces"} <= {module.folder for module in MODULES}
-
-
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
+def test_upward_and_sideways_imports_are_found() -> None:
+    samples = [
         ("asperity.core.grid", "from ..solids import elastic"),
         ("asperity.core.grid", "from ..solids.elastic import Elastic"),
         ("asperity.core.grid", "import asperity.solids.elastic as e"),
@@ -79,29 +92,31 @@ def test_library_was_found() -> None:
         ("asperity.contact.solve", "import asperity"),
         ("asperity.contact.solve", "from .. import stress"),
         ("asperity.contact.laws.adhesion", "from ...stress.field import Field"),
+        ("asperity.contact.couplings.wet", "from ...parts.wet import Settings"),
         ("asperity.stress.layered", "from ..contact.result import Result"),
         ("asperity.solids.library", "from ..surfaces import surface"),
         ("asperity.surfaces.pair", "from ..solids import elastic"),
         ("asperity.theories.hertz", "from ..solids import elastic"),
-        ("asperity.plots.maps", "from ..studies import sweep"),
-        ("asperity.studies.sweep", "from ..plots import maps"),
+        ("asperity.plots.maps", "from ..io import results"),
+        ("asperity.parts.contact", "from ..run import executor"),
+        ("asperity.run.executor", "from ..report import page"),
+        ("asperity.report.page", "from ..studies import sweep"),
+        ("asperity.studies.sweep", "from ..cli import main"),
         ("asperity.io.documents", "from ..report import html"),
         ("asperity.web.app", "from ..cli import main"),
         ("asperity.data", "from ..core import grid"),
-    ],
-)
-def test_upward_and_sideways_imports_are_found(name: str, text: str) -> None:
-    assert len(violations(Module(name, text, is_package=name == "asperity.data"))) == 1
+    ]
+    missed = [s for s in samples if len(violations(Module(*s, is_package=s[0] == "asperity.data"))) != 1]
+    assert missed == []
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
+def test_downward_imports_are_allowed() -> None:
+    samples = [
         ("asperity.contact.solve", "from ..core.errors import InputError\nfrom .result import Result\nimport numpy"),
         ("asperity.contact.laws.adhesion", "from ..problem import ContactProblem\nfrom ...solids import elastic"),
+        ("asperity.run.executor", "from ..parts import registry\nfrom ..io import results"),
+        ("asperity.studies.plan", "from ..run import document\nfrom ..report import page"),
         ("asperity.cli.app", "from ..web import server\nfrom ..io import documents"),
         ("asperity", "from .cli import main"),
-    ],
-)
-def test_downward_imports_are_allowed(name: str, text: str) -> None:
-    assert violations(Module(name, text, is_package=name == "asperity")) == []
+    ]
+    assert [v for s in samples for v in violations(Module(*s, is_package=s[0] == "asperity"))] == []

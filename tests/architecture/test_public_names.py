@@ -32,21 +32,27 @@ def test_public_names_are_distinct_and_not_private() -> None:
     assert [name for name in PUBLIC if name.startswith("_") and name != "__version__"] == []
 
 
-@pytest.mark.parametrize("name", DEFINITIONS)
-def test_public_definition_is_documented(name: str) -> None:
+def test_public_definitions_are_documented() -> None:
+    assert [breach for name in DEFINITIONS for breach in documentation_breaches(name)] == []
+
+
+def documentation_breaches(name: str) -> list[str]:
+    """What is wrong with the docstring of the public ``name`` and of its public methods."""
     item = getattr(asperity, name)
     text = inspect.cleandoc(item.__doc__ or "")
-    assert len(text) >= 20, f"{name} needs a docstring"
-    assert not text.startswith(f"{name}("), f"{name} has only the docstring that dataclass writes"
-    assert text.splitlines()[0].rstrip()[-1] in ".:;?!)`", f"the first line of {name}'s docstring is not a sentence"
-
-
-@pytest.mark.parametrize("name", [n for n in DEFINITIONS if inspect.isclass(getattr(asperity, n))])
-def test_public_methods_are_documented(name: str) -> None:
-    members = vars(getattr(asperity, name)).items()
-    public = {key: item for key, item in members if not key.startswith("_")}
-    described = {key: item for key, item in public.items() if inspect.isfunction(item) or isinstance(item, property)}
-    assert [key for key, item in described.items() if not (item.__doc__ or "").strip()] == []
+    found = []
+    if len(text) < 20:
+        found.append(f"{name} needs a docstring")
+    elif text.startswith(f"{name}("):
+        found.append(f"{name} has only the docstring that dataclass writes")
+    elif text.splitlines()[0].rstrip()[-1] not in ".:;?!)`":
+        found.append(f"the first line of the docstring of {name} is not a sentence")
+    members = vars(item).items() if inspect.isclass(item) else ()
+    public = {key: it for key, it in members if not key.startswith("_")}
+    described = {key: it for key, it in public.items() if inspect.isfunction(it) or isinstance(it, property)}
+    return found + [
+        f"{name}.{key} needs a docstring" for key, it in described.items() if not (it.__doc__ or "").strip()
+    ]
 
 
 def test_import_is_light() -> None:
