@@ -49,6 +49,7 @@ LIMITS: dict[str, dict[str, str]] = {
 """Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. It says why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
+    "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made asks for it",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign asks 10⁵ times",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",
 }

@@ -29,6 +29,22 @@ DIMENSIONS = {
 }
 """Kinds of quantity that can be asked for, with the SI unit in which they are returned."""
 
+EXAMPLES = {
+    "length": "5 nm",
+    "pressure": "50 kPa",
+    "force": "1 mN",
+    "area": "1 um**2",
+    "angle": "10 deg",
+    "density": "1 um**-2",
+    "power spectrum": "1e4 nm**4",
+    "surface tension": "72 mN/m",
+    "molar volume": "18 cm**3/mol",
+    "viscosity": "1 mPa*s",
+    "temperature": "293 K",
+    "speed": "1 mm/s",
+}
+"""Text of a usual value of each kind, for messages and forms."""
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
@@ -39,13 +55,13 @@ def _registry() -> Any:
     return pint.UnitRegistry()
 
 
-def parse(text: str, kind: str, what: str) -> float:
+def parse(text: str | float, kind: str, what: str) -> float:
     """Return the SI value of a quantity such as ``"50 kPa"`` or ``"5nm"``.
 
     Parameters
     ----------
     text
-        Number followed by a unit. A unit is never guessed.
+        Number followed by a unit. A unit is never guessed. What has been read already stays as it is.
     kind
         One of ``DIMENSIONS``.
     what
@@ -56,8 +72,10 @@ def parse(text: str, kind: str, what: str) -> float:
     UnitError
         If number or unit is missing, unknown, or of another dimension.
     """
+    if isinstance(text, float) and hasattr(text, "text"):
+        return text
     unit = DIMENSIONS[kind]
-    number, name = _split(text, _EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
+    number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
     return number * unit_factor(name, kind, what)
 
 
@@ -71,7 +89,7 @@ def parse_in(text: str, unit: str, what: str) -> float:
     """
     import pint
 
-    known = {DIMENSIONS[kind]: example for kind, example in _EXAMPLES.items()}
+    known = {DIMENSIONS[kind]: example for kind, example in EXAMPLES.items()}
     number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, plain=not unit)
     try:
         return number * _factor(name or "dimensionless", unit or "dimensionless")
@@ -119,7 +137,7 @@ def _factor(name: str, unit: str) -> float:
     return float(_registry().Quantity(1.0, name).to(unit).magnitude)
 
 
-def parse_size(text: str, what: str = "size") -> tuple[float, float]:
+def parse_size(text: str | tuple[float, float], what: str = "size") -> tuple[float, float]:
     """Return (Lx, Ly) in m from text such as ``"20 um x 20 um"``; one length means a square.
 
     Raises
@@ -127,7 +145,9 @@ def parse_size(text: str, what: str = "size") -> tuple[float, float]:
     UnitError
         If a length lacks a unit or the text has more than two parts.
     """
-    parts = re.split(r"\s*[x×]\s*", str(text).strip())
+    if isinstance(text, tuple):
+        return text
+    parts = re.split(r"\s*[x×]\s*", text.strip())
     if len(parts) == 1:
         parts *= 2
     if len(parts) != 2:
@@ -183,19 +203,3 @@ def _in_largest(quantity: Any, units: tuple[str, ...], smallest: str, least: flo
 
 
 _COMPACT = {"m**2": _compact_area, "m**3": _compact_volume, "m**4": _compact_spectrum}
-
-
-_EXAMPLES = {
-    "length": "5 nm",
-    "pressure": "50 kPa",
-    "force": "1 mN",
-    "area": "1 um**2",
-    "angle": "10 deg",
-    "density": "1 um**-2",
-    "power spectrum": "1e4 nm**4",
-    "surface tension": "72 mN/m",
-    "molar volume": "18 cm**3/mol",
-    "viscosity": "1 mPa*s",
-    "temperature": "293 K",
-    "speed": "1 mm/s",
-}
