@@ -19,7 +19,7 @@ _NAMES = MappingProxyType(
         "contact.boundary": ("Free", "FreeLine", "Periodic"),
         "contact.control": ("Approach", "Force", "MeanGap", "MeanPressure", "Unloaded"),
         "contact.energy": ("EnergyBalance", "energy_balance"),
-        "contact.finding": ("Advice",),
+        "core.status": ("Advice",),
         "contact.laws": ("Hardness", "HardWall", "LayeredHardness"),
         "contact.operators": ("prepare_operator",),
         "contact.path": ("LoadPath", "solve_path"),

@@ -4,7 +4,6 @@ from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
 from .contact.energy import EnergyBalance, energy_balance
-from .contact.finding import Advice
 from .contact.laws import Hardness, HardWall, LayeredHardness
 from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
@@ -33,6 +32,7 @@ from .core.errors import (
     UnitError,
 )
 from .core.grid import Grid
+from .core.status import Advice
 from .io.disk_surface import save_gaussian
 from .io.export import export_csv, export_vtk
 from .io.path_files import export_path_csv, save_path

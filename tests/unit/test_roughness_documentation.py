@@ -62,9 +62,15 @@ def rows() -> list[list[str]]:
 
 def test_the_reference_lists_every_quantity():
     listed = rows()
-    assert [row[0].strip("`") for row in listed] == [quantity.path for quantity in QUANTITIES]
+    assert [row[0].strip("`") for row in listed] == [quantity.name for quantity in QUANTITIES]
     for row, quantity in zip(listed, QUANTITIES, strict=True):
-        assert row[1:] == [quantity.symbol, quantity.label, quantity.unit, quantity.definition.strip(), quantity.source]
+        assert row[1:] == [
+            quantity.symbol,
+            quantity.label,
+            quantity.unit,
+            quantity.description.strip(),
+            quantity.source,
+        ]
 
 
 def test_the_reference_has_every_group():

@@ -11,13 +11,13 @@ from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..contact.finding import Advice
     from ..contact.path import LoadPath
     from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..contact.wet_result import WetContactResult
     from ..contact.wet_theory import WetTheory
+    from ..core.status import Advice
     from ..io.build import Case
     from ..io.documents import ProblemDocument
     from ..stress.request import StressRequest

@@ -11,10 +11,10 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from ..contact.finding import Advice
     from ..contact.path import LoadPath
     from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
+    from ..core.status import Advice
     from ..surfaces.surface import Surface
 
 
@@ -94,7 +94,7 @@ def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     from ..report.outputs import result_rows
 
     checks = result.certificate
-    labels = {q.attribute: q.label for q in CERTIFICATE}
+    labels = {q.name: q.label for q in CERTIFICATE}
     work = f"{checks.solver}, {checks.iterations} iterations, {show(checks.wall_time, 's', 3)}"
     return [
         *result_rows(result),

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..core.status import Advice
 from ..core.units import show
 from ..solids.body import materials_of
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered
-from .finding import Advice
 from .laws import LimitByDepth
 from .problem import ContactProblem
 

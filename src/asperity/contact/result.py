@@ -7,6 +7,7 @@ from typing import Literal
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.quantity import Quantity
 from ..core.status import Status
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
@@ -17,15 +18,6 @@ from .state import InterfaceState
 
 PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A scalar of a result: attribute name, SI unit ("1" for numbers) and label for people."""
-
-    attribute: str
-    unit: str
-    label: str
 
 
 SCALARS = (
@@ -45,7 +37,7 @@ SCALARS = (
     Quantity("indented_area", "m**2", "area ever at the hardness (pixels)"),
     Quantity("plastic_volume", "m**3", "volume of the permanent indentation"),
     Quantity("max_permanent_indentation", "m", "maximum permanent indentation"),
-    Quantity("normal_stiffness", "Pa/m", "normal stiffness per nominal area"),
+    Quantity("normal_stiffness", "Pa/m", "normal stiffness per nominal area", costly=True),
     Quantity("n_spots", "1", "number of contact spots"),
     Quantity("mean_spot_area", "m**2", "mean area of a contact spot"),
     Quantity("contact_perimeter", "m", "contact perimeter (pixel edges)"),

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..core.quantity import Quantity
 from ..core.status import Status
 from .control import Control
 from .problem import ContactProblem
-from .result import ContactResult, Quantity
+from .result import ContactResult
 from .wetting import LiquidFilm, Wetting
 
 WET_SCALARS = (

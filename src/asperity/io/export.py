@@ -28,11 +28,11 @@ def export_csv(result: ContactResult | WetContactResult, path: str | Path, *, ov
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
     contact = result.contact if isinstance(result, WetContactResult) else result
-    rows = [(q.attribute, getattr(contact, q.attribute), q.unit, q.label) for q in SCALARS]
+    rows = [(q.name, getattr(contact, q.name), q.unit, q.label) for q in SCALARS]
     if isinstance(result, WetContactResult):
-        rows += [(q.attribute, getattr(result, q.attribute), q.unit, q.label) for q in WET_SCALARS]
+        rows += [(q.name, getattr(result, q.name), q.unit, q.label) for q in WET_SCALARS]
     for q in CERTIFICATE:
-        rows.append((f"certificate.{q.attribute}", getattr(contact.certificate, q.attribute), q.unit, q.label))
+        rows.append((f"certificate.{q.name}", getattr(contact.certificate, q.name), q.unit, q.label))
     rows.append(("status.outcome", str(result.status.outcome), "", "how the solver ended"))
     with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..contact.result import SCALARS, Quantity
+from ..contact.result import SCALARS
+from ..core.quantity import Quantity
 
 FIELDS = (
     Quantity("pressure", "Pa", "contact pressure"),

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..contact.energy import energy_balance
 from ..contact.path import LoadPath
-from ..contact.result import SCALARS, Quantity
+from ..contact.result import SCALARS
+from ..core.quantity import Quantity
 from .atomic import atomic_file
 from .description import describe
 from .labels import FIELDS
@@ -47,13 +48,13 @@ def path_dataset(path: LoadPath, *, document: str | None = None) -> xarray.Datas
     )
     variables: dict[str, Any] = {}
     for item in SCALARS:
-        variables[item.attribute] = _column([getattr(r, item.attribute) for r in path.results], item)
+        variables[item.name] = _column([getattr(r, item.name) for r in path.results], item)
     for item in FIELDS:
-        stacked = np.stack([getattr(r, item.attribute) for r in path.results])
-        variables[item.attribute] = (("step", "x", "y"), stacked, {"units": item.unit, "long_name": item.label})
+        stacked = np.stack([getattr(r, item.name) for r in path.results])
+        variables[item.name] = (("step", "x", "y"), stacked, item.attributes)
     balance = energy_balance(path)
     for item in ENERGIES:
-        variables[f"path_{item.attribute}"] = _column(getattr(balance, item.attribute), item)
+        variables[f"path_{item.name}"] = _column(getattr(balance, item.name), item)
     ended = Quantity("converged", "1", "whether the step reached its tolerance")
     variables["converged"] = _column([r.converged for r in path.results], ended)
     controls = [json.dumps(describe(r.control)) for r in path.results]
@@ -77,7 +78,7 @@ def save_path(path: LoadPath, file: str | Path, *, document: str | None = None, 
     for item in FIELDS:
         nx, ny = path.results[0].problem.grid.shape
         packed = {"zlib": True, "complevel": 1, "shuffle": True, "chunksizes": (1, nx, ny)}
-        encoding[item.attribute] |= packed  # one step is read at a time
+        encoding[item.name] |= packed  # one step is read at a time
     with atomic_file(file, overwrite=overwrite) as partial:
         data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)
 
@@ -91,16 +92,16 @@ def export_path_csv(path: LoadPath, file: str | Path, *, overwrite: bool = False
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
     balance = energy_balance(path)
-    names = [f"{item.attribute} ({item.unit})" for item in SCALARS]
-    names += [f"path_{item.attribute} ({item.unit})" for item in ENERGIES]
+    names = [f"{item.name} ({item.unit})" for item in SCALARS]
+    names += [f"path_{item.name} ({item.unit})" for item in ENERGIES]
     with atomic_file(file, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as text:
         writer = csv.writer(text)
         writer.writerow(("step", "converged", *names))
         for number, result in enumerate(path.results):
-            energies = [float(getattr(balance, item.attribute)[number]) for item in ENERGIES]
-            values = [getattr(result, item.attribute) for item in SCALARS]
+            energies = [float(getattr(balance, item.name)[number]) for item in ENERGIES]
+            values = [getattr(result, item.name) for item in SCALARS]
             writer.writerow((number + 1, result.converged, *values, *energies))
 
 
 def _column(values: Any, item: Quantity) -> tuple[str, Any, dict[str, str]]:
-    return "step", np.asarray(values), {"units": item.unit, "long_name": item.label}
+    return "step", np.asarray(values), item.attributes

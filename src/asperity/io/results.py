@@ -149,8 +149,8 @@ def _result(data: xarray.Dataset) -> ContactResult:
     if "counter_heights" in arrays:
         parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
     certificate = {f.name: _plain(attributes[f"certificate_{f.name}"]) for f in fields(Certificate)}
-    values: dict[str, Any] = {item.attribute: arrays[item.attribute] for item in FIELDS}
-    values |= {item.attribute: data[item.attribute].item() for item in ALL_SCALARS}
+    values: dict[str, Any] = {item.name: arrays[item.name] for item in FIELDS}
+    values |= {item.name: data[item.name].item() for item in ALL_SCALARS}
     return ContactResult(
         problem=ContactProblem(surface=surface, **parts),
         control=control,
@@ -173,12 +173,12 @@ def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dat
         heights = problem.counter_surface.heights
         variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
     for item in FIELDS:
-        variables[item.attribute] = _field(getattr(result, item.attribute), item.unit, item.label)
+        variables[item.name] = _field(getattr(result, item.name), item.unit, item.label)
     variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
     variables["plastic"] = _field(result.plastic, "1", "whether the pressure is at its limit")
     variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
     for item in ALL_SCALARS:
-        variables[item.attribute] = ((), getattr(result, item.attribute), _labels(item.unit, item.label))
+        variables[item.name] = ((), getattr(result, item.name), _labels(item.unit, item.label))
     variables |= {name: _field(values, "Pa", "hardness") for name, values in arrays.items()}
     x, y = problem.grid.coordinates()
     coordinates = {

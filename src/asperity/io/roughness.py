@@ -20,7 +20,7 @@ def roughness_record(found: Characterisation) -> dict[str, Any]:
     """
     return {
         "quantities": {
-            quantity.path: {
+            quantity.name: {
                 "value": _number(value),
                 "unit": quantity.unit,
                 "symbol": quantity.symbol,

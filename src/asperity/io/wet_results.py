@@ -39,7 +39,7 @@ def wet_dataset(result: WetContactResult, *, document: str | None = None) -> xar
     ):
         data[name] = ("x", "y"), getattr(result.wetting, name), {"units": "1", "long_name": label}
     for item in WET_SCALARS:
-        data[item.attribute] = (), getattr(result, item.attribute), {"units": item.unit, "long_name": item.label}
+        data[item.name] = (), getattr(result, item.name), item.attributes
     attributes: dict[str, Any] = {f"wet_{name}": getattr(result, name) for name in _STORED}
     attributes |= {
         "wet_film": json.dumps(describe(result.film)),

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.arrays import RealArray
+from ..core.quantity import Quantity
 from .style import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
 
 if TYPE_CHECKING:
@@ -32,11 +33,10 @@ LINE = 34
 
 @dataclass(frozen=True, eq=False)
 class Labelled:
-    """Numbers with their SI ``unit`` and what they are."""
+    """Numbers (SI) and what they are."""
 
+    quantity: Quantity
     values: RealArray
-    unit: str
-    label: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ class Transition:
 
 def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> Axes:
     """Draw ``curves`` of the quantity that ``y`` names against ``x`` on ``ax``; ``y.values`` set the scale."""
-    along, up = scale(x.values, x.unit), scale(y.values, y.unit)
+    along, up = scale(x.values, x.quantity.unit), scale(y.values, y.quantity.unit)
     order = np.argsort(x.values)
     for number, curve in enumerate(curves):
         colour = COLOURS[number % len(COLOURS)]
@@ -72,12 +72,12 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
             ax.fill_between(places, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
         ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=curve.label or None)
     _set_scales(ax, x.values, np.concatenate([curve.values for curve in curves]))
-    return _labelled(ax, (x.label, along), (y.label, up), legend=any(curve.label for curve in curves))
+    return _labelled(ax, (x.quantity.label, along), (y.quantity.label, up), legend=any(curve.label for curve in curves))
 
 
 def plot_samples(y: Labelled, mean: float, half_width: float, ax: Axes) -> Axes:
     """Draw the distribution of the samples ``y`` on ``ax``, with their ``mean`` and its confidence interval."""
-    along = scale(y.values, y.unit)
+    along = scale(y.values, y.quantity.unit)
     good = along(y.values)[np.isfinite(y.values)]
     if good.size:
         ax.hist(
@@ -90,20 +90,20 @@ def plot_samples(y: Labelled, mean: float, half_width: float, ax: Axes) -> Axes:
             middle - half, middle + half, color=VERMILLION, alpha=0.25, linewidth=0.0, label="confidence of the mean"
         )
     ax.axvline(middle, color=BLACK, linestyle="--", label=f"mean {middle:.4g} {along.symbol}".rstrip())
-    return _labelled(ax, (y.label, along), ("samples", Scale("", 1.0)), legend=True)
+    return _labelled(ax, (y.quantity.label, along), ("samples", Scale("", 1.0)), legend=True)
 
 
 def plot_running_mean(y: Labelled, half_widths: RealArray, means: RealArray, ax: Axes) -> Axes:
     """Draw the mean of the quantity that ``y`` names against the number of samples on ``ax``, with its confidence."""
-    counts, up = np.arange(1, means.size + 1), scale(means, y.unit)
+    counts, up = np.arange(1, means.size + 1), scale(means, y.quantity.unit)
     ax.fill_between(counts, up(means - half_widths), up(means + half_widths), color=SKY, alpha=0.4, linewidth=0.0)
     ax.plot(counts, up(means), color=BLUE)
-    return _labelled(ax, ("samples", Scale("", 1.0)), (f"mean of {y.label}", up), legend=False)
+    return _labelled(ax, ("samples", Scale("", 1.0)), (f"mean of {y.quantity.label}", up), legend=False)
 
 
 def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axes) -> Axes:
     """Draw the quantity ``y`` from the coarsest to the finest of the ``levels`` on ``ax``, and its extrapolation."""
-    along, up = scale(levels.values, levels.unit), scale(y.values, y.unit)
+    along, up = scale(levels.values, levels.quantity.unit), scale(y.values, y.quantity.unit)
     ax.plot(along(levels.values), up(y.values), color=BLUE, marker="o", markersize=3.5)
     if math.isfinite(extrapolated):
         limit = float(up(extrapolated))
@@ -114,12 +114,12 @@ def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axe
         ax.minorticks_off()
     if levels.values[0] > levels.values[-1]:
         ax.invert_xaxis()
-    return _labelled(ax, (levels.label, along), (y.label, up), legend=math.isfinite(extrapolated))
+    return _labelled(ax, (levels.quantity.label, along), (y.quantity.label, up), legend=math.isfinite(extrapolated))
 
 
 def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Transition], ax: Axes) -> Axes:
     """Draw a quantity against the ``thickness`` of a layer on ``ax``: limits as lines, floor and ceiling as triangles."""
-    along, up = scale(thickness.values, thickness.unit), scale(y.values, y.unit)
+    along, up = scale(thickness.values, thickness.quantity.unit), scale(y.values, y.quantity.unit)
     for number, item in enumerate(transitions):
         colour = COLOURS[number % len(COLOURS)]
         ax.plot(
@@ -136,14 +136,16 @@ def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Tra
             ax.plot(along(x), up(heights), color=BLACK, marker=marker, markersize=7.0, linestyle="", label=name)
             marked = True
     ax.set_xscale("log")
-    return _labelled(ax, (thickness.label, along), (y.label, up), legend=marked or len(transitions) > 1)
+    return _labelled(
+        ax, (thickness.quantity.label, along), (y.quantity.label, up), legend=marked or len(transitions) > 1
+    )
 
 
 def plot_sensitivities(
     names: Sequence[str], low: RealArray, high: RealArray, y: Labelled, base: float, ax: Axes
 ) -> Axes:
     """Draw how far low and high values of each scalar in ``names`` move a quantity from its ``base``, largest on top."""
-    along = scale(np.concatenate([low, high, [base]]), y.unit)
+    along = scale(np.concatenate([low, high, [base]]), y.quantity.unit)
     order = np.argsort(np.abs(high - low))
     rows = np.arange(order.size)
     middle = float(along(base))
@@ -151,7 +153,7 @@ def plot_sensitivities(
         ax.barh(rows, along(values)[order] - middle, left=middle, height=0.6, color=colour, label=label)
     ax.axvline(middle, color=BLACK, linewidth=0.8)
     ax.set_yticks(rows, [names[number] for number in order])
-    ax.set_xlabel(_text(y.label, along))
+    ax.set_xlabel(_text(y.quantity.label, along))
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3)
     return ax
 

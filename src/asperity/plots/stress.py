@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +11,9 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.quantity import Quantity
 from ..core.units import show
-from ..stress.field import StressField
+from ..stress.field import DERIVED, StressField
 from .maps import Look, plot_field
 from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, scale
 
@@ -36,30 +36,13 @@ COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 """Colours of the curves of a depth profile, in order."""
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A stress that can be drawn: its ``label``, whether it is ``signed``, and whether its ``tension`` matters alone."""
+MAGNITUDES = ("sqrt_J2", "von_mises", "tresca", "max_shear")
+"""Stresses that are never negative."""
 
-    label: str
-    signed: bool
-    tension: bool = False
+TENSIONS = ("max_principal", "principal_tensile")
+"""Stresses of which the tension matters alone."""
 
-
-QUANTITIES = {
-    "sqrt_J2": Quantity("√J2", signed=False),
-    "von_mises": Quantity("von Mises stress", signed=False),
-    "tresca": Quantity("Tresca stress", signed=False),
-    "max_shear": Quantity("largest shear stress", signed=False),
-    "max_principal": Quantity("largest principal stress", signed=True, tension=True),
-    "principal_tensile": Quantity("principal stress in the plane", signed=True, tension=True),
-    "hydrostatic": Quantity("mean normal stress", signed=True),
-    "normal_xx": Quantity("σxx", signed=True),
-    "normal_yy": Quantity("σyy", signed=True),
-    "normal_zz": Quantity("σzz", signed=True),
-    "shear_xy": Quantity("σxy", signed=True),
-    "shear_xz": Quantity("σxz", signed=True),
-    "shear_yz": Quantity("σyz", signed=True),
-}
+QUANTITIES = {quantity.name: quantity for quantity in DERIVED}
 """Attributes of a StressField that can be drawn."""
 
 
@@ -77,7 +60,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
         If the field is no section, has a region with one plane only, or the quantity is unknown or, with ``log``, signed.
     """
     kind = _known(quantity)
-    if log and kind.signed:
+    if log and (kind.name not in MAGNITUDES):
         raise InputError(f"stress to draw on a logarithmic scale must be a magnitude, but {quantity} has either sign.")
     if len(field.dims) != 2 or len(field.planes) < 2:
         raise InputError("field of a stress section must have the axes plane and x or y; compute it on a Section(...).")
@@ -89,7 +72,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     levels = _levels(in_unit(values), kind, log=log)
     contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
     _draw_interfaces(field, ax, depth_unit)
-    _mark_peak(field, ax, values if kind.tension else np.abs(values), (axis, length, depth_unit))
+    _mark_peak(field, ax, values if (kind.name in TENSIONS) else np.abs(values), (axis, length, depth_unit))
     ax.set(
         xlabel=f"{axis} ({length.symbol})" + ("" if field.single_row else f", at {other} = {show(at, 'm')}"),
         ylabel=f"depth ({depth_unit.symbol})",
@@ -100,7 +83,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
         ax.set_aspect(length.factor**-1 * depth_unit.factor, adjustable="box")
     bar = ax.figure.colorbar(contours, cax=ax.inset_axes((1.03, 0.0, 0.035, 1.0)), format=_two_digits if log else "%g")
     bar.set_label(f"{kind.label} ({in_unit.symbol})")
-    if kind.signed:
+    if kind.name not in MAGNITUDES:
         bar.set_ticks(levels.tolist())
         bar.minorticks_off()
     return ax
@@ -159,8 +142,15 @@ def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *
     side = "" if section.side in ("surface", "inside") else f", {section.side} the interface"
     place = "surface" if section.side == "surface" else f"depth {show(section.depth, 'm')}{side}"
     label = f"{kind.label}, {place}"
-    colours = SIGNED_MAP if kind.signed else UNSIGNED_MAP
-    return plot_field(values, grid, ax, Look("Pa", label, colours, from_zero=not kind.signed, about_zero=kind.signed))
+    colours = SIGNED_MAP if (kind.name not in MAGNITUDES) else UNSIGNED_MAP
+    return plot_field(
+        values,
+        grid,
+        ax,
+        Look(
+            "Pa", label, colours, from_zero=not (kind.name not in MAGNITUDES), about_zero=(kind.name not in MAGNITUDES)
+        ),
+    )
 
 
 def _known(quantity: str) -> Quantity:
@@ -191,12 +181,16 @@ def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
     """
     from matplotlib.ticker import MaxNLocator
 
-    high = float(values.max()) if kind.tension else 0.0
+    high = float(values.max()) if (kind.name in TENSIONS) else 0.0
     high = high if high > 0.0 else float(np.abs(values).max()) or 1.0
     if log:
         return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
-    steps = np.array(MaxNLocator(LEVELS, symmetric=kind.signed).tick_values(-high if kind.signed else 0.0, high))
-    return steps[np.abs(steps) > 1e-9 * high] if kind.signed else steps
+    steps = np.array(
+        MaxNLocator(LEVELS, symmetric=(kind.name not in MAGNITUDES)).tick_values(
+            -high if (kind.name not in MAGNITUDES) else 0.0, high
+        )
+    )
+    return steps[np.abs(steps) > 1e-9 * high] if (kind.name not in MAGNITUDES) else steps
 
 
 def _contours(
@@ -206,8 +200,8 @@ def _contours(
     from matplotlib.colors import BoundaryNorm
 
     line, depth_unit, values = drawn
-    colours = SIGNED_MAP if kind.signed else UNSIGNED_MAP
-    extend, low = ("min", -np.inf) if kind.tension else ("neither", levels[0])
+    colours = SIGNED_MAP if (kind.name not in MAGNITUDES) else UNSIGNED_MAP
+    extend, low = ("min", -np.inf) if (kind.name in TENSIONS) else ("neither", levels[0])
     norm = BoundaryNorm(levels, 256)
     contours = None
     for part in _parts(field):

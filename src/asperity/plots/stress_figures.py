@@ -14,7 +14,7 @@ from ..stress.field import StressField
 from ..stress.survey import StressSurvey, SurveyedSection
 from .figure import Figure
 from .picture import CURVE_SIZE, map_size, png
-from .stress import QUANTITIES, plot_stress_map, plot_stress_profile, plot_stress_section
+from .stress import MAGNITUDES, QUANTITIES, TENSIONS, plot_stress_map, plot_stress_profile, plot_stress_section
 
 SECTION_SIZE = (6.4, 3.4)
 """Width and height in inches of a section."""
@@ -57,16 +57,15 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
     at = show(float(getattr(field, axis)) + 0.5 * field.spacing["xy".index(axis)], "m")
     for quantity in section.quantities:
         kind = QUANTITIES[quantity]
-        label = kind.label if kind.label.startswith("σ") else f"{kind.label[:1].upper()}{kind.label[1:]}"
-        title = label if field.single_row else f"{label} at {axis} = {at}"
+        title = kind.title if field.single_row else f"{kind.title} at {axis} = {at}"
         name = f"stress_section_{number}_{quantity}"
         said = "depth downwards, interfaces as lines, a cross at the largest "
-        said += "tension." if kind.tension else "magnitude."
-        if kind.signed:
+        said += "tension." if (kind.name in TENSIONS) else "magnitude."
+        if kind.name not in MAGNITUDES:
             tension = " Red is tension, blue compression, the darkest blue beyond the scale."
-            said += tension if kind.tension else " Red and blue are the two directions."
+            said += tension if (kind.name in TENSIONS) else " Red and blue are the two directions."
         near = close_up(field, quantity)
-        log = near is not None and not kind.signed
+        log = near is not None and not (kind.name not in MAGNITUDES)
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
         yield Figure(name, title, f"Vertical plane, {said}{scale}", png(draw, SECTION_SIZE))
@@ -79,7 +78,7 @@ def close_up(field: StressField, quantity: str) -> StressField | None:
     """The part of a long section about its maximum; None where the section is short."""
     axis, values = field.dims[1], getattr(field, quantity)
     line, length = getattr(field, axis), CLOSE_UP * float(field.depth[-1])
-    peak = field.peak(values if QUANTITIES[quantity].tension else np.abs(values))
+    peak = field.peak(values if quantity in TENSIONS else np.abs(values))
     if line[-1] - line[0] <= 2.0 * length:
         return None
     middle = float(np.clip(getattr(peak, axis), line[0] + 0.5 * length, line[-1] - 0.5 * length))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from ..contact.result import SCALARS, ContactResult, Quantity
+from ..contact.result import SCALARS, ContactResult
+from ..core.quantity import Quantity
 from ..core.units import percent, show
 from ..io.labels import CERTIFICATE
 from .inputs import Rows
@@ -41,28 +42,26 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
     if math.isnan(value):
         return "not computed"
     text = show(value, quantity.unit)
-    if quantity.attribute.endswith(("fraction", "fraction_corrected")):
+    if quantity.name.endswith(("fraction", "fraction_corrected")):
         return f"{text} ({percent(value)})"
     return text
 
 
 def result_rows(result: ContactResult) -> Rows:
     """Every scalar of ``result``."""
-    return [(q.label, value_text(q, getattr(result, q.attribute))) for q in SCALARS]
+    return [(q.label, value_text(q, getattr(result, q.name))) for q in SCALARS]
 
 
 def headline_rows(result: ContactResult) -> Rows:
     """The scalars that people look for first; the real contact area in percent of the nominal area."""
-    chosen = {q.attribute: value_text(q, getattr(result, q.attribute)) for q in SCALARS}
+    chosen = {q.name: value_text(q, getattr(result, q.name)) for q in SCALARS}
     chosen["area_fraction_corrected"] = percent(result.area_fraction_corrected)
     return [(label, chosen[name]) for name, label in HEADLINE.items()]
 
 
 def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
     """Label, value and meaning of every entry of the certificate."""
-    return [
-        (q.label, value_text(q, getattr(result.certificate, q.attribute)), MEANINGS[q.attribute]) for q in CERTIFICATE
-    ]
+    return [(q.label, value_text(q, getattr(result.certificate, q.name)), MEANINGS[q.name]) for q in CERTIFICATE]
 
 
 def summary(result: ContactResult) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from ..core.quantity import Quantity
 from ..core.units import percent, show
-from ..surfaces.characterise.quantities import GROUPS, QUANTITIES, Quantity
+from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation
 
 ABSOLUTE_ERRORS = {
@@ -52,9 +53,9 @@ def quantity_text(quantity: Quantity, value: float, digits: int = 4) -> str:
         return NOT_DEFINED
     if quantity.unit == "rad":
         return f"{math.degrees(value):.{digits}g}°"
-    if quantity.path in SHARES:
+    if quantity.name in SHARES:
         return percent(value, digits)
-    if quantity.unit == "1" and quantity.path.endswith((".count", ".saddles")):
+    if quantity.unit == "1" and quantity.name.endswith((".count", ".saddles")):
         return f"{value:.0f}"
     return show(value, quantity.unit, digits)
 
@@ -69,27 +70,27 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
 
     What is not defined for the surface is left out.
     """
-    values = {quantity.path: value for quantity, value in found.values()}
+    values = {quantity.name: value for quantity, value in found.values()}
     errors = {*ABSOLUTE_ERRORS.values(), *RELATIVE_ERRORS.values()}
-    along_y = {_other(quantity.path): quantity for quantity in QUANTITIES if _other(quantity.path) != quantity.path}
+    along_y = {_other(quantity.name): quantity for quantity in QUANTITIES if _other(quantity.name) != quantity.name}
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for quantity in QUANTITIES:
-        if quantity.path in errors or quantity in along_y.values():
+        if quantity.name in errors or quantity in along_y.values():
             continue
         text = _with_error(quantity, values)
         name = quantity_name(quantity)
-        if quantity.path in along_y:
-            text = _both(text, _with_error(along_y[quantity.path], values))
+        if quantity.name in along_y:
+            text = _both(text, _with_error(along_y[quantity.name], values))
             name = name.replace(" along x", "").replace(",x", "").replace("_x", "")
         if text != NOT_DEFINED:
-            heading = GROUPS[quantity.group].replace(" along x", "")
-            groups.setdefault(heading, []).append((name, text, quantity.definition))
+            heading = GROUPS[quantity.name.split(".")[0]].replace(" along x", "")
+            groups.setdefault(heading, []).append((name, text, quantity.description))
     return list(groups.items())
 
 
 def headline_values(found: Characterisation) -> list[tuple[str, str]]:
     """Name and text of the numbers that people look for first."""
-    chosen = {quantity.path: (quantity, value) for quantity, value in found.values() if quantity.path in HEADLINE}
+    chosen = {quantity.name: (quantity, value) for quantity, value in found.values() if quantity.name in HEADLINE}
     return [(quantity_name(chosen[path][0]), quantity_text(*chosen[path], digits=3)) for path in HEADLINE]
 
 
@@ -106,7 +107,7 @@ def _both(along_x: str, along_y: str) -> str:
 
 
 def _with_error(quantity: Quantity, values: dict[str, float]) -> str:
-    value, path = values[quantity.path], quantity.path
+    value, path = values[quantity.name], quantity.name
     text = quantity_text(quantity, value)
     if text == NOT_DEFINED:
         return text

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from ..core.quantity import Quantity
 from ..core.units import percent, show
 from ..plots.campaign import (
     Curve,
@@ -55,7 +56,8 @@ def labelled(variable: xarray.DataArray) -> Labelled:
     """Values, unit and label of ``variable``."""
     attributes = variable.attrs
     label = str(attributes.get("long_name", variable.name)).rpartition(".")[2].replace("_", " ")
-    return Labelled(np.asarray(variable, dtype=float), str(attributes.get("units", "1")), label)
+    quantity = Quantity(str(variable.name), str(attributes.get("units", "1")), label)
+    return Labelled(quantity, np.asarray(variable, dtype=float))
 
 
 def point_text(coordinate: xarray.DataArray) -> str:
@@ -86,7 +88,7 @@ def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) ->
     y = labelled(array)
     x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
     picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
-    yield StudyFigure(name, _title(y.label), f"{y.label} against {x.label}{more}.", picture)
+    yield StudyFigure(name, y.quantity.title, f"{y.quantity.label} against {x.quantity.label}{more}.", picture)
 
 
 def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
@@ -101,22 +103,24 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
             Curve(text, np.asarray(row), np.asarray(band)) for (text, row), (_, band) in zip(rows, bands, strict=True)
         ]
         picture = _picture(lambda ax: plot_curves(labelled(data[along]), y, curves, ax))
-        caption = f"Mean of {y.label} over the samples; the band is one standard deviation on either side{where}."
-        yield StudyFigure(f"{name}_mean", f"{_title(y.label)}, mean and scatter", caption, picture)
+        caption = (
+            f"Mean of {y.quantity.label} over the samples; the band is one standard deviation on either side{where}."
+        )
+        yield StudyFigure(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption, picture)
     table = campaign.study.document.monte_carlo
     confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
     whole = estimate(np.asarray(first), confidence)
-    samples = Labelled(np.asarray(first, dtype=float), y.unit, y.label)
+    samples = Labelled(y.quantity, np.asarray(first, dtype=float))
     picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
     yield StudyFigure(
-        f"{name}_samples", f"{_title(y.label)}, distribution", f"Distribution over the samples{more}.", picture
+        f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.", picture
     )
     done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
     running = [estimate(samples.values[: n + 1], confidence) for n in range(done)]
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
     picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
     caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
-    yield StudyFigure(f"{name}_running", f"{_title(y.label)}, running mean", caption, picture)
+    yield StudyFigure(f"{name}_running", f"{y.quantity.title}, running mean", caption, picture)
 
 
 def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
@@ -125,11 +129,11 @@ def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     array, more = _first(data[name], "level")
     limit, _ = _first(derived[f"{name}_extrapolated"], "")
     label = {"grid": "points along x", "domain": "factor on the size"}.get(table.of, "tolerance")
-    levels = Labelled(np.asarray(data["level"], dtype=float), "1", label)
+    levels = Labelled(Quantity("level", "1", label), np.asarray(data["level"], dtype=float))
     y = labelled(array)
     picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
-    caption = f"{y.label} from coarse to fine, and its Richardson extrapolation{more}."
-    yield StudyFigure(name, _title(y.label), caption, picture)
+    caption = f"{y.quantity.label} from coarse to fine, and its Richardson extrapolation{more}."
+    yield StudyFigure(name, y.quantity.title, caption, picture)
 
 
 def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
@@ -142,10 +146,10 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
     y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
     picture = _picture(lambda ax: plot_transitions(thickness, y, transitions, ax))
     caption = (
-        f"{y.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
+        f"{y.quantity.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
         f"layer does not matter, above the ceiling what lies under it does not{more}."
     )
-    yield StudyFigure(name, _title(y.label), caption, picture)
+    yield StudyFigure(name, y.quantity.title, caption, picture)
 
 
 def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
@@ -155,7 +159,9 @@ def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
     size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
     picture = png(lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size)
-    yield StudyFigure(name, _title(y.label), f"{y.label} at the low and the high value of each scalar{more}.", picture)
+    yield StudyFigure(
+        name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.", picture
+    )
 
 
 _DRAWN: dict[str, Draw] = {
@@ -194,7 +200,3 @@ def _spread(count: int) -> Sequence[int]:
 
 def _picture(draw: Callable[[Any], Any]) -> bytes:
     return png(draw, CURVE_SIZE)
-
-
-def _title(label: str) -> str:
-    return label[:1].upper() + label[1:]

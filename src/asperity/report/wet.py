@@ -113,8 +113,8 @@ def wet_rows(result: WetContactResult) -> Rows:
     rows = [("regime", f"{regime}: {REGIMES[regime]}")]
     silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
     for quantity in WET_SCALARS:
-        if quantity.attribute not in silent:
-            rows.append((quantity.label, value_text(quantity, getattr(result, quantity.attribute))))
+        if quantity.name not in silent:
+            rows.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
     return rows
 
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..contact.finding import Advice
 from ..contact.path import LoadPath
 from ..contact.plastic_load import PlasticLoad
 from ..contact.result import ContactResult
 from ..core.citations import REFERENCES
 from ..core.errors import InputError
+from ..core.status import Advice
 from ..io.atomic import atomic_file
 from ..io.provenance import provenance
 from ..plots.figures import PLASTIC_PLOTS, PLOTS, render

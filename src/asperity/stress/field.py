@@ -9,9 +9,27 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.quantity import Quantity
 from ..core.tensor import Displacement, StressTensor
 from . import invariants
 from .regions import Plane, Region
+
+DERIVED = (
+    Quantity("sqrt_J2", "Pa", "√J2"),
+    Quantity("von_mises", "Pa", "von Mises stress"),
+    Quantity("tresca", "Pa", "Tresca stress"),
+    Quantity("max_shear", "Pa", "largest shear stress"),
+    Quantity("max_principal", "Pa", "largest principal stress"),
+    Quantity("principal_tensile", "Pa", "principal stress in the plane"),
+    Quantity("hydrostatic", "Pa", "mean normal stress"),
+    Quantity("normal_xx", "Pa", "σxx"),
+    Quantity("normal_yy", "Pa", "σyy"),
+    Quantity("normal_zz", "Pa", "σzz"),
+    Quantity("shear_xy", "Pa", "σxy"),
+    Quantity("shear_xz", "Pa", "σxz"),
+    Quantity("shear_yz", "Pa", "σyz"),
+)
+"""Attributes of a ``StressField`` that are stresses at its points."""
 
 
 @dataclass(frozen=True)

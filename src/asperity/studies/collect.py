@@ -175,7 +175,5 @@ def _axis_labels(item: Axis) -> dict[str, str]:
 
 def _labels(name: str) -> dict[str, str]:
     if name in CHECKS and name in Certificate.__dataclass_fields__:
-        check = next(entry for entry in CERTIFICATE if entry.attribute == name)
-        return {"units": check.unit, "long_name": check.label}
-    quantity = measure(name)
-    return {"units": quantity.unit, "long_name": quantity.label}
+        return next(entry for entry in CERTIFICATE if entry.name == name).attributes
+    return measure(name).quantity.attributes

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.finding import Advice
 from ..contact.problem import ContactProblem
 from ..core.arrays import BoolArray, RealArray
+from ..core.status import Advice
 from ..io.provenance import software, surface_provenance
 from ..io.results import FORMAT_VERSION
 from ..surfaces.surface import Surface

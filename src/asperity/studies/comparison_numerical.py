@@ -10,7 +10,6 @@ import numpy as np
 
 from ..contact.advice import advise, review
 from ..contact.control import MeanPressure
-from ..contact.finding import Advice
 from ..contact.path import steps
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
@@ -20,6 +19,7 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import NoSolutionError
 from ..core.progress import Progress
+from ..core.status import Advice
 from .comparison import NumericalCurve
 
 

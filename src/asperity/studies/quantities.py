@@ -12,6 +12,7 @@ from ..contact.result import SCALARS, ContactResult
 from ..contact.wet_result import WET_SCALARS, WetContactResult
 from ..contact.wet_theory import wet_theory
 from ..core.errors import InputError
+from ..core.quantity import Quantity
 from ..io.build import Case
 from ..io.documents import ProblemDocument
 from ..stress.survey import StressSurvey
@@ -29,17 +30,19 @@ class Solved:
 
 @dataclass(frozen=True)
 class Measure:
-    """A scalar of a solved case: ``name``, SI ``unit`` ("1" for numbers), ``label`` for people, how it is taken.
+    """A scalar of a solved case: what it is, and how it is taken.
 
-    ``table`` is the table of the document without which there is none; a ``costly`` one is taken only if asked for.
+    ``table`` is the table of the document without which there is none; a costly one is taken only if asked for.
     """
 
-    name: str
-    unit: str
-    label: str
+    quantity: Quantity
     of: Callable[[Solved], float]
     table: str = ""
-    costly: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name of the quantity."""
+        return self.quantity.name
 
 
 def _of_result(name: str) -> Callable[[Solved], float]:
@@ -70,28 +73,39 @@ STIFFNESS = "normal_stiffness"
 """The quantity that costs about one more solve."""
 
 MEASURES = (
-    *(Measure(q.attribute, q.unit, q.label, _of_result(q.attribute), costly=q.attribute == STIFFNESS) for q in SCALARS),
-    *(Measure(q.attribute, q.unit, q.label, _of_menisci(q.attribute), "film") for q in WET_SCALARS),
+    *(Measure(q, _of_result(q.name)) for q in SCALARS),
+    *(Measure(q, _of_menisci(q.name), "film") for q in WET_SCALARS),
     Measure(
-        "statistical_meniscus_force",
-        "N",
-        "meniscus force of the theory of summits",
+        Quantity("statistical_meniscus_force", "N", "meniscus force of the theory of summits", costly=True),
         _of_theory,
         "film",
-        costly=True,
     ),
-    Measure("max_displacement", "m", "largest displacement", lambda solved: float(solved.result.displacement.max())),
     Measure(
-        "rms_height", "m", "rms height of the profile", lambda solved: float(solved.result.problem.profile().std())
+        Quantity("max_displacement", "m", "largest displacement"),
+        lambda solved: float(solved.result.displacement.max()),
     ),
-    Measure("contact_modulus", "Pa", "contact modulus E*", lambda solved: solved.result.problem.contact_modulus),
-    Measure("max_von_mises", "Pa", "largest von Mises stress", _largest("maxima", "von_mises"), "stress"),
-    Measure("max_tension", "Pa", "largest tension (σ₁)", _largest("maxima", "tension"), "stress"),
-    Measure("max_shear", "Pa", "largest shear stress", _largest("maxima", "shear"), "stress"),
-    Measure("max_interface_shear", "Pa", "largest shear on an interface", _largest("interfaces", "shear"), "stress"),
-    Measure("max_interface_peel", "Pa", "largest peel of an interface", _largest("interfaces", "peel"), "stress"),
     Measure(
-        "yield_load_factor", "1", "factor on the stresses at yield", attrgetter("stress.yielding.load_factor"), "stress"
+        Quantity("rms_height", "m", "rms height of the profile"),
+        lambda solved: float(solved.result.problem.profile().std()),
+    ),
+    Measure(
+        Quantity("contact_modulus", "Pa", "contact modulus E*"), lambda solved: solved.result.problem.contact_modulus
+    ),
+    Measure(Quantity("max_von_mises", "Pa", "largest von Mises stress"), _largest("maxima", "von_mises"), "stress"),
+    Measure(Quantity("max_tension", "Pa", "largest tension (σ₁)"), _largest("maxima", "tension"), "stress"),
+    Measure(Quantity("max_shear", "Pa", "largest shear stress"), _largest("maxima", "shear"), "stress"),
+    Measure(
+        Quantity("max_interface_shear", "Pa", "largest shear on an interface"),
+        _largest("interfaces", "shear"),
+        "stress",
+    ),
+    Measure(
+        Quantity("max_interface_peel", "Pa", "largest peel of an interface"), _largest("interfaces", "peel"), "stress"
+    ),
+    Measure(
+        Quantity("yield_load_factor", "1", "factor on the stresses at yield"),
+        attrgetter("stress.yielding.load_factor"),
+        "stress",
     ),
 )
 """Every quantity in the order of tables."""
@@ -121,4 +135,4 @@ def computed(document: ProblemDocument, asked: Iterable[str]) -> tuple[str, ...]
         if table and getattr(document, table) is None:
             raise InputError(f"quantity {name} needs the table [{table}] in the problem, but it is missing; add it.")
     there = (item for item in MEASURES if not item.table or getattr(document, item.table) is not None)
-    return tuple(item.name for item in there if not item.costly or item.name in wanted)
+    return tuple(item.name for item in there if not item.quantity.costly or item.name in wanted)

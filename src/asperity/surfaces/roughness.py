@@ -3,6 +3,7 @@
 ``asperity.characterise`` calls them all; ``QUANTITIES`` says what each number is.
 """
 
+from ..core.quantity import Quantity
 from .characterise.autocorrelation import DROP_1E, DROP_ISO, DROP_TENTH, Autocovariance, autocovariance
 from .characterise.distribution import HeightDistribution, height_distribution
 from .characterise.expectation import effective_samples, expected_difference_moments, mean_square_after_levelling
@@ -51,7 +52,7 @@ from .characterise.parameters import (
     SummitDensities,
 )
 from .characterise.peaks import ProfilePeaks, profile_peaks
-from .characterise.quantities import QUANTITIES, Quantity
+from .characterise.quantities import QUANTITIES
 from .characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
 from .characterise.slopes import (
     developed_area_ratio,

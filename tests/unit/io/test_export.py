@@ -61,8 +61,8 @@ def test_csv_holds_every_scalar_exactly(result: asp.ContactResult, tmp_path: Pat
     with (tmp_path / "r.csv").open(newline="", encoding="utf-8") as file:
         rows = {row["name"]: row for row in csv.DictReader(file)}
     for quantity in SCALARS:
-        row = rows[quantity.attribute]
-        np.testing.assert_equal(float(row["value"]), float(getattr(result, quantity.attribute)))
+        row = rows[quantity.name]
+        np.testing.assert_equal(float(row["value"]), float(getattr(result, quantity.name)))
         assert (row["unit"], row["label"]) == (quantity.unit, quantity.label)
     assert float(rows["certificate.duality_gap"]["value"]) == result.certificate.duality_gap
     assert rows["certificate.wall_time"]["unit"] == "s"

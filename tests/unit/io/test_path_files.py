@@ -33,11 +33,11 @@ def test_every_step_is_in_the_file(path: asp.LoadPath, tmp_path: Path) -> None:
     assert dict(data.sizes) == {"step": 6, "x": 16, "y": 12}
     assert data.attrs["document"] == "version = 1"
     for item in FIELDS:
-        assert data[item.attribute].attrs["units"] == item.unit
+        assert data[item.name].attrs["units"] == item.unit
         for step, result in enumerate(path.results):
-            np.testing.assert_array_equal(data[item.attribute][step], getattr(result, item.attribute))
+            np.testing.assert_array_equal(data[item.name][step], getattr(result, item.name))
     for item in SCALARS:
-        np.testing.assert_array_equal(data[item.attribute], [getattr(r, item.attribute) for r in path.results])
+        np.testing.assert_array_equal(data[item.name], [getattr(r, item.name) for r in path.results])
     balance = asp.energy_balance(path)
     np.testing.assert_array_equal(data["path_external_work"], balance.external_work)
     np.testing.assert_array_equal(data["path_residual"], balance.residual)

@@ -84,7 +84,7 @@ def test_dataset_is_labelled(plastic: asp.ContactResult, tmp_path: Path) -> None
     assert data.contact.dtype == bool
     assert float(data.contact.mean()) == plastic.area_fraction
     for quantity in SCALARS:
-        assert data[quantity.attribute].attrs == {"units": quantity.unit, "long_name": quantity.label}
+        assert data[quantity.name].attrs == {"units": quantity.unit, "long_name": quantity.label}
     assert json.loads(data.attrs["body"])["youngs_modulus"] == 2.1e11
     assert json.loads(data.attrs["control"]) == {"type": "Force", "value": 2e-5}
     assert data.attrs["certificate_duality_gap"] == plastic.certificate.duality_gap

@@ -24,7 +24,7 @@ def test_a_wet_contact_is_read_back_whole(wet: asp.WetContactResult, tmp_path: P
     asp.save_wet(wet, tmp_path / "wet.nc")
     found = asp.load_wet(tmp_path / "wet.nc")
     for item in WET_SCALARS:
-        assert getattr(found, item.attribute) == getattr(wet, item.attribute), item.attribute
+        assert getattr(found, item.name) == getattr(wet, item.name), item.name
     np.testing.assert_array_equal(found.wetting.menisci, wet.wetting.menisci)
     np.testing.assert_array_equal(found.contact.pressure, wet.contact.pressure)
     assert (found.film, found.control, found.status, found.rounds) == (wet.film, wet.control, wet.status, wet.rounds)

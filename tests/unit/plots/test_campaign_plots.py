@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from asperity.core.quantity import Quantity
 from asperity.plots.campaign import (
     MOST_TICKS,
     Curve,
@@ -23,8 +24,8 @@ from asperity.plots.campaign import (
 from asperity.plots.picture import CURVE_SIZE, png
 from asperity.plots.style import scale
 
-X = Labelled(np.array([5e6, 1e6, 2e6]), "Pa", "mean pressure")
-Y = Labelled(np.array([3e-9, 1e-9, 2e-9]), "m", "approach")
+X = Labelled(Quantity("q", "Pa", "mean pressure"), np.array([5e6, 1e6, 2e6]))
+Y = Labelled(Quantity("q", "m", "approach"), np.array([3e-9, 1e-9, 2e-9]))
 
 
 @pytest.fixture
@@ -43,8 +44,12 @@ def test_curves_are_drawn_in_order_and_with_units(ax):
 
 
 def test_decades_are_logarithmic_and_numbers_have_no_unit(ax):
-    share = Labelled(np.array([1e-4, 1e-2, 1e-1]), "1", "real contact area / nominal area (perimeter-corrected)")
-    plot_curves(Labelled(np.array([1e-9, 1e-7, 1e-6]), "m", "thickness"), share, [Curve("", share.values)], ax)
+    share = Labelled(
+        Quantity("q", "1", "real contact area / nominal area (perimeter-corrected)"), np.array([1e-4, 1e-2, 1e-1])
+    )
+    plot_curves(
+        Labelled(Quantity("q", "m", "thickness"), np.array([1e-9, 1e-7, 1e-6])), share, [Curve("", share.values)], ax
+    )
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
     assert "\n" in ax.get_ylabel(), "long labels take two lines"
     assert ax.get_legend() is None
@@ -56,14 +61,14 @@ def test_a_failed_case_leaves_a_hole(ax):
 
 
 def test_samples_show_mean_and_confidence(ax):
-    plot_samples(Labelled(np.array([1e-9, 2e-9, math.nan, 3e-9]), "m", "gap"), 2e-9, 0.5e-9, ax)
+    plot_samples(Labelled(Quantity("q", "m", "gap"), np.array([1e-9, 2e-9, math.nan, 3e-9])), 2e-9, 0.5e-9, ax)
     assert sum(patch.get_height() for patch in ax.patches[:-1]) == 3
     assert "mean 2 nm" in ax.get_legend_handles_labels()[1]
     plot_running_mean(Y, np.array([math.nan, 1e-9, 0.5e-9]), Y.values, ax)
 
 
 def test_convergence_marks_levels_and_limit(ax):
-    levels = Labelled(np.array([16.0, 32.0, 64.0]), "1", "points along x")
+    levels = Labelled(Quantity("q", "1", "points along x"), np.array([16.0, 32.0, 64.0]))
     plot_convergence(levels, Y, 0.9e-9, ax)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["16", "32", "64"]
     assert ax.lines[1].get_ydata()[0] == pytest.approx(0.9)
@@ -71,14 +76,14 @@ def test_convergence_marks_levels_and_limit(ax):
 
 
 def test_tolerances_run_from_coarse_to_fine(ax):
-    plot_convergence(Labelled(np.array([1e-2, 1e-4, 1e-6]), "1", "tolerance"), Y, math.nan, ax)
+    plot_convergence(Labelled(Quantity("q", "1", "tolerance"), np.array([1e-2, 1e-4, 1e-6])), Y, math.nan, ax)
     assert ax.get_xlim()[0] > ax.get_xlim()[1]
 
 
 def test_floor_and_ceiling_lie_on_the_curve(ax):
-    thickness = Labelled(np.array([1e-9, 1e-8, 1e-7]), "m", "thickness")
+    thickness = Labelled(Quantity("q", "m", "thickness"), np.array([1e-9, 1e-8, 1e-7]))
     item = Transition("", np.array([1.0, 2.0, 3.0]), 1.0, 3.0, 10**-8.5, math.nan)
-    plot_transitions(thickness, Labelled(item.values, "Pa", "p"), [item], ax)
+    plot_transitions(thickness, Labelled(Quantity("q", "Pa", "p"), item.values), [item], ax)
     (mark,) = [line for line in ax.lines if line.get_marker() == "^"]
     assert float(mark.get_ydata()[0]) == pytest.approx(1.5)
     assert not [line for line in ax.lines if line.get_marker() == "v"]
@@ -86,7 +91,7 @@ def test_floor_and_ceiling_lie_on_the_curve(ax):
 
 def test_the_largest_sensitivity_is_on_top(ax):
     low, high = np.array([1.9, 1.0]), np.array([2.1, 3.0])
-    plot_sensitivities(["small", "large"], low, high, Labelled(low, "1", "y"), 2.0, ax)
+    plot_sensitivities(["small", "large"], low, high, Labelled(Quantity("q", "1", "y"), low), 2.0, ax)
     assert [text.get_text() for text in ax.get_yticklabels()] == ["small", "large"]
     assert [bar.get_width() for bar in ax.patches] == pytest.approx([-0.1, -1.0, 0.1, 1.0])
 

@@ -111,7 +111,7 @@ def test_nothing_is_loaded_from_elsewhere(page: Page, html: str) -> None:
 
 def test_every_scalar_is_listed_with_its_unit(page: Page, result: asp.ContactResult) -> None:
     for quantity in SCALARS:
-        shown = value_text(quantity, getattr(result, quantity.attribute))
+        shown = value_text(quantity, getattr(result, quantity.name))
         assert f"{quantity.label} {shown}" in page.text
     assert "mean (nominal) pressure 1.25 GPa" in page.text
     assert f"number of contact spots {result.n_spots}" in page.text

@@ -16,7 +16,7 @@ from asperity.report.quantities import NOT_DEFINED, headline_values, quantity_ro
 from asperity.report.roughness import summary, write_roughness_report
 from asperity.surfaces.roughness import QUANTITIES
 
-BY_PATH = {quantity.path: quantity for quantity in QUANTITIES}
+BY_PATH = {quantity.name: quantity for quantity in QUANTITIES}
 
 
 def generated(hurst: float = 0.8, *, rolloff: float = 2e-7, size: int = 128) -> asp.Surface:

@@ -233,7 +233,7 @@ def test_computed_quantities_are_those_that_are_there():
     assert "normal_stiffness" in computed(document, ["normal_stiffness"])
     stressed = document.model_copy(update={"stress": checked({**PROBLEM, "stress": {}}).stress})
     assert "max_von_mises" in computed(stressed, [])
-    assert replace(MEASURES[0], name="x").unit == MEASURES[0].unit
+    assert replace(MEASURES[0], table="x").quantity == MEASURES[0].quantity
 
 
 def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):

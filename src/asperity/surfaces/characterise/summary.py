@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from operator import attrgetter
 from typing import ClassVar
 
 from ...core import require
+from ...core.quantity import Quantity
 from ...core.units import percent
 from ..surface import Surface
 from .attempts import Attempts
@@ -28,7 +30,7 @@ from .parameters import (
     undefined,
 )
 from .peaks import ProfilePeaks, profile_peaks
-from .quantities import QUANTITIES, Quantity
+from .quantities import QUANTITIES
 from .slopes import developed_area_ratio, rms_slope
 from .summits import summit_statistics, summits
 from .texture import texture_lengths
@@ -86,7 +88,7 @@ class Characterisation:
 
     def values(self) -> tuple[tuple[Quantity, float], ...]:
         """Every number with what it is, in the order of ``QUANTITIES``."""
-        return tuple((quantity, quantity.of(self)) for quantity in QUANTITIES)
+        return tuple((quantity, float(attrgetter(quantity.name)(self))) for quantity in QUANTITIES)
 
 
 def characterise(
