@@ -7,7 +7,7 @@ import sys
 from types import MappingProxyType, ModuleType
 from typing import Any
 
-from .core.late import LateNames
+from .core.late import LateNames, Shown
 
 __version__ = "0.1.0"
 
@@ -105,7 +105,11 @@ _NAMES = MappingProxyType(
 )
 """Public names by module; ``stress`` is a function, and besides a package that the function is in."""
 
+_VIEWS = MappingProxyType({"io.words": ("text",), "plots.notebook": ("card", "plot")})
+"""Functions behind ``repr`` and notebooks, by module."""
+
 _find = LateNames(__name__, _NAMES)
+Shown.supply(LateNames(__name__, _VIEWS))
 _HOME = _find.home
 
 __all__ = sorted([*_HOME, "__version__"])

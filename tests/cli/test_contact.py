@@ -204,7 +204,7 @@ def test_coated_bodies(run: Runner, matrix: Path, tmp_path: Path) -> None:
         assert text in result.stdout, text
     solved = load(tmp_path / "run" / "result.nc")
     layers = [asp.Layer(asp.material("DLC"), 5e-9, asp.Frictionless()), asp.Layer(asp.material("Cr"), 2e-9)]
-    assert repr(solved.problem.body) == repr(asp.Layered(layers, asp.material("steel")))
+    assert str(vars(solved.problem.body)) == str(vars(asp.Layered(layers, asp.material("steel"))))
     again = run("contact", "--from", tmp_path / "run" / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
     np.testing.assert_array_equal(load(tmp_path / "again" / "result.nc").pressure, solved.pressure)

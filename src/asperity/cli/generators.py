@@ -133,9 +133,10 @@ def _picture(surface: Surface, plot: Path | None, force: bool) -> None:
 
 def _print(surface: Surface) -> None:
     from ..core.units import show
+    from ..io.words import surface_text
     from ..surfaces.characterise.heights import height_parameters
     from ..surfaces.characterise.slopes import rms_slope
-    from .show import console, say, surface_text, table
+    from .show import console, say, table
 
     found = height_parameters(surface)
     rows = [

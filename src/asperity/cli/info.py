@@ -155,7 +155,8 @@ def _record(
 
 def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface) -> None:
     from ..core.units import percent, show
-    from .show import console, surface_text, table
+    from ..io.words import surface_text
+    from .show import console, table
 
     rows = [
         (

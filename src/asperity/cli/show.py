@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
     from ..core.status import Advice
-    from ..surfaces.surface import Surface
 
 
 WIDTH = 120
@@ -59,39 +58,10 @@ def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...]
     return made
 
 
-def surface_text(surface: Surface) -> str:
-    """Points, size and pixel of ``surface``."""
-    from ..core.units import show
-
-    (nx, ny), (length_x, length_y) = surface.shape, surface.size
-    size = f"{show(length_x, 'm')} × {show(length_y, 'm')}"
-    return f"{nx} × {ny} points, {size}"
-
-
-def problem_rows(result: ContactResult) -> list[tuple[str, str]]:
-    """What was solved."""
-    from ..core.units import show
-    from ..report.bodies import body_text
-    from ..report.settings import limit_text, modulus_label
-    from ..surfaces.surface import Surface
-
-    problem, control = result.problem, result.control
-    rows = [("surface", f"{problem.surface.origin.source or 'unnamed'}: {surface_text(problem.surface)}")]
-    if isinstance(problem.counter_surface, Surface):
-        rows.append(("counter surface", problem.counter_surface.origin.source or "unnamed"))
-    rows += [("body", body_text(problem.body)), ("counter body", body_text(problem.counter_body))]
-    rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
-    law = f"{problem.law.name} {limit_text(problem)}".rstrip()
-    rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
-    rows.append(("prescribed", f"{control.name} {show(control.value, control.unit)}"))
-    return rows
-
-
 def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     """The scalars of ``result`` and the checks that bound its error."""
     from ..core.units import show
-    from ..io.labels import CERTIFICATE
-    from ..report.outputs import result_rows
+    from ..io.words import CERTIFICATE, result_rows
 
     checks = result.certificate
     labels = {q.name: q.label for q in CERTIFICATE}
@@ -105,7 +75,16 @@ def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
 
 def print_problem(result: ContactResult, title: str) -> None:
     """Print what was solved."""
-    console().print(table(title, problem_rows(result)))
+    from ..core.units import show
+    from ..io.words import problem_rows
+
+    control = result.control
+    console().print(
+        table(
+            title,
+            [*problem_rows(result.problem), ("prescribed", f"{control.name} {show(control.value, control.unit)}")],
+        )
+    )
 
 
 def print_result(result: ContactResult, title: str) -> None:

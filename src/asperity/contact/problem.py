@@ -11,6 +11,7 @@ from ..core.arrays import RealArray
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.late import Shown
 from ..solids.body import Body, contact_modulus
 from ..solids.compliance.protocol import Compliance
 from ..solids.compliance.two_bodies import contact_compliance
@@ -30,8 +31,8 @@ CounterSurface: TypeAlias = Surface | Flat
 """Surface of the counter body."""
 
 
-@dataclass(frozen=True)
-class ContactProblem:
+@dataclass(frozen=True, repr=False)
+class ContactProblem(Shown):
     """Two bodies with their surfaces, pressed together without friction.
 
     Parameters

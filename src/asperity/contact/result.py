@@ -7,6 +7,7 @@ from typing import Literal
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.late import Drawn
 from ..core.quantity import Quantity
 from ..core.status import Status
 from ..surfaces.pair import composite
@@ -45,8 +46,8 @@ SCALARS = (
 """Every scalar of a result in the order of tables."""
 
 
-@dataclass(frozen=True, eq=False)
-class ContactResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactResult(Drawn):
     """Solution of a contact problem. Fields are (nx, ny) arrays, all values SI.
 
     Attributes

@@ -1,11 +1,14 @@
-"""Public names of a package that are imported when they are asked for, so that importing the package costs nothing."""
+"""Names and methods that are looked up when they are asked for, so that importing the package costs nothing."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class LateNames:
@@ -35,3 +38,49 @@ class LateNames:
             if hasattr(module, name):
                 return getattr(module, name)
         return import_module(f"{where}.{name}")
+
+
+class Shown:
+    """Base of surfaces, bodies, problems, results and stress fields: how they show themselves on a screen and in a notebook.
+
+    Words and pictures are made by the layers ``io`` and ``plots``, which the classes of lower layers may not import. The package
+    itself stands above all layers, and when it is imported it says with ``supply`` where these functions are found.
+    """
+
+    _find: ClassVar[Any]
+
+    @classmethod
+    def supply(cls, find: Callable[[str], Any]) -> None:
+        """Take ``find``, which gives the functions ``text``, ``card`` and ``plot``."""
+        cls._find = staticmethod(find)
+
+    def __repr__(self) -> str:
+        return str(self._find("text")(self))
+
+
+class Drawn(Shown):
+    """What notebooks show with a picture: surfaces, results and stress fields."""
+
+    def _repr_html_(self) -> str:
+        return str(self._find("card")(self))
+
+    def plot(self, kind: str = "", ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw on ``ax``, or on a new figure of pyplot, and return the axes.
+
+        Parameters
+        ----------
+        kind
+            What to draw, the most telling figure by default. Surfaces: ``heights`` or ``view``. Results: the names of their
+            figures, such as ``pressure``, ``contact``, ``gap`` or ``section``. Stress fields: a stress, such as ``von_mises``.
+        ax
+            Axes of matplotlib.
+        options
+            Further options of the figure, such as ``log=True`` or ``plane=2``.
+
+        Raises
+        ------
+        InputError
+            If there is no such ``kind``.
+        """
+        axes: Axes = self._find("plot")(self, kind, ax, **options)
+        return axes

@@ -13,7 +13,7 @@ import numpy as np
 from ..contact.result import SCALARS, ContactResult
 from ..contact.wet_result import WET_SCALARS, WetContactResult
 from .atomic import atomic_file
-from .labels import CERTIFICATE
+from .words import CERTIFICATE
 
 VTK_TYPES = {"float64": "Float64", "float32": "Float32", "uint8": "UInt8"}
 """VTK's names of array types."""

@@ -15,8 +15,8 @@ from ..contact.result import SCALARS
 from ..core.quantity import Quantity
 from .atomic import atomic_file
 from .description import describe
-from .labels import FIELDS
 from .results import dataset
+from .words import FIELDS
 
 if TYPE_CHECKING:
     import xarray

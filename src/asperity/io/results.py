@@ -19,8 +19,8 @@ from ..core.status import Outcome, Status
 from ..surfaces.surface import Origin, Surface
 from .atomic import atomic_file
 from .description import describe, rebuild
-from .labels import ALL_SCALARS, FIELDS
 from .provenance import provenance, surface_provenance
+from .words import ALL_SCALARS, FIELDS
 
 if TYPE_CHECKING:
     import xarray

@@ -23,10 +23,12 @@ MAP_SIZE = 3.4
 """Longer side of a map in inches, about."""
 
 
-def png(draw: Callable[[Axes], Axes], size: tuple[float, float], *, projection: str | None = None) -> bytes:
+def png(
+    draw: Callable[[Axes], Axes], size: tuple[float, float], *, projection: str | None = None, dpi: int = DPI
+) -> bytes:
     """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its content.
 
-    ``projection`` of the axes, ``3d`` for a view in space.
+    ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -36,7 +38,7 @@ def png(draw: Callable[[Axes], Axes], size: tuple[float, float], *, projection: 
         figure = Figure(figsize=size)
         FigureCanvasAgg(figure)
         draw(figure.add_subplot(projection=projection))
-        figure.savefig(buffer, format="png", dpi=DPI, bbox_inches="tight", pad_inches=0.06)
+        figure.savefig(buffer, format="png", dpi=dpi, bbox_inches="tight", pad_inches=0.06)
     return buffer.getvalue()
 
 

@@ -9,11 +9,11 @@ from pathlib import Path
 from ..core.citations import REFERENCES
 from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
+from ..io.words import surface_rows
 from ..plots.comparison import comparison_figures
 from ..plots.figure import Figure
 from ..studies.comparison import Comparison
 from .comparison_tables import comparison_sentence, left_out_rows, limit_rows, setup_rows, slope_table
-from .inputs import surface_rows
 from .page import rendered
 
 TEMPLATE = "comparison.html"

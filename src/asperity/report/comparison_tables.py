@@ -8,10 +8,8 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.units import percent, show
+from ..io.words import Rows, body_text, modulus_label
 from ..studies.comparison import Comparison, TheoryCurve
-from .bodies import body_text
-from .inputs import Rows
-from .settings import modulus_label
 from .tables import Table
 
 NONE = "–"

@@ -7,7 +7,7 @@ from ..contact.path import LoadPath
 from ..contact.plastic_load import PlasticLoad
 from ..contact.result import PLASTIC_FRACTION, ContactResult
 from ..core.units import percent, show
-from .inputs import Rows
+from ..io.words import Rows
 from .tables import Table
 
 

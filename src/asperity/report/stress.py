@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import Any, TypeVar
 
 from ..core.units import show
+from ..io.words import Rows
 from ..plots.figure import Figure
 from ..stress.criteria import TABOR
 from ..stress.field import Peak
@@ -16,7 +17,6 @@ from ..stress.maxima import RegionMaxima
 from ..stress.regions import Region
 from ..stress.survey import StressSurvey
 from ..stress.yielding import RegionYield
-from .inputs import Rows
 from .tables import Table
 
 Part = TypeVar("Part", RegionMaxima, RegionYield)

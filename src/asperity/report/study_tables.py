@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.units import percent, show
+from ..io.words import Rows
 from ..studies.campaign import Campaign, CampaignState
-from .inputs import Rows
 from .study_figures import coordinate_text, point_text
 
 if TYPE_CHECKING:

@@ -9,9 +9,8 @@ from ..contact.wet_result import WET_SCALARS, WetContactResult
 from ..contact.wet_theory import HAMAKER, WetTheory, wet_theory
 from ..core.errors import InputError
 from ..core.units import percent, show
+from ..io.words import Rows, value_text
 from ..plots.figure import Figure
-from .inputs import Rows
-from .outputs import value_text
 
 REGIMES = {
     "dry": "no liquid bridges the gap",

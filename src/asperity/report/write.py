@@ -16,14 +16,20 @@ from ..core.errors import InputError
 from ..core.status import Advice
 from ..io.atomic import atomic_file
 from ..io.provenance import provenance
+from ..io.words import (
+    Rows,
+    body_rows,
+    certificate_rows,
+    headline_rows,
+    result_rows,
+    setting_rows,
+    summary,
+    surface_rows,
+)
 from ..plots.figures import PLASTIC_PLOTS, PLOTS, render
 from ..plots.path_figures import PATH_PLOTS, render_path_plot
-from .bodies import body_rows
-from .inputs import Rows, surface_rows
-from .outputs import certificate_rows, headline_rows, result_rows, summary
 from .page import rendered
 from .plasticity import energy_table, path_sentence, plastic_rows, turn_table
-from .settings import setting_rows
 from .stress import (
     StressPart,
     interface_table,

@@ -9,6 +9,7 @@ from typing import ClassVar, TypeAlias
 
 from ..core import require
 from ..core.errors import InputError
+from ..core.late import Shown
 from .elastic import Elastic
 from .interface import Bonded, Frictionless, Interface
 
@@ -58,8 +59,8 @@ class Layer:
             raise InputError(f"interface of a layer must be Bonded() or Frictionless(), but is {self.interface!r}.")
 
 
-@dataclass(frozen=True)
-class Layered:
+@dataclass(frozen=True, repr=False)
+class Layered(Shown):
     """Layers on a base.
 
     Parameters

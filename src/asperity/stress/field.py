@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.late import Drawn
 from ..core.quantity import Quantity
 from ..core.tensor import Displacement, StressTensor
 from . import invariants
@@ -58,8 +59,8 @@ class InterfaceStress:
     peel: RealArray
 
 
-@dataclass(frozen=True, eq=False)
-class StressField:
+@dataclass(frozen=True, eq=False, repr=False)
+class StressField(Drawn):
     """Stress inside a body on planes parallel to its surface; arrays (n, …) over planes and their points, in Pa.
 
     Attributes

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.certificate import Certificate
-from ..io.labels import CERTIFICATE
 from ..io.provenance import software
+from ..io.words import CERTIFICATE
 from .axes import Axis
 from .evaluate import CHECKS
 from .failures import Failure

@@ -12,6 +12,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.late import Drawn
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,8 @@ class Origin:
         return replace(self, history=(*self.history, step), citation_keys=keys)
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class Surface:
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class Surface(Drawn):
     """Heights on a regular grid, positive out of the solid (the material is below).
 
     Parameters

@@ -14,7 +14,7 @@ import asperity as asp
 from asperity.contact.result import SCALARS
 from asperity.core.errors import OutputError
 from asperity.io.export import export_csv, export_vtk
-from asperity.io.labels import CERTIFICATE
+from asperity.io.words import CERTIFICATE
 
 TYPES = {"Float64": "<f8", "Float32": "<f4", "UInt8": "u1"}
 

@@ -26,6 +26,7 @@ def test_saved_and_loaded(surface, body, boundary, tmp_path: Path):
     problem = asp.ContactProblem(surface(), body, boundary=boundary)
     asp.save(asp.solve(problem, asp.MeanPressure(1e7)), tmp_path / "layered.nc")
     loaded = asp.load(tmp_path / "layered.nc").problem
-    assert repr(loaded.body) == repr(body)
+    assert vars(loaded.body).keys() == vars(body).keys()
+    assert str(vars(loaded.body)) == str(vars(body))
     assert loaded.compliance == problem.compliance
     assert loaded.boundary == boundary

@@ -13,7 +13,7 @@ import asperity as asp
 from asperity.contact.result import SCALARS
 from asperity.core.errors import OutputError
 from asperity.io.description import rebuild
-from asperity.io.labels import FIELDS
+from asperity.io.words import FIELDS
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ import asperity as asp
 from asperity.contact.certificate import Certificate
 from asperity.contact.result import ContactResult
 from asperity.core.digest import array_digest
-from asperity.io.labels import ALL_SCALARS, CERTIFICATE, FIELDS
 from asperity.io.provenance import provenance
+from asperity.io.words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 
 def test_software_and_time_are_those_of_now(elastic: asp.ContactResult) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 import asperity as asp
 from asperity.core.status import Outcome, Status
-from asperity.report.outputs import summary
+from asperity.io.words import summary
 from asperity.report.plasticity import energy_table, path_sentence, plastic_load_row, plastic_rows, turn_table
 
 

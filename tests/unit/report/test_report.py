@@ -18,11 +18,9 @@ from asperity.contact.solvers import ConjugateGradient
 from asperity.core.citations import reference
 from asperity.core.digest import array_digest
 from asperity.core.errors import OutputError
+from asperity.io.words import body_rows, body_text, surface_rows, value_text
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
-from asperity.report.bodies import body_rows, body_text
-from asperity.report.inputs import surface_rows
-from asperity.report.outputs import value_text
 from asperity.surfaces.surface import Origin
 
 VOID = {"meta", "link", "img", "br"}

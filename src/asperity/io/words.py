@@ -1,0 +1,411 @@
+"""Surfaces, bodies, problems and results in words: rows of tables, one line, or one screen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import fields, is_dataclass
+from itertools import groupby
+from typing import TypeAlias
+
+import numpy as np
+
+from ..contact.laws import LayeredHardness
+from ..contact.problem import ContactProblem
+from ..contact.result import SCALARS, ContactResult
+from ..core.errors import InputError
+from ..core.quantity import Quantity
+from ..core.units import percent, show
+from ..solids.body import materials_of
+from ..solids.elastic import Elastic
+from ..solids.interface import Frictionless
+from ..solids.layers import Layer, Layered
+from ..stress.field import DERIVED, StressField
+from ..surfaces.characterise.heights import peak_to_valley, rms_height
+from ..surfaces.surface import Surface
+
+LINE = 100
+"""Letters of a value in a ``repr``."""
+
+FIELDS = (
+    Quantity("pressure", "Pa", "contact pressure"),
+    Quantity("displacement", "m", "sum of the normal displacements of both surfaces, into the bodies"),
+    Quantity("gap", "m", "gap between the deformed surfaces"),
+    Quantity("permanent_indentation", "m", "permanent indentation of the composite profile"),
+)
+"""Fields (nx, ny) that a result stores."""
+
+OFFSET = Quantity("offset", "m", "rigid-body position: gap = offset + displacement - profile + permanent indentation")
+"""The scalar from which fields follow, not in the table for people."""
+
+CERTIFICATE = (
+    Quantity(
+        "duality_gap",
+        "1",
+        "bound on the relative error of the energy",
+        description="The total energy of this answer differs from the exact one on this grid by at most this fraction.",
+    ),
+    Quantity(
+        "field_error",
+        "1",
+        "relative error of the field",
+        description="How far pressure and gap are from excluding each other, relative to load and rms height.",
+    ),
+    Quantity(
+        "penetration",
+        "1",
+        "largest overlap of the bodies / rms height",
+        description="The deepest point at which the bodies still overlap, as a fraction of the rms height.",
+    ),
+    Quantity(
+        "load_imbalance",
+        "1",
+        "relative error of the load",
+        description="How far the load reached is from the load asked for; zero where a position was asked for.",
+    ),
+    Quantity(
+        "tolerance",
+        "1",
+        "tolerance given to the solver",
+        description="The relative error at which the solver was told to stop.",
+    ),
+    Quantity("iterations", "1", "iterations", description="Steps of the solver."),
+    Quantity(
+        "fft_pairs",
+        "1",
+        "FFT pairs of the size of the grid",
+        description="Work in forward and backward transforms, the unit of cost.",
+    ),
+    Quantity("wall_time", "s", "time to solve", description="From the prepared problem to the solution."),
+    Quantity(
+        "peak_memory",
+        "B",
+        "largest memory of the process so far",
+        description="The largest memory the program has held so far, everything included.",
+    ),
+    Quantity("solver", "", "solver", description="The numerical method."),
+)
+"""Entries of a certificate in the order of tables."""
+
+ALL_SCALARS = (*SCALARS, OFFSET)
+"""Every scalar that a result stores."""
+
+Rows: TypeAlias = list[tuple[str, str]]
+"""Label and text of each row of a table."""
+
+
+def surface_rows(surface: object) -> Rows:
+    """What the ``surface`` is, where it comes from and what was done to it."""
+    if not isinstance(surface, Surface):
+        return [("shape", "perfectly flat")]
+    origin, (nx, ny), (width, height) = surface.origin, surface.shape, surface.size
+    rows = [
+        ("source", origin.source or "given as an array"),
+        ("channel", origin.channel),
+        ("size", f"{show(width, 'm')} × {show(height, 'm')}"),
+        ("points", f"{nx} × {ny}"),
+        ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
+        ("rms height", show(rms_height(surface), "m")),
+        ("peak to valley", show(peak_to_valley(surface), "m")),
+        ("periodic", "yes" if surface.periodic else "no"),
+        *((f"step {number}", step) for number, step in enumerate(origin.history, start=1)),
+        *((str(key), str(value)) for key, value in origin.instrument.items()),
+    ]
+    return [row for row in rows if row[1]]
+
+
+TERMS = {
+    item.name: item
+    for item in (
+        Quantity("youngs_modulus", "Pa", "Young's modulus E"),
+        Quantity("poisson_ratio", "1", "Poisson's ratio ν"),
+        Quantity("hardness", "Pa", "hardness H"),
+        Quantity("yield_stress", "Pa", "yield stress"),
+        Quantity("thickness", "m", "thickness"),
+    )
+}
+"""Fields of bodies by name; one that is not listed is shown by its name."""
+
+
+def body_text(body: object) -> str:
+    """What ``body`` is in one line: its layers from the surface down, or its name and constants."""
+    if isinstance(body, Layered):
+        parts = [_short(group) for group in _alike(body.layers)]
+        return " / ".join([*parts, material_name(body.base) if isinstance(body.base, Elastic) else body.base.name])
+    return _material_text(body) if isinstance(body, Elastic) else "rigid"
+
+
+def body_rows(body: object) -> Rows:
+    """Elastic constants and strength of ``body``, with the sources of the values; layers one after another."""
+    return _layered_rows(body) if isinstance(body, Layered) else _rows(body)
+
+
+def _layered_rows(body: Layered) -> Rows:
+    rows: Rows = [("name", body.name)] if body.name else []
+    first = 1
+    for group in _alike(body.layers):
+        last = first + len(group) - 1
+        label = f"layer {first}" if len(group) == 1 else f"layers {first} to {last}"
+        joined = "slips without friction on what is below" if _slips(group) else "bonded to what is below"
+        rows.append((label, f"{_group_text(group)}; {joined}"))
+        first = last + 1
+    rows.append(("base", _material_text(body.base) if isinstance(body.base, Elastic) else body.base.name))
+    seen = dict.fromkeys((material.name, source) for material in materials_of(body) for source in material.sources)
+    return rows + [
+        (f"{label} ({name})" if name else label, text)
+        for name, source in seen
+        for label, text in [_source_row(source)]
+        if name or text != "user"
+    ]
+
+
+def _alike(layers: Sequence[Layer]) -> list[list[Layer]]:
+    """Runs of layers of one name, as those of a graded coating are; any other layer is alone."""
+    numbered = enumerate(layers)
+    runs = groupby(numbered, key=lambda item: item[1].material.name or item[0])
+    return [[layer for _, layer in run] for _, run in runs]
+
+
+def _slips(group: list[Layer]) -> bool:
+    return isinstance(group[-1].interface, Frictionless)
+
+
+def _short(group: list[Layer]) -> str:
+    thickness = sum(layer.thickness for layer in group)
+    count = f" in {len(group)} layers" if len(group) > 1 else ""
+    return f"{material_name(group[0].material)} {show(thickness, 'm')}{count}{' (slips)' if _slips(group) else ''}"
+
+
+def _group_text(group: list[Layer]) -> str:
+    first, last = group[0], group[-1]
+    if len(group) == 1:
+        return f"{show(first.thickness, 'm')} of {_material_text(first.material)}"
+    thickness = sum(layer.thickness for layer in group)
+    moduli = f"E = {show(first.material.youngs_modulus, 'Pa')} … {show(last.material.youngs_modulus, 'Pa')}"
+    return f"{show(thickness, 'm')} of {first.material.name} in {len(group)} layers: {moduli}"
+
+
+def material_name(material: Elastic) -> str:
+    """Name of ``material``, or its constants where it has none."""
+    return material.name or f"({_material_text(material)})"
+
+
+def _material_text(material: Elastic) -> str:
+    strength = material.strength
+    values = [("E", material.youngs_modulus), ("H", strength.hardness), ("Y", strength.yield_stress)]
+    texts = [f"{symbol} = {show(value, 'Pa')}" for symbol, value in values if not math.isnan(value)]
+    texts.insert(1, f"ν = {material.poisson_ratio:g}")
+    constants = ", ".join(texts)
+    return f"{material.name}: {constants}" if material.name else constants
+
+
+def _rows(body: object) -> Rows:
+    kind, name = type(body).__name__.lower(), str(getattr(body, "name", ""))
+    rows: Rows = [("material" if name not in ("", kind) else "kind", name or kind)]
+    sources: Rows = []
+    for field in fields(body) if is_dataclass(body) else ():
+        value = getattr(body, field.name)
+        if field.name == "name":
+            continue
+        if field.name == "sources":
+            sources += [_source_row(str(source)) for source in value]
+        elif isinstance(value, tuple):
+            for number, part in enumerate(value, start=1):
+                rows += _prefixed(f"{field.name} {number}", part)
+        elif is_dataclass(value):
+            rows += _rows(value)[1:] if field.name == "strength" else _prefixed(field.name, value)
+        else:
+            rows += _value_row(field.name, value)
+    return rows + sources
+
+
+def _prefixed(prefix: str, part: object) -> Rows:
+    return [(f"{prefix}: {label}", text) for label, text in _rows(part)]
+
+
+def _source_row(source: str) -> tuple[str, str]:
+    """``"youngs_modulus: handbook"`` names the value that it is the source of; any other text stands alone."""
+    key, _, text = source.partition(": ")
+    return (f"source of {TERMS[key].label}", text) if key in TERMS else ("source", source)
+
+
+def _value_row(name: str, value: object) -> Rows:
+    """The row of a number or text; nothing where it is empty or not known."""
+    term = TERMS.get(name, Quantity(name, "1", name.replace("_", " ")))
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        return [] if math.isnan(value) else [(term.label, show(float(value), term.unit))]
+    return [(term.label, str(value))] if str(value) else []
+
+
+def setting_rows(result: ContactResult) -> Rows:
+    """Boundary, law and load of ``result``."""
+    problem = result.problem
+    rows = [("boundary", problem.boundary.name), ("interface law", problem.law.name)]
+    limit = limit_text(problem)
+    if limit:
+        rows.append(("pressure limit", limit))
+    rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
+    rows.append((f"prescribed {result.control.name}", _control_text(result)))
+    return rows
+
+
+def limit_text(problem: ContactProblem) -> str:
+    """Pressure limit of the law of ``problem``, and whose hardness it is; empty without a limit."""
+    if isinstance(problem.law, LayeredHardness):
+        top, base = show(problem.law.pressure_cap(), "Pa"), show(problem.law.base_hardness, "Pa")
+        return f"{top} at the surface to {base} deep in the base, by local indentation"
+    cap = np.asarray(problem.law.pressure_cap())
+    if not np.isfinite(cap).all():
+        return ""
+    low, high = show(float(cap.min()), "Pa"), show(float(cap.max()), "Pa")
+    if low != high:
+        return f"{low} to {high}, by point"
+    owners = [name for body in (problem.body, problem.counter_body) for name in _owner(body, float(cap.min()))]
+    return f"{low} ({' and '.join(owners)})" if owners else low
+
+
+def modulus_label(problem: ContactProblem) -> str:
+    """What to call the contact modulus of ``problem``: that of a coated body is of its top layer alone."""
+    coated = any(isinstance(body, Layered) for body in (problem.body, problem.counter_body))
+    return "contact modulus E* of the materials at the surfaces" if coated else "contact modulus E*"
+
+
+def _owner(body: object, limit: float) -> list[str]:
+    """The material at the surface of ``body`` if the ``limit`` is its hardness."""
+    if isinstance(body, Elastic):
+        return [f"of {body.name}"] if body.name and body.strength.hardness == limit else []
+    material = body.surface_material if isinstance(body, Layered) else None
+    if not isinstance(material, Elastic) or material.strength.hardness != limit:
+        return []
+    return [f"of {material_name(material)}, the top layer"]
+
+
+HEADLINE = {
+    "area_fraction_corrected": "real contact area",
+    "mean_pressure": "mean pressure",
+    "max_pressure": "maximum pressure",
+    "mean_gap": "mean gap",
+    "approach": "approach",
+    "n_spots": "contact spots",
+}
+"""Scalars at the top of a report, with short labels."""
+
+
+def value_text(quantity: Quantity, value: float | int | str) -> str:
+    """Text of ``value`` with the unit of ``quantity``; whole numbers in full, shares also in percent."""
+    if isinstance(value, str | int):
+        return str(value)
+    if math.isnan(value):
+        return "not computed"
+    text = show(value, quantity.unit)
+    if quantity.name.endswith(("fraction", "fraction_corrected")):
+        return f"{text} ({percent(value)})"
+    return text
+
+
+def result_rows(result: ContactResult) -> Rows:
+    """Every scalar of ``result``."""
+    return [(q.label, value_text(q, getattr(result, q.name))) for q in SCALARS]
+
+
+def headline_rows(result: ContactResult) -> Rows:
+    """The scalars that people look for first; the real contact area in percent of the nominal area."""
+    chosen = {q.name: value_text(q, getattr(result, q.name)) for q in SCALARS}
+    chosen["area_fraction_corrected"] = percent(result.area_fraction_corrected)
+    return [(label, chosen[name]) for name, label in HEADLINE.items()]
+
+
+def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
+    """Label, value and meaning of every entry of the certificate."""
+    return [(q.label, value_text(q, getattr(result.certificate, q.name)), q.description) for q in CERTIFICATE]
+
+
+def summary(result: ContactResult) -> str:
+    """One sentence on the state of the contact."""
+    share = f"{percent(result.area_fraction_corrected)} of the nominal area"
+    dents = f" {percent(float(result.indented.mean()))} of the nominal area is indented for good."
+    dents = dents if result.indented.any() else ""
+    if not result.contact.any():
+        return "The bodies do not touch." + dents
+    if result.is_plastic:
+        plastic = f"{percent(result.plastic_area_fraction)} of the real contact area is at the hardness"
+        return f"The bodies touch on {share}. The contact is plastic: {plastic}."
+    return f"The bodies touch on {share}. The contact is elastic.{dents}"
+
+
+def problem_rows(problem: ContactProblem) -> Rows:
+    """What ``problem`` is, in short: surfaces, bodies, modulus, boundary and law."""
+    rows = [("surface", f"{problem.surface.origin.source or 'unnamed'}: {surface_text(problem.surface)}")]
+    if isinstance(problem.counter_surface, Surface):
+        rows.append(("counter surface", problem.counter_surface.origin.source or "unnamed"))
+    rows += [("body", body_text(problem.body)), ("counter body", body_text(problem.counter_body))]
+    rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
+    law = f"{problem.law.name} {limit_text(problem)}".rstrip()
+    rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
+    return rows
+
+
+def surface_text(surface: Surface) -> str:
+    """Points and size of ``surface``."""
+    (nx, ny), (width, height) = surface.shape, surface.size
+    return f"{nx} × {ny} points, {show(width, 'm')} × {show(height, 'm')}"
+
+
+def field_rows(field: StressField) -> Rows:
+    """Planes and largest stresses of a stress ``field``."""
+    counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
+    first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
+    rows = [
+        ("planes", f"{len(field.planes)}, depths {first} to {last}"),
+        ("points of a plane", counts or "one"),
+        ("regions", " / ".join(dict.fromkeys(region.name for region in field.regions))),
+    ]
+    for name in ("von_mises", "max_principal"):
+        quantity = next(item for item in DERIVED if item.name == name)
+        peak = field.peak(getattr(field, name))
+        place = f"in {peak.region.name} at a depth of {show(peak.depth, 'm')}"
+        rows.append((f"largest {quantity.label.removeprefix('largest ')}", f"{show(peak.value, 'Pa')} {place}"))
+    return rows
+
+
+def heading_and_rows(thing: object) -> tuple[str, Rows]:
+    """Heading of a ``thing`` and what is worth knowing of it at one glance.
+
+    Raises
+    ------
+    InputError
+        If nothing is known of such a thing.
+    """
+    if isinstance(thing, Surface):
+        steps = len(thing.origin.history)
+        rows = [row for row in surface_rows(thing)[:8] if not row[0].startswith("step ")]
+        missing = [("missing points", str(thing.n_missing))] if thing.n_missing else []
+        return "Surface", [*rows, *missing, *([("steps of preparation", str(steps))] if steps else [])]
+    if isinstance(thing, ContactProblem):
+        return "Contact problem", problem_rows(thing)
+    if isinstance(thing, ContactResult):
+        state = "converged" if thing.converged else "NOT CONVERGED"
+        rows = [*problem_rows(thing.problem), (f"prescribed {thing.control.name}", _control_text(thing))]
+        return f"Contact, {state}", [*rows, *headline_rows(thing), ("status", thing.status.message)]
+    if isinstance(thing, StressField):
+        return "Stress field", field_rows(thing)
+    raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
+
+
+def text(thing: object) -> str:
+    """What ``repr`` says of a ``thing``: one line of a layered body, at most a screen of anything else."""
+    if isinstance(thing, Layered):
+        return f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>"
+    heading, rows = heading_and_rows(thing)
+    wide = max(len(label) for label, _ in rows)
+    return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(said)}" for label, said in rows)])
+
+
+def _cut(said: str) -> str:
+    """Text of one line of a screen."""
+    line = " ".join(said.split())
+    return line if len(line) <= LINE else f"{line[: LINE - 1]}…"
+
+
+def _control_text(result: ContactResult) -> str:
+    return show(result.control.value, result.control.unit)

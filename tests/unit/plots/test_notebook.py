@@ -1,0 +1,106 @@
+"""What notebooks show: one screen of text, a card with a picture, figures on the axes that are given."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+from html.parser import HTMLParser
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from PIL import Image
+
+import asperity as asp
+
+
+@pytest.fixture(scope="module")
+def result() -> asp.ContactResult:
+    x = np.arange(24) * 1e-7
+    heights = 2e-9 * (np.cos(2.0 * np.pi * x / 2.4e-6)[:, None] + np.cos(2.0 * np.pi * x / 1.2e-6)[None, :16])
+    origin = asp.Surface(heights, 1e-7).origin.continued("made of <two> cosines")
+    disk = asp.Layered([asp.Layer(asp.material("DLC"), thickness=5e-8)], base=asp.material("steel"))
+    surface = asp.Surface(heights, 1e-7, periodic=True, origin=origin)
+    return asp.solve(asp.ContactProblem(surface, disk, law=asp.Hardness(2e10)), asp.MeanPressure(1e8))
+
+
+@pytest.fixture(scope="module")
+def field(result: asp.ContactResult) -> asp.StressField:
+    return asp.stress(result, [0.0, 2e-8, 5e-8, 2e-7])
+
+
+def things(result: asp.ContactResult, field: asp.StressField) -> list[object]:
+    return [
+        result.problem.surface,
+        result,
+        field,
+        asp.stress(result, asp.depths_through(result.problem.body, 2e-7), on=asp.Section(y="max")),
+    ]
+
+
+def test_repr_fits_on_a_screen(result, field):
+    for thing in (*things(result, field), result.problem, result.problem.body):
+        lines = repr(thing).splitlines()
+        assert len(lines) <= 25
+        assert max(map(len, lines)) <= 160
+
+
+def test_repr_tells_what_matters(result, field):
+    assert "24 × 16" in repr(result.problem.surface)
+    assert repr(result.problem.body) == "<Layered DLC 50 nm / steel>"
+    assert "hardness 20 GPa" in repr(result.problem)
+    assert repr(result).startswith("Contact, converged\n")
+    assert "prescribed mean pressure" in repr(result)
+    assert re.search(r"largest von Mises stress\s+[\d.]+ [MG]Pa in DLC", repr(field))
+
+
+def test_cards_are_closed_html_with_a_small_picture(result, field):
+    for thing in things(result, field):
+        html = thing._repr_html_()
+        open_tags: list[str] = []
+        parser = HTMLParser()
+        parser.handle_starttag = lambda tag, attrs, tags=open_tags: tags.append(tag) if tag != "img" else None
+        parser.handle_endtag = lambda tag, tags=open_tags: tags.pop()
+        parser.feed(html)
+        assert open_tags == []
+        assert "<two>" not in html
+        picture = Image.open(io.BytesIO(base64.b64decode(html.split("base64,")[1].split("'")[0])))
+        assert max(picture.size) <= 900
+        assert len(html) < 150_000
+
+
+@pytest.mark.parametrize("kind", ["", "pressure", "gap", "contact", "section", "histogram"])
+def test_results_draw_on_given_axes(result, kind):
+    ax = Figure().add_subplot()
+    assert result.plot(kind, ax) is ax
+    assert ax.has_data()
+
+
+def test_surfaces_and_fields_draw_on_given_axes(result, field):
+    ax = Figure().add_subplot()
+    assert result.problem.surface.plot(ax=ax) is ax
+    ax = Figure().add_subplot()
+    field.plot("sqrt_J2", ax, plane=1)
+    assert "√J2" in ax.child_axes[0].get_ylabel()
+    ax = Figure().add_subplot()
+    things(result, field)[-1].plot("shear_xz", ax)
+    assert ax.get_ylabel().startswith("depth")
+
+
+def test_without_axes_a_figure_of_pyplot_is_made(result):
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    try:
+        assert result.plot().figure in map(pyplot.figure, pyplot.get_fignums())
+        assert result.problem.surface.plot("view").name == "3d"
+    finally:
+        pyplot.close("all")
+
+
+def test_unknown_figures_are_refused(result, field):
+    for thing in things(result, field):
+        with pytest.raises(asp.InputError, match="must be one of"):
+            thing.plot("sound", Figure().add_subplot())
