@@ -63,6 +63,7 @@ _NAMES = MappingProxyType(
         "report.comparison": ("write_comparison_report",),
         "report.roughness": ("write_roughness_report",),
         "report.write": ("write_report",),
+        "run.execute": ("Outcome", "run"),
         "solids.body": ("contact_modulus",),
         "solids.elastic": ("Elastic", "Rigid"),
         "solids.grading": ("ExponentialGrading", "LinearGrading", "PowerGrading", "graded"),

@@ -48,6 +48,7 @@ from .plots.surface_figures import save_roughness_plots
 from .report.comparison import write_comparison_report
 from .report.roughness import write_roughness_report
 from .report.write import write_report
+from .run.execute import Outcome, run
 from .solids.body import contact_modulus
 from .solids.elastic import Elastic, Rigid
 from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
@@ -133,6 +134,7 @@ __all__ = [
     "MeanGap",
     "MeanPressure",
     "NoSolutionError",
+    "Outcome",
     "OutputError",
     "Periodic",
     "PlasticLoad",
@@ -206,6 +208,7 @@ __all__ = [
     "rms_slope",
     "roughness",
     "roughness_of",
+    "run",
     "run_study",
     "save",
     "save_comparison",

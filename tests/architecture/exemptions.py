@@ -22,6 +22,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "stiffen": "a compiled pass takes its arrays and numbers one by one",
         "deflect": "a compiled pass takes its arrays and numbers one by one",
         "relieve": "a compiled pass takes its arrays and numbers one by one",
+        "execute": "independent keyword-only choices of the callers, each with a default",
         "contact": "one group of options each, in the order of the help",
         "write_report": "independent keyword-only parts of a report, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",

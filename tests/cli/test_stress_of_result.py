@@ -9,9 +9,9 @@ import pytest
 from cli.conftest import Runner
 
 import asperity as asp
-from asperity.io.build import build
 from asperity.io.documents import checked, dumps, load_document
 from asperity.io.results import document_in, load, open_dataset, save
+from asperity.run.build import build
 
 COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=base"
 

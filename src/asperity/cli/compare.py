@@ -15,8 +15,8 @@ from .preparing import PreparationOptions
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
-    from ..io.build import Case
     from ..io.documents import ProblemDocument
+    from ..run.build import Case
     from ..studies.comparison import Comparison
 
 NAMES_IN_FOLDER = ("report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml")
@@ -37,8 +37,8 @@ def compare(
 
     Exit code 0: done; 1: a load did not converge (it is empty and named); 2: input that cannot be used; 130: interrupted.
     """
-    from ..io.build import build
     from ..io.documents import checked, relocated
+    from ..run.build import build
     from .show import print_files
     from .stress_run import output_folder
 
@@ -107,12 +107,11 @@ def _compared(case: Case, pressures: RealArray | None, options: CompareOptions) 
     from ..core.engine import CpuEngine
     from ..studies.compare import MOST_CONTACTS
     from ..studies.compare import compare as compare_theories
-    from .interrupt import interruptible
-    from .progress import shown
+    from .progress import stage
 
     names = None if options.theories is None else [name.strip() for name in options.theories.split(",")]
     inputs = {} if options.work is None else {"work": units.parse_in(options.work, "J/m^2", "--work")}
-    with shown("solving every load") as bar, interruptible(bar) as progress:
+    with stage("solving every load") as progress:
         return compare_theories(
             case.problem,
             pressures=pressures,

@@ -44,6 +44,8 @@ def contact(
         require_no_surface(source.file, reading, preparation, bodies)
         table, names = table_of_document(source.from_, bodies, solve), {}
         where, base = f"problem document {source.from_}", source.from_.parent
+    if output.plastic_load:
+        table = {"plastic_load": {}, **table}
     table = with_film(table, film, stress)
     table = with_stress(table, without_shared_friction(stress, table), wanted=output.wants_stress)
     document = checked(table, where, names | (stress_names(table) | film_names() if source.from_ is None else {}))

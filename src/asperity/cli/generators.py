@@ -75,12 +75,11 @@ def _run(kind: str, options: list[Key], values: dict[str, Any], files: tuple[Pat
 def _generated(table: Any) -> Surface:
     from ..io.build_generated import build_generated
     from ..io.build_surface import build_file_surface
-    from .interrupt import interruptible
-    from .progress import shown
+    from .progress import stage
 
     if table.kind != "rank_ordered":
         return build_generated(table, Path(), build_file_surface)
-    with shown("ordering ranks") as bar, interruptible(bar) as progress:
+    with stage("ordering ranks") as progress:
         return build_generated(table, Path(), build_file_surface, progress=progress)
 
 
@@ -92,22 +91,21 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     from ..io.disk_surface import save_gaussian
     from ..io.tiles import save_endless
     from ..surfaces.generate import endless
-    from .interrupt import interruptible
-    from .progress import shown
+    from .progress import stage
     from .show import say
 
     _require_streamable(table)
     grid = table_grid(table)
     spectrum = build_spectrum(table.spectrum, Path(), build_file_surface)
     if table.kind == "rough":
-        with shown("writing blocks") as bar, interruptible(bar) as progress:
+        with stage("writing blocks") as progress:
             limit = parse(memory, "memory", "--memory")
             save_gaussian(grid, spectrum, out, seed=table.seed, memory=limit, overwrite=force, progress=progress)
         return
     moments = {"skewness": table.skewness, "kurtosis": table.kurtosis, "system": table.system}
     made = endless(spectrum, grid.spacing, seed=table.seed, **moments)
     bytes_allowed = parse(memory, "memory", "--memory")
-    with shown("writing tiles") as bar, interruptible(bar) as progress:
+    with stage("writing tiles") as progress:
         save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)
     say(f"  {made.origin.history[0]}", "dim")
 

@@ -5,27 +5,19 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ..core.progress import NoProgress, Progress
+from .interrupt import interruptible
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 
-def shown(text: str) -> AbstractContextManager[Progress]:
-    """Progress of a solver on a bar with ``text``, silent when stderr is not a terminal."""
-    return _shown(text, OnBar)
-
-
-def shown_planes(text: str) -> AbstractContextManager[Progress]:
-    """Progress of planes of stresses, in the same way."""
-    return _shown(text, PlanesOnBar)
-
-
 @contextmanager
-def _shown(text: str, kind: type[OnBar] | type[PlanesOnBar]) -> Iterator[Progress]:
+def shown(text: str) -> Iterator[Progress]:
+    """Progress on a bar with ``text``, silent when stderr is not a terminal."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield NoProgress()
         return
@@ -36,11 +28,21 @@ def _shown(text: str, kind: type[OnBar] | type[PlanesOnBar]) -> Iterator[Progres
 
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[state]}"), TimeElapsedColumn())
     with Bar(*columns, console=error_console(), transient=True) as bar:
-        yield kind(bar, text)
+        yield OnBar(bar, text)
+
+
+@contextmanager
+def stage(text: str) -> Iterator[Progress]:
+    """Progress of a stage of a run on a bar with ``text``, which Ctrl-C stops."""
+    with shown(text) as bar, interruptible(bar) as progress:
+        yield progress
 
 
 class OnBar:
-    """Progress of the error from its first value to the tolerance, on a logarithmic scale."""
+    """Progress of the error from its first value to the tolerance, on a logarithmic scale.
+
+    Without a tolerance the error is the share of the work that is left.
+    """
 
     def __init__(self, bar: Bar, text: str) -> None:
         self._bar = bar
@@ -49,21 +51,12 @@ class OnBar:
 
     def update(self, iteration: int, error: float, tolerance: float) -> None:
         """Move the bar; it never moves back unless the error exceeds all earlier ones."""
+        if tolerance == 0.0:
+            self._bar.update(self._task, completed=1.0 - error, state=f"step {iteration}")
+            return
         self._largest = max(self._largest, error)
         share = done(error, self._largest, tolerance)
         self._bar.update(self._task, completed=share, state=f"iteration {iteration}, error {error:.1e}")
-
-
-class PlanesOnBar:
-    """Progress of the planes of a body: the error is the share that is left."""
-
-    def __init__(self, bar: Bar, text: str) -> None:
-        self._bar = bar
-        self._task = bar.add_task(text, total=1.0, state="")
-
-    def update(self, iteration: int, error: float, tolerance: float) -> None:
-        """Move the bar."""
-        self._bar.update(self._task, completed=1.0 - error, state=f"plane {iteration}")
 
 
 def done(error: float, largest: float, tolerance: float) -> float:

@@ -95,10 +95,10 @@ def cite(
 ) -> None:
     """Print the papers behind the numbers of a result or a problem."""
     from ..core.citations import cite as references
-    from ..io.build import build
     from ..io.build_stress import build_stress
     from ..io.documents import load_document, loads
     from ..io.results import document_in, load
+    from ..run.build import build
     from ..stress.request import Planned
     from .show import say
 

@@ -63,9 +63,12 @@ def stress(
     from ..io.build_stress import check_stress
     from ..io.documents import relocated
     from ..io.results import document_in, load
+    from ..parts.part import Solved
+    from ..parts.stress import Stress
     from .failures import NOT_CONVERGED, OK
+    from .progress import stage
     from .show import print_files, print_problem
-    from .stress_run import output_folder, print_stress, surveyed, write_volume
+    from .stress_run import output_folder, print_stress, write_volume
 
     written, files = OutputOptions(**vars(output)), output.files
     require_new_files(files, overwrite=output.force)
@@ -73,7 +76,8 @@ def stress(
     request, document = _asked(document_in(file), wanted)
     check_stress(request, result.problem)
     with output_folder(written) as folder:
-        survey = surveyed(request, result, lines=folder is not None, threads=threads)
+        solved = Solved(result.problem, result.control, result, threads=threads, lines=folder is not None, stage=stage)
+        survey = Stress().compute(request, solved).detail
         if folder is not None and output.out is not None:
             moved = document and relocated(document, file.parent, output.out)
             files = [*(output.out / name for name in _write_folder(result, survey, moved, folder)), *files]

@@ -10,25 +10,13 @@ from typing import TYPE_CHECKING
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..contact.result import ContactResult
     from ..plots.figure import Figure
     from ..report.stress import StressPart
     from ..stress.field import StressField
-    from ..stress.request import StressRequest
     from ..stress.survey import StressSurvey
 
 FOLDER, TABLE = "stress", "stress.csv"
 """Names in the folder of a run: the fields, and the table of the largest stresses."""
-
-
-def surveyed(request: StressRequest, result: ContactResult, *, lines: bool, threads: int | None) -> StressSurvey:
-    """Stresses that ``request`` asks for, without sections and profiles unless these ``lines`` are wanted."""
-    from ..stress.survey import survey
-    from .interrupt import interruptible
-    from .progress import shown_planes
-
-    with shown_planes("stresses") as bar, interruptible(bar) as progress:
-        return survey(request, result, lines=lines, threads=threads, progress=progress)
 
 
 def write_stress(survey: StressSurvey, folder: Path) -> StressPart:

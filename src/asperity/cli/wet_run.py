@@ -8,40 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..contact.wet_result import WetContactResult
     from ..contact.wet_theory import WetTheory
-    from ..io.build import Case
     from ..report.wet import WetPart
-
-
-def wet_contact(case: Case) -> WetContactResult | None:
-    """Contact of ``case`` with its film of liquid; None if it has none."""
-    from ..contact.operators import prepare_operator
-    from ..contact.wet import solve_wet
-    from ..core.engine import CpuEngine
-    from .interrupt import interruptible
-    from .progress import shown
-
-    if case.film is None:
-        return None
-    problem, engine = case.problem, CpuEngine(case.threads)
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    with shown("solving") as bar, interruptible(bar) as progress:
-        return solve_wet(
-            problem,
-            case.control,
-            case.film,
-            friction=case.friction,
-            solver=case.solver,
-            operator=operator,
-            progress=progress,
-            on_failure="return",
-        )
-
-
-def theory_of(result: WetContactResult | None) -> WetTheory | str:
-    """What the theory of summits says of ``result``, or why it says nothing; empty without a wet contact."""
-    from ..report.wet import theory_beside
-
-    return "" if result is None else theory_beside(result)
 
 
 def write_wet(result: WetContactResult, theory: WetTheory | str, folder: Path, document: str) -> WetPart:

@@ -90,7 +90,7 @@ def plastic_load(
     if not 0.0 <= require.finite(fraction, "share of the real area") < 1.0:
         raise InputError(f"share of the real area must be at least 0 and less than 1, but is {fraction:g}.")
     require.between(tolerance, 0.0, 1.0, "tolerance of the load")
-    hardest = _mean_cap(problem)
+    hardest = mean_cap(problem)
     ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary)
 
     def at(load: float) -> ContactResult:
@@ -129,7 +129,7 @@ def _bracket(
         below = above
 
 
-def _mean_cap(problem: ContactProblem) -> float:
+def mean_cap(problem: ContactProblem) -> float:
     """Mean pressure (Pa) at which all of the virgin surface would yield.
 
     Raises

@@ -19,7 +19,7 @@ from .evaluate import CHECKS
 from .failures import Failure
 from .monte_carlo import Stop
 from .plan import Plan
-from .quantities import measure
+from .quantities import measures
 from .run import stop_quantity, stopping
 from .store import Record, records
 
@@ -176,4 +176,4 @@ def _axis_labels(item: Axis) -> dict[str, str]:
 def _labels(name: str) -> dict[str, str]:
     if name in CHECKS and name in Certificate.__dataclass_fields__:
         return next(entry for entry in CERTIFICATE if entry.name == name).attributes
-    return measure(name).quantity.attributes
+    return measures()[name].attributes

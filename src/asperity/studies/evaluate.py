@@ -3,31 +3,18 @@
 from __future__ import annotations
 
 import warnings
-from collections import deque
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..contact.operators import Operator, prepare_operator
-from ..contact.path import predicted, steps
-from ..contact.result import ContactResult
-from ..contact.sliding import solve_sliding
-from ..contact.solve import Keep, solve
-from ..contact.state import InterfaceState
-from ..contact.wet import solve_wet
-from ..contact.wet_result import WetContactResult
-from ..contact.wetting import LiquidFilm
-from ..core.engine import CpuEngine
 from ..core.errors import InputError
-from ..io.build import Case, build, build_load
 from ..io.documents import checked
 from ..io.provenance import software
-from ..stress.survey import survey
+from ..run.build import Case, build
+from ..run.execute import Warm, execute
 from .edits import edited, from_plain
-from .quantities import STIFFNESS, Solved, measure
 from .store import Record
 
 CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterations", "fft_pairs", "wall_time")
@@ -67,10 +54,8 @@ class _LoadPath:
     def __init__(self, task: Mapping[str, Any]) -> None:
         self._table, self._folder = task["table"], Path(task["folder"])
         self._quantities = tuple(task["quantities"])
-        self._keep = Keep(stiffness=STIFFNESS in self._quantities)
         self._built: Case | None = None
-        self._operator: Operator | None = None
-        self._last: list[ContactResult] = []
+        self._warm = Warm()
 
     def record(self, case: Mapping[str, Any]) -> Record:
         """Record of one ``case``."""
@@ -86,67 +71,21 @@ class _LoadPath:
         document = checked(edited(self._table, map(from_plain, edits)), "problem of this case")
         if self._built is None:
             self._built = build(document, self._folder)
-        control, path = build_load(document.control)
-        return replace(self._built, control=control, path=path)
+        return self._built.under(document)
 
     def _answer(self, case: Case) -> dict[str, Any]:
-        wet = None if case.film is None else self._wetted(case, case.film)
-        result = self._solved(case) if wet is None else wet.contact
-        stress = None
-        if case.stress is not None:
-            stress = survey(case.stress, result, lines=False, threads=case.threads or 1)
-        solved = Solved(case, result, stress, wet)
+        outcome = execute(
+            case,
+            warm=self._warm,
+            wanted=self._quantities,
+            lines=False,
+            threads=case.threads or 1,
+            on_failure="raise",
+        )
+        values, certificate = outcome.values, outcome.result.certificate
         return {
-            "values": {name: measure(name).of(solved) for name in self._quantities},
-            "work": {name: getattr(result.certificate, name) for name in CHECKS},
-            "citations": list(
-                dict.fromkeys((*(wet or result).citation_keys, *(() if stress is None else stress.citation_keys)))
-            ),
+            "values": {name: float(values.get(name, np.nan)) for name in self._quantities},
+            "work": {name: getattr(certificate, name) for name in CHECKS},
+            "citations": list(outcome.citation_keys),
+            "findings": [[item.level, item.criterion, item.message] for item in outcome.findings],
         }
-
-    def _solved(self, case: Case) -> ContactResult:
-        stress = case.stress
-        if stress is not None and stress.coupled and stress.friction:
-            if case.path:
-                raise InputError(
-                    "stress.coupled must be left out with a load path: a coupled contact is solved for one load."
-                )
-            engine = CpuEngine(case.threads or 1)
-            return solve_sliding(
-                case.problem, case.control, stress.friction, direction=stress.direction, engine=engine
-            ).contact
-        if case.path:
-            options: dict[str, Any] = {"solver": case.solver, "keep": self._keep, "operator": self._prepared(case)}
-            return deque(steps(case.problem, case.path, **options), maxlen=1)[0]
-        return self._loaded(case, self._keep)
-
-    def _loaded(self, case: Case, keep: Keep) -> ContactResult:
-        """Dry contact under the load of ``case``, started from the cases before."""
-        options: dict[str, Any] = {"solver": case.solver, "keep": keep, "operator": self._prepared(case)}
-        result = solve(case.problem, case.control, state=self._guess(case), **options)
-        self._last = [*self._last[-1:], result]
-        return result
-
-    def _wetted(self, case: Case, film: LiquidFilm) -> WetContactResult:
-        """Contact of ``case`` with its ``film``, which starts from the dry one of the same load."""
-        start = _virgin(self._loaded(case, Keep(stiffness=False)).state)
-        options: dict[str, Any] = {"solver": case.solver, "operator": self._prepared(case), "state": start}
-        return solve_wet(case.problem, case.control, film, friction=case.friction, **options)
-
-    def _prepared(self, case: Case) -> Operator:
-        """Operator of all cases."""
-        if self._operator is None:
-            problem, engine = case.problem, CpuEngine(case.threads or 1)
-            self._operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        return self._operator
-
-    def _guess(self, case: Case) -> InterfaceState | None:
-        """Virgin interface with the pressures that the cases before suggest."""
-        if not self._last:
-            return None
-        return _virgin(predicted(case.problem, case.control, self._last))
-
-
-def _virgin(state: InterfaceState) -> InterfaceState:
-    """An interface never loaded, with the pressures of ``state`` as a first guess."""
-    return InterfaceState(np.zeros(state.pressure.shape), state.pressure)

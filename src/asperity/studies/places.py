@@ -16,7 +16,7 @@ from ..core.errors import InputError
 from ..io.documents import tidy
 from ..io.quantities import quantity
 from ..io.schemas.problem import CONTROLS, ProblemDocument
-from ..io.schemas.values import Table
+from ..io.schemas.values import NONE, Table
 
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
@@ -61,7 +61,7 @@ class Place:
         if self.quantity is not None and self.quantity != "size":
             if not isinstance(value, str):
                 raise InputError(f"{self.path} must be text with a number and a unit, but is {value!r}.")
-            return units.parse(value, self.quantity, self.path)
+            return 0.0 if value == NONE else units.parse(value, self.quantity, self.path)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise InputError(f"{self.path} must be a number, but is {value!r}.")
         return float(value)
@@ -196,6 +196,8 @@ def _si(value: Any, kind: str, what: str) -> Any:
     """SI values of text or a tuple of texts; words such as "from body" as they are."""
     if isinstance(value, tuple | list):
         return [_si(item, kind, what) for item in value]
+    if value == NONE:
+        return 0.0
     if not isinstance(value, str) or not any(letter.isdigit() for letter in value):
         return value
     return list(units.parse_size(value, what)) if kind == "size" else units.parse(value, kind, what)

@@ -19,7 +19,7 @@ from .convergence import level_axis
 from .critical_thickness import thickness_axis
 from .edits import Edit, edited_content
 from .places import content, problem_table
-from .quantities import MEASURES, computed
+from .quantities import computed, measures
 from .sampling import sample_axis
 from .sensitivity import parameter_axis
 
@@ -150,7 +150,7 @@ def _names(document: StudyDocument) -> list[str]:
         tables += document.monte_carlo.random
     if document.critical_thickness is not None:
         own.add("thickness")
-    reserved = {item.name for item in MEASURES} | own
+    reserved = {*measures()} | own
     names: list[str] = []
     for table in tables:
         name = table.name or default_name(table.path, reserved | set(names))

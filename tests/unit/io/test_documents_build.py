@@ -40,11 +40,11 @@ from asperity import (
 )
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
-from asperity.io.build import build, build_control
 from asperity.io.build_generated import FUNCTIONS, build_spectrum
 from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
 from asperity.io.schemas.surfaces import RandomSurface, Shape
+from asperity.run.build import build, build_control
 from asperity.stress.request import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
 
@@ -410,8 +410,8 @@ def test_line_contact() -> None:
 
 def test_stresses() -> None:
     """Every key of [stress] in SI; an empty table asks for the section through the maximum."""
-    assert build(checked(table())).stress is None
-    assert build(checked(table(stress={}))).stress == StressRequest()
+    assert "stress" not in build(checked(table())).asks
+    assert build(checked(table(stress={}))).asks["stress"] == StressRequest()
     wanted = {
         "friction": 0.3,
         "direction": "90 deg",
@@ -427,7 +427,7 @@ def test_stresses() -> None:
         "interface_peel_strength": "100 MPa",
         "precision": "single",
     }
-    request = build(checked(table(stress=wanted, counter_body="steel"))).stress
+    request = build(checked(table(stress=wanted, counter_body="steel"))).asks["stress"]
     assert request is not None
     assert (request.friction, request.coupled, request.of, request.dtype) == (0.3, True, "counter_body", "float32")
     assert request.direction == pytest.approx(np.pi / 2.0, rel=1e-14)
@@ -437,7 +437,7 @@ def test_stresses() -> None:
     assert request.deepest == pytest.approx(3e-6)
     assert request.criterion == Tresca()
     assert vars(request.strengths) == pytest.approx({"tensile": 2e9, "interface_shear": 3e8, "interface_peel": 1e8})
-    planes = build(checked(table(stress={"depths": ["5 nm"]}))).stress
+    planes = build(checked(table(stress={"depths": ["5 nm"]}))).asks["stress"]
     assert planes is not None
     assert planes.sections == ()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +10,16 @@ import pytest
 from study_cases import LOADS, PROBLEM, SEEDS, InProcess, plan
 
 import asperity as asp
-from asperity.io.build import build
 from asperity.io.documents import checked
 from asperity.io.schemas.study import StopTable
+from asperity.parts.contact import Contact
+from asperity.run.build import build
 from asperity.studies.analysis import analysis
 from asperity.studies.collect import dataset, failures, stopped_at
 from asperity.studies.convergence import step_sizes
 from asperity.studies.failures import Failure, causes
 from asperity.studies.places import replaced
-from asperity.studies.quantities import MEASURES, computed
+from asperity.studies.quantities import computed
 from asperity.studies.run import carry_out
 from asperity.studies.store import records
 
@@ -37,7 +37,7 @@ def collected(tmp_path: Path, **tables):
 @pytest.mark.parametrize("problem", [TIGHT, HARD], ids=["elastic", "plastic"])
 def test_a_case_of_a_path_is_that_of_a_contact_on_its_own(tmp_path, problem):
     """Warm starts change nothing beyond the tolerance: relative errors of energies, at most, so fields by its root."""
-    names = [item.name for item in MEASURES if not item.table]
+    names = [item.name for item in Contact().quantities]
     data = collected(tmp_path, problem=problem, axes=[SEEDS, LOADS], quantities=names)
     for seed in (1, 4):
         for load in (1e6, 5e6):
@@ -233,7 +233,6 @@ def test_computed_quantities_are_those_that_are_there():
     assert "normal_stiffness" in computed(document, ["normal_stiffness"])
     stressed = document.model_copy(update={"stress": checked({**PROBLEM, "stress": {}}).stress})
     assert "max_von_mises" in computed(stressed, [])
-    assert replace(MEASURES[0], table="x").quantity == MEASURES[0].quantity
 
 
 def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):

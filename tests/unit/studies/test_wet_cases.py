@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import importlib
+
 import numpy as np
 import pytest
 from study_cases import InProcess, plan
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.io.build import build
 from asperity.io.documents import checked
+from asperity.run.build import build
 from asperity.studies.collect import dataset, failures
 from asperity.studies.places import replaced
 from asperity.studies.run import carry_out
@@ -43,7 +45,8 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
     assert data["meniscus_force"].attrs["units"] == "N"
     for number, humidity in enumerate(humidities):
         case = build(checked(replaced(WET, ("film", "humidity"), humidity)))
-        alone = asp.solve_wet(case.problem, case.control, case.film, friction=case.friction, solver=case.solver)
+        film = case.asks["film"]
+        alone = asp.solve_wet(case.problem, case.control, film.film, friction=film.friction, solver=case.solver)
         assert float(data["meniscus_force"][number]) == alone.meniscus_force
         theory = asp.wet_theory(alone).meniscus_force
         assert float(data["statistical_meniscus_force"][number]) == pytest.approx(theory, rel=1e-12)
@@ -58,7 +61,7 @@ def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path
         prepared.append(prepare_operator(*arguments, **options))
         return prepared[-1]
 
-    monkeypatch.setattr("asperity.studies.evaluate.prepare_operator", counted)
+    monkeypatch.setattr(importlib.import_module("asperity.run.execute"), "prepare_operator", counted)
     monkeypatch.setattr("asperity.contact.wet.prepare_operator", counted)
     loads = ["1 MPa", "2 MPa", "4 MPa", "8 MPa"]
     made = plan(problem=WET, axes=[{"path": "control.mean_pressure", "values": loads}], quantities=["meniscus_force"])
@@ -67,7 +70,9 @@ def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path
     data = dataset(made, tmp_path / "r.log")
     for number, load in enumerate(loads):
         case = build(checked(replaced(WET, ("control", "mean_pressure"), load)))
-        alone = asp.solve_wet(case.problem, case.control, case.film, solver=case.solver, operator=prepared[0])
+        alone = asp.solve_wet(
+            case.problem, case.control, case.asks["film"].film, solver=case.solver, operator=prepared[0]
+        )
         pixels = 2.0 * alone.suction * case.problem.grid.pixel_area
         slack = 1e-4 * alone.external_force + pixels
         assert float(data["meniscus_force"][number]) == pytest.approx(alone.meniscus_force, abs=slack, rel=0.0)

@@ -120,6 +120,12 @@ class SolverTable(Table):
     threads: Count | None = None
 
 
+class PlasticLoadTable(Table):
+    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
+
+    share: Fraction = 0.02
+
+
 class ProblemDocument(Table):
     """A contact problem with its load and solver, as text."""
 
@@ -134,6 +140,7 @@ class ProblemDocument(Table):
     control: ControlTable
     film: FilmTable | None = None
     stress: StressTable | None = None
+    plastic_load: PlasticLoadTable | None = None
     solver: SolverTable = SolverTable()
 
     @model_validator(mode="after")

@@ -1,10 +1,12 @@
-"""From the text of a problem document to the objects that are solved."""
+"""From the text of a problem document to the objects that are solved: one case."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
@@ -14,19 +16,12 @@ from ..contact.ramps import Ramped, ramps
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.choose import default_solver
 from ..contact.solvers.protocol import Solver
-from ..contact.wet import Friction
-from ..contact.wetting import LiquidFilm
 from ..core import units
 from ..core.citations import citation_keys
 from ..core.errors import InputError
-from ..solids.body import Body, surface_material
-from ..solids.layers import Layered
-from ..stress.request import Planned, StressRequest
-from .build_body import build_body
-from .build_film import build_film
-from .build_stress import build_stress, check_stress
-from .build_surface import build_surfaces
-from .schemas.problem import (
+from ..io.build_body import build_body
+from ..io.build_surface import build_surfaces
+from ..io.schemas.problem import (
     BoundaryTable,
     ControlTable,
     HardnessTable,
@@ -35,31 +30,68 @@ from .schemas.problem import (
     ProblemDocument,
     SolverTable,
 )
-from .schemas.values import EFFECTIVE, FROM_BODY, NONE
+from ..io.schemas.values import EFFECTIVE, FROM_BODY, NONE
+from ..parts.registry import parts
+from ..solids.body import Body, surface_material
+from ..solids.layers import Layered
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case:
-    """What a document asks for: ``problem``, ``control``, ``solver``, ``threads``, and if any ``stress`` and ``film``.
+    """What a ``document`` describes.
 
-    A load path is the sequence of controls in ``path``, the last of which is ``control``; it is empty for a single load.
-    ``friction`` is that of the film.
+    Attributes
+    ----------
+    document
+        The document.
+    problem
+        Surfaces, bodies, boundary and law.
+    control, path
+        The load, and the load path that ends with it; empty for a single load.
+    solver
+        Method with its settings.
+    asks
+        What is asked of each part, by its name.
     """
 
+    document: ProblemDocument
     problem: ContactProblem
     control: Control
+    path: tuple[Control, ...]
     solver: Solver
-    threads: int | None = None
-    stress: StressRequest | None = None
-    path: tuple[Control, ...] = ()
-    film: LiquidFilm | None = None
-    friction: Friction = Friction()
+    asks: Mapping[str, Any]
+
+    @property
+    def threads(self) -> int | None:
+        """Number of threads that the document states."""
+        return self.document.solver.threads
+
+    @property
+    def chooses_solver(self) -> bool:
+        """Whether the document says anything of the method."""
+        return any(value is not None for key, value in self.document.solver if key != "threads")
+
+    @property
+    def couplings(self) -> dict[str, Any]:
+        """By what the parts join the solve, by name."""
+        return {
+            name: coupling
+            for part in parts()
+            if part.name in self.asks
+            for name, coupling in part.coupling(self.asks[part.name]).items()
+        }
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers that its numbers will rest on."""
-        asked = () if self.stress is None else (Planned(self.stress, self.problem),)
-        return citation_keys(self.problem, self.solver, *asked)
+        asked = [part for part in parts() if part.name in self.asks]
+        planned = {key for part in asked for key in part.citations(self.asks[part.name], self.problem)}
+        return tuple(sorted({*citation_keys(self.solver), *planned}))
+
+    def under(self, document: ProblemDocument) -> Case:
+        """The same case with the load of ``document``, which differs in nothing else."""
+        control, path = build_load(document.control)
+        return replace(self, document=document, control=control, path=path)
 
 
 def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
@@ -82,13 +114,12 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         build_boundary(document.boundary),
         build_law(document.law, (body, counter_body)),
     )
-    solver = build_solver(document.solver, problem)
-    stress = None if document.stress is None else build_stress(document.stress)
-    if stress is not None:
-        check_stress(stress, problem)
+    asks = {part.name: ask for part in parts() if (ask := part.asked(document, folder)) is not None}
+    for part in parts():
+        if part.name in asks:
+            part.check(asks[part.name], problem)
     control, path = build_load(document.control)
-    film, friction = (None, Friction()) if document.film is None else build_film(document.film, folder)
-    return Case(problem, control, solver, document.solver.threads, stress, path, film, friction)
+    return Case(document, problem, control, path, build_solver(document.solver, problem), asks)
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

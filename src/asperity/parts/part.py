@@ -1,0 +1,158 @@
+"""What a part is: one physics or analysis with its settings, what it computes, its quantities, figures and words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+from ..core.progress import NoProgress, Progress
+
+if TYPE_CHECKING:
+    from ..contact.control import Control
+    from ..contact.path import LoadPath
+    from ..contact.problem import ContactProblem
+    from ..contact.result import ContactResult
+    from ..contact.solvers.protocol import Solver
+    from ..core.quantity import Quantity
+    from ..core.status import Advice, Status
+    from ..plots.figure import Figure
+
+Stage: TypeAlias = Callable[[str], AbstractContextManager[Progress]]
+"""Gives the progress of a stage of the work, whose name it is told."""
+
+Rows: TypeAlias = list[tuple[str, str]]
+"""Label and text of each row of a table."""
+
+
+def no_stage(name: str) -> AbstractContextManager[Progress]:
+    """Progress that reports nothing."""
+    return nullcontext(NoProgress())
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings and rows of text."""
+
+    headings: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a part has found in a solved contact.
+
+    Attributes
+    ----------
+    values
+        Numbers, text and arrays by the names of the part's quantities, SI.
+    detail
+        The object they were taken from, for words, figures and files; None if there is none.
+    findings
+        What the user should know before using them.
+    citation_keys
+        Keys of the papers behind them.
+    status
+        How the part's own computation ended; None if it has no such thing.
+    """
+
+    values: Mapping[str, Any] = field(default_factory=dict)
+    detail: Any = None
+    findings: tuple[Advice, ...] = ()
+    citation_keys: tuple[str, ...] = ()
+    status: Status | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A solved contact, as parts see it.
+
+    Attributes
+    ----------
+    problem, control
+        What was asked for; the control is the last of a load path.
+    result
+        The contact under it.
+    path
+        The load path that ends there, if there is one.
+    coupled
+        What the couplings say of themselves, by name.
+    found
+        What earlier parts have found, by their names.
+    solver, threads
+        Method and number of threads for further solves; None for the default.
+    wanted
+        Names of the quantities that are asked for; None for all.
+    lines
+        Whether pictures will be drawn, so that a part keeps the fields that only these show.
+    stage
+        Gives the progress of a stage.
+    """
+
+    problem: ContactProblem
+    control: Control
+    result: ContactResult
+    path: LoadPath | None = None
+    coupled: Mapping[str, Any] = field(default_factory=dict)
+    found: Mapping[str, Found] = field(default_factory=dict)
+    solver: Solver | None = None
+    threads: int | None = None
+    wanted: frozenset[str] | None = None
+    lines: bool = True
+    stage: Stage = no_stage
+
+
+@dataclass(frozen=True, eq=False)
+class Words:
+    """What a part says: one ``sentence``, ``rows`` of settings and results, ``tables`` with their headings, ``remarks``."""
+
+    sentence: str = ""
+    rows: tuple[tuple[str, Rows], ...] = ()
+    tables: tuple[tuple[str, Table], ...] = ()
+    remarks: tuple[str, ...] = ()
+    alarming: bool = False
+
+    def __bool__(self) -> bool:
+        return bool(self.sentence or self.rows or self.tables or self.remarks)
+
+
+class Part:
+    """Base of all parts, which hold no state.
+
+    A part is asked for by its ``table`` in the document, which several parts may share; without one it is always asked for. It
+    is computed after the solve, in the order of the registry, and reads what the parts before it have found.
+    """
+
+    name: ClassVar[str] = ""
+    title: ClassVar[str] = ""
+    table: ClassVar[str] = ""
+    quantities: ClassVar[tuple[Quantity, ...]] = ()
+
+    def asked(self, document: Any, folder: Path) -> Any:
+        """What ``document``, whose relative paths start at ``folder``, asks of this part; None for nothing."""
+        return getattr(document, self.table) if self.table else True
+
+    def check(self, ask: Any, problem: ContactProblem) -> None:
+        """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
+
+    def coupling(self, ask: Any) -> Mapping[str, Any]:
+        """By what this part joins the solve, by name; nothing for an analysis."""
+        return {}
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Values of the quantities."""
+        raise NotImplementedError
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Figures for report and folder."""
+        return ()
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Sentence and tables for report and terminal."""
+        return Words()
+
+    def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
+        """Keys of the papers that the numbers will rest on."""
+        return ()

@@ -1,0 +1,293 @@
+"""The one executor: a problem document is built, solved and analysed. Command line, studies and Python all end here."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from ..contact.laws import cap_at
+from ..contact.operators import Operator, prepare_operator
+from ..contact.path import LoadPath, predicted, steps
+from ..contact.result import ContactResult
+from ..contact.sliding import solve_sliding
+from ..contact.solve import Keep, solve
+from ..contact.state import InterfaceState
+from ..contact.stiffness import normal_stiffness
+from ..contact.wet import solve_wet
+from ..core.engine import CpuEngine
+from ..core.errors import AsperityError, InputError
+from ..core.status import Advice, Status
+from ..io.documents import ProblemDocument, checked, load_document
+from ..parts.contact import STIFFNESS
+from ..parts.part import Found, Part, Solved, Stage, no_stage
+from ..parts.registry import parts
+from .build import Case, build
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What came out of a problem document.
+
+    Attributes
+    ----------
+    case
+        What was solved.
+    result
+        The contact at the end of the load, or of the load path.
+    path
+        The load path, if the document asks for one.
+    found
+        What each part has found, by its name.
+    findings
+        What the user should know before using the numbers, of all parts.
+    status
+        Whether everything that had to settle did.
+    """
+
+    case: Case
+    result: ContactResult
+    path: LoadPath | None
+    found: Mapping[str, Found]
+    findings: tuple[Advice, ...]
+    status: Status
+
+    @property
+    def converged(self) -> bool:
+        """Whether the contact, every step of its path and its couplings reached their tolerances."""
+        return self.status.converged and (self.path is None or self.path.converged)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Every quantity by its name, SI."""
+        return {name: value for found in self.found.values() for name, value in found.values.items()}
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers behind the numbers."""
+        return tuple(dict.fromkeys(key for found in self.found.values() for key in found.citation_keys))
+
+
+@dataclass(eq=False)
+class Warm:
+    """What cases that differ in their load alone share: the prepared operator, and the contacts solved so far."""
+
+    operator: Operator | None = None
+    last: list[ContactResult] = field(default_factory=list)
+
+    def state(self, case: Case) -> InterfaceState | None:
+        """A virgin interface with the pressure that the last contacts suggest for the load of ``case``."""
+        if not self.last:
+            return None
+        pressure = predicted(case.problem, case.control, self.last).pressure
+        return InterfaceState(np.zeros(pressure.shape), pressure)
+
+
+def run(
+    document: ProblemDocument | Mapping[str, Any] | str | os.PathLike[str],
+    base_folder: str | os.PathLike[str] | None = None,
+    *,
+    stage: Stage = no_stage,
+    on_failure: Literal["raise", "return"] = "raise",
+) -> Outcome:
+    """Solve the problem of a document and carry out every analysis that it asks for.
+
+    Parameters
+    ----------
+    document
+        Path of a TOML or JSON file, its content as nested dictionaries, or a document as ``load_document`` gives it.
+    base_folder
+        Where relative paths in the document start; by default the folder of the file, or the working folder.
+    stage
+        Gives the progress of each stage of the work, whose name it is told.
+    on_failure
+        ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` it with its status.
+
+    Raises
+    ------
+    InputError
+        If the document has problems, or asks for something that its problem does not have.
+    NoSolutionError
+        If the load has no solution.
+    ConvergenceError
+        If the solve does not converge and ``on_failure`` is ``"raise"``.
+    """
+    folder = Path() if base_folder is None else Path(base_folder)
+    if isinstance(document, str | os.PathLike):
+        folder = Path(document).parent if base_folder is None else folder
+        document = load_document(document)
+    elif not isinstance(document, ProblemDocument):
+        document = checked(document)
+    return execute(build(document, folder), stage=stage, on_failure=on_failure)
+
+
+def execute(
+    case: Case,
+    *,
+    warm: Warm | None = None,
+    wanted: Iterable[str] | None = None,
+    lines: bool = True,
+    threads: int | None = None,
+    stage: Stage = no_stage,
+    on_failure: Literal["raise", "return"] = "return",
+) -> Outcome:
+    """Solve ``case`` and compute its parts.
+
+    Parameters
+    ----------
+    case
+        What to solve.
+    warm
+        What earlier cases that differ in the load alone have left; it is brought up to date.
+    wanted
+        Names of the quantities that are wanted, so that costly ones may be left out; all by default.
+    lines
+        Whether parts keep the fields that only pictures show.
+    threads
+        Number of threads instead of that of the document.
+    stage, on_failure
+        As for ``run``.
+    """
+    names = None if wanted is None else frozenset(wanted)
+    solving = _Solving(case, warm or Warm(), threads or case.threads, names, lines, stage, on_failure)
+    solved, status = solving.solved()
+    found, failed = analysed(case.asks, solved)
+    findings = (*(finding for item in found.values() for finding in item.findings), *failed)
+    statuses = [item.status for item in found.values() if item.status is not None]
+    worst = next((item for item in statuses if not item.converged), next(iter(statuses), status))
+    return Outcome(case, solved.result, solved.path, found, findings, worst if status.converged else status)
+
+
+def analysed(asks: Mapping[str, Any], solved: Solved) -> tuple[dict[str, Found], tuple[Advice, ...]]:
+    """What the parts that are asked for find in a ``solved`` contact; a part that fails is a finding and ends no other."""
+    found: dict[str, Found] = {}
+    failed: list[Advice] = []
+    for part in parts():
+        if part.name in asks and _is_wanted(part, solved.wanted):
+            try:
+                found[part.name] = part.compute(asks[part.name], replace(solved, found=found))
+            except Exception as error:
+                if isinstance(error, MemoryError):
+                    raise
+                kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
+                text = f"{part.title} could not be computed: {kind}{' '.join(str(error).split())}"
+                failed.append(Advice("warning", part.name.replace("_", " "), text))
+    return found, tuple(failed)
+
+
+def _is_wanted(part: Part, wanted: frozenset[str] | None) -> bool:
+    """Whether the ``part`` has a quantity that costs nothing, or is ``wanted``."""
+    return wanted is None or any(not item.costly or item.name in wanted for item in part.quantities)
+
+
+@dataclass(frozen=True, eq=False)
+class _Solving:
+    """One case on its way through the solver."""
+
+    case: Case
+    warm: Warm
+    threads: int | None
+    wanted: frozenset[str] | None
+    lines: bool
+    stage: Stage
+    on_failure: Literal["raise", "return"]
+
+    def solved(self) -> tuple[Solved, Status]:
+        """The contact with its couplings, and how the solve ended."""
+        case, couplings = self.case, self.case.couplings
+        if case.path and couplings:
+            raise InputError(
+                "stress.coupled (--coupled) must be left out with a load path: a coupled, sliding contact is solved for one load."
+            )
+        path, coupled = None, dict[str, Any]()
+        if case.path:
+            path, result = self._path()
+        elif "film" in couplings:
+            coupled["film"] = self._wet(couplings["film"])
+            result = coupled["film"].contact
+            self.warm.last = [*self.warm.last[-1:], result]
+        elif "sliding" in couplings:
+            result = self._slid(couplings["sliding"])
+        else:
+            result = self._single()
+            self.warm.last = [*self.warm.last[-1:], result]
+        status = result.status if not coupled else coupled["film"].status
+        return (
+            Solved(
+                case.problem,
+                case.control,
+                result,
+                path,
+                coupled,
+                solver=case.solver,
+                threads=self.threads,
+                wanted=self.wanted,
+                lines=self.lines,
+                stage=self.stage,
+            ),
+            status,
+        )
+
+    @property
+    def _stiffness(self) -> bool:
+        return self.wanted is None or STIFFNESS in self.wanted
+
+    def _operator(self) -> Operator:
+        if self.warm.operator is None:
+            problem = self.case.problem
+            engine = CpuEngine(self.threads)
+            self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        return self.warm.operator
+
+    def _stiff(self, result: ContactResult) -> ContactResult:
+        """``result`` with its normal stiffness, if that is wanted."""
+        if not self._stiffness or not np.isnan(result.normal_stiffness):
+            return result
+        cap = cap_at(result.problem.law, result.permanent_indentation)
+        return replace(result, normal_stiffness=normal_stiffness(self._operator(), result.pressure, cap))
+
+    def _options(self) -> dict[str, Any]:
+        return {"operator": self._operator(), "on_failure": self.on_failure}
+
+    def _single(self) -> ContactResult:
+        case, keep = self.case, Keep(stiffness=self._stiffness)
+        with self.stage("solving") as progress:
+            options = {**self._options(), "solver": case.solver, "state": self.warm.state(case), "progress": progress}
+            return solve(case.problem, case.control, keep=keep, **options)
+
+    def _path(self) -> tuple[LoadPath | None, ContactResult]:
+        """The load path, which is kept for pictures only, and its end."""
+        case = self.case
+        with self.stage(f"solving {len(case.path)} steps") as progress:
+            stream = steps(case.problem, case.path, **self._options(), solver=case.solver, progress=progress)
+            results = list(deque(stream, maxlen=None if self.lines else 1))
+        results[-1] = self._stiff(results[-1])
+        return (LoadPath(tuple(results)) if self.lines else None), results[-1]
+
+    def _wet(self, asked: Any) -> Any:
+        case = self.case
+        with self.stage("solving") as progress:
+            options = {**self._options(), "solver": case.solver, "state": self.warm.state(case), "progress": progress}
+            return solve_wet(case.problem, case.control, asked.film, friction=asked.friction, **options)
+
+    def _slid(self, asked: Any) -> ContactResult:
+        """A sliding contact; solved with the method that ``solve_sliding`` prefers unless the document names one."""
+        case = self.case
+        with self.stage("solving") as progress:
+            slid = solve_sliding(
+                case.problem,
+                case.control,
+                asked.friction,
+                direction=asked.direction,
+                solver=case.solver if case.chooses_solver else None,
+                progress=progress,
+                engine=CpuEngine(self.threads),
+                on_failure=self.on_failure,
+            )
+        contact = replace(slid.contact, citation_keys=slid.citation_keys)
+        return contact if slid.converged else replace(contact, status=slid.status)
