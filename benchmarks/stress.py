@@ -15,9 +15,8 @@ import numpy as np
 import asperity as asp
 from asperity.core.spectral import RealTransform, fft_library
 from asperity.core.tensor import STRESSES, StressTensor
-from asperity.stress.free import FreePlanes
-from asperity.stress.maxima import Maxima
-from asperity.stress.periodic import PeriodicPlanes
+from asperity.stress.boundaries import FreePlanes, PeriodicPlanes
+from asperity.stress.field import Maxima
 from asperity.stress.regions import planes
 from asperity.stress.tractions import Tractions
 

@@ -44,9 +44,9 @@ from asperity.contact.solvers import (
     Solver,
     SteepestDescent,
 )
-from asperity.contact.solvers.feasible import scaled_to_load
+from asperity.contact.solvers.protocol import scaled_to_load
 from asperity.core.arrays import RealArray
-from asperity.solids.body import Body
+from asperity.solids.layers import Body
 
 MODULUS = 100e9
 """Contact modulus of every case, Pa."""

@@ -8,8 +8,7 @@ from solid_cases import on_half_space
 
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.hertz_line import HertzLine
+from asperity.theories.single.hertz import HertzLine, HertzPoint
 
 RADIUS = 100.0
 WIDTH = 2.3

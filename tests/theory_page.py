@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from asperity.core.citations import reference
+from asperity.theories.ask import numbers_of, ways_of
 from asperity.theories.catalogue import FAMILIES
 from asperity.theories.protocol import Described, Input
-from asperity.theories.ways import numbers_of, ways_of
 
 PAGE = Path(__file__).parents[1] / "docs" / "reference" / "theories.md"
 

@@ -10,8 +10,8 @@ import numpy as np
 from bhushan import MODULUS, WATER, WATER_ANGLE
 from page import Claim, Page, Table, write_page
 
-from asperity.theories.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.statistical_meniscus import StatisticalMeniscus
+from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
+from asperity.theories.wet.summits import StatisticalMeniscus
 
 LOAD = 100e3
 """Pa; a slider of 1 mm² and 0.1 N."""

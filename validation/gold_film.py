@@ -14,7 +14,7 @@ from page import Claim, Page, Table, write_page
 
 import asperity as asp
 from asperity import roughness
-from asperity.theories.nayak import NayakSummits
+from asperity.theories.statistics.nayak import NayakSummits
 
 SIDE, POINTS = 1.5e-6, 512
 PLATEAU = 380e-36 * 4.0 * math.pi**2

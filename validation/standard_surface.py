@@ -12,7 +12,7 @@ import numpy as np
 from page import Claim, Page, Table, write_page
 
 import asperity as asp
-from asperity.theories.whitehouse_archard import SampledPeaks
+from asperity.theories.rough.profile_peaks import SampledPeaks
 
 SIDE, POINTS, SIGMA, BETA = 20e-6, 256, 1e-9, 0.5e-6
 PIXEL = SIDE / POINTS

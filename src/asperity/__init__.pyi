@@ -49,22 +49,17 @@ from .report.comparison import write_comparison_report
 from .report.roughness import write_roughness_report
 from .report.write import write_report
 from .run.execute import Outcome, run
-from .solids.body import contact_modulus
-from .solids.elastic import Elastic, Rigid
+from .solids.elastic import Elastic, Rigid, Strength
 from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
-from .solids.interface import Bonded, Frictionless
-from .solids.layers import Layer, Layered, RigidBase
-from .solids.library import material, materials
-from .solids.liquids import Liquid, liquid, liquids
-from .solids.strength import Strength
+from .solids.layers import Bonded, Frictionless, Layer, Layered, RigidBase, contact_modulus
+from .solids.library import Liquid, liquid, liquids, material, materials
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
-from .stress.fracture import fracture_indicators
-from .stress.sampling import depths_through
+from .stress.regions import depths_through
 from .stress.tractions import ShearTraction, Sliding
 from .stress.where import DepthProfile, Everywhere, Section
-from .stress.yielding import LoadAtYield, YieldReport, first_yield, load_at_yield
+from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .studies.compare import compare
 from .studies.comparison import Comparison
@@ -75,18 +70,13 @@ from .surfaces.characterise.slopes import rms_slope
 from .surfaces.characterise.summary import Characterisation, characterise
 from .surfaces.common_grid import SurfacePair, on_common_grid
 from .surfaces.pair import composite, turned_over
-from .surfaces.prepare.crop import cropped
+from .surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
 from .surfaces.prepare.fill import filled
-from .surfaces.prepare.filter import filtered
-from .surfaces.prepare.level import levelled
-from .surfaces.prepare.outliers import despiked, line_corrected
-from .surfaces.prepare.resample import resampled
-from .surfaces.prepare.slice import sliced
-from .surfaces.prepare.tip import reliability_cutoff, tip_limited
-from .surfaces.prepare.window import periodised, tapered
+from .surfaces.prepare.filter import filtered, reliability_cutoff, tip_limited
+from .surfaces.prepare.level import despiked, levelled, line_corrected
 from .surfaces.read import channels, read
 from .surfaces.surface import Surface
-from .theories.roughness import Roughness
+from .theories.statistics.roughness import Roughness
 
 __version__: str
 

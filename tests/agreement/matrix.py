@@ -15,14 +15,12 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
 from asperity.theories import catalogue
-from asperity.theories.elliptic_asperity import ellipse_of_curvatures
-from asperity.theories.nayak import NayakSummits
-from asperity.theories.onions_archard import peak_integral
-from asperity.theories.protocol import Prediction
-from asperity.theories.roughness import Roughness
-from asperity.theories.single_contact import ContactAnswer
-from asperity.theories.summit_heights import ExponentialHeights
-from asperity.theories.whitehouse_archard import SampledPeaks
+from asperity.theories.protocol import ContactAnswer, Prediction
+from asperity.theories.rough.profile_peaks import SampledPeaks, peak_integral
+from asperity.theories.single.hertz import ellipse_of_curvatures
+from asperity.theories.statistics.heights import ExponentialHeights
+from asperity.theories.statistics.nayak import NayakSummits
+from asperity.theories.statistics.roughness import Roughness
 
 E, R, SIGMA, ETA, AREA = 1e11, 1e-6, 1e-8, 1e12, 1e-11
 """Contact modulus (Pa), radius (m), height deviation (m), density (1/m²) and area (m²) of the rows."""

@@ -8,7 +8,7 @@ from contact_cases import TIGHT, elastic, square_grid
 
 import asperity as asp
 from asperity import theories as th
-from asperity.theories.adhesive_sphere import load_ratio
+from asperity.theories.adhesion.spheres import load_ratio
 
 E, R, W = 1e9, 1e-6, 0.05
 """Contact modulus (Pa), radius (m) and work of adhesion (J/m²) of the rows."""

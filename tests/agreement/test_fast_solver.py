@@ -28,7 +28,7 @@ from asperity.contact.solvers import (
     Solution,
     run,
 )
-from asperity.contact.solvers.optimality import energy, relative_error
+from asperity.contact.solvers.protocol import energy, relative_error
 from asperity.core.arrays import RealArray
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace

@@ -7,7 +7,7 @@ import pytest
 from contact_cases import TIGHT, elastic
 
 import asperity as asp
-from asperity.theories.interacting_crests import InteractingCrests
+from asperity.theories.rough.interacting_crests import InteractingCrests
 
 PIXEL, N = 8e-9, 160
 RADIUS, MODULUS, DELTA = 1e-6, 1e11, 8e-9

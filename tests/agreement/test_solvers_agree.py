@@ -28,7 +28,7 @@ from catalogue import (
 
 from asperity import MeanGap
 from asperity.contact.solvers import ContactQP, FixedMean, Solution, Solver, run
-from asperity.contact.solvers.optimality import level, relative_error
+from asperity.contact.solvers.protocol import level, relative_error
 from asperity.core.errors import InputError
 
 ROUNDING = 1e-13

@@ -12,9 +12,19 @@ from reference_data import reference
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
-from asperity.theories.adhesive_sphere import DMT, JKR, approach_ratio, contact_ratio, load_ratio, tabor_parameter
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.maugis import LENNARD_JONES, MaugisDugdale, maugis_pull_off, maugis_state
+from asperity.theories.adhesion.spheres import (
+    DMT,
+    JKR,
+    LENNARD_JONES,
+    MaugisDugdale,
+    approach_ratio,
+    contact_ratio,
+    load_ratio,
+    maugis_pull_off,
+    maugis_state,
+    tabor_parameter,
+)
+from asperity.theories.single.hertz import HertzPoint
 
 DIGITS = 1e-13  # the tables carry 16 digits (found: 7e-15)
 SPHERES = {"JKR": JKR, "DMT": DMT}

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asperity.core.errors import InputError
-from asperity.theories.design_guidance import LeastArea
+from asperity.theories.rough.design_guidance import LeastArea
 
 
 def test_the_numbers_of_the_source():

@@ -13,11 +13,11 @@ from summit_maps import summit_map
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.theories.discrete_summits import DiscreteSummits
-from asperity.theories.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.interacting_crests import INTERACTIONS, METHODS, InteractingCrests
-from asperity.theories.roughness import Roughness
-from asperity.theories.sinusoidal_asperity import two_term_approach, two_term_load, two_terms
+from asperity.theories.rough.discrete_summits import DiscreteSummits
+from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
+from asperity.theories.rough.interacting_crests import INTERACTIONS, METHODS, InteractingCrests
+from asperity.theories.single.waves import two_term_approach, two_term_load, two_terms
+from asperity.theories.statistics.roughness import Roughness
 
 AREA = 4e-12
 CRESTS = {number: [] for number in sorted({row["set"] for row in reference("gw_interaction_asperities")})}

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from reference_data import reference
 
 from asperity.core.errors import InputError
-from asperity.theories import effective_hardness
-from asperity.theories.effective_hardness import EffectiveHardness
+from asperity.theories.hardness import effective_hardness
+from asperity.theories.hardness.effective_hardness import EffectiveHardness
 
 ratios = st.floats(0.02, 50.0)
 depths = st.floats(0.0, 20.0)

@@ -10,13 +10,7 @@ import pytest
 from reference_data import reference
 
 from asperity.core.errors import InputError
-from asperity.theories.chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
-from asperity.theories.elastic_plastic_asperity import at_first_yield
-from asperity.theories.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.jackson_green import JacksonGreen, JacksonGreenSphere
-from asperity.theories.kogut_etsion import KogutEtsion, KogutEtsionSphere
-from asperity.theories.plasticity_index import (
+from asperity.theories.hardness.plasticity import (
     critical_interference,
     hardness_coefficient,
     nominal_interference,
@@ -24,7 +18,18 @@ from asperity.theories.plasticity_index import (
     summit_plasticity_index,
     yield_coefficient,
 )
-from asperity.theories.sliding_yield import sphere_yield_onset
+from asperity.theories.rough.elastic_plastic_laws import (
+    ChangEtsionBogy,
+    ChangEtsionBogySphere,
+    JacksonGreen,
+    JacksonGreenSphere,
+    KogutEtsion,
+    KogutEtsionSphere,
+)
+from asperity.theories.rough.elastic_plastic_summits import at_first_yield
+from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
+from asperity.theories.single.hertz import HertzPoint
+from asperity.theories.subsurface.sliding_yield import sphere_yield_onset
 
 DIGITS = 1e-13  # the tables carry 15 digits (found: 5e-15)
 SPHERES = {

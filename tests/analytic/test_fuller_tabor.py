@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_data import reference
 
-from asperity.theories.fuller_tabor import FullerTabor
+from asperity.theories.adhesion.fuller_tabor import FullerTabor
 
 ROWS, PULL_OFF = reference("fuller_tabor"), reference("fuller_tabor_pulloff")
 

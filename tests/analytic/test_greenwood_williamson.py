@@ -11,16 +11,16 @@ from hypothesis import strategies as st
 from reference_data import reference
 
 from asperity.core.errors import InputError, NoSolutionError
-from asperity.theories.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.greenwood_williamson_fits import FittedGreenwoodWilliamson, FittedLaws
-from asperity.theories.greenwood_williamson_plastic import (
+from asperity.theories.rough.greenwood_williamson import (
+    FittedGreenwoodWilliamson,
+    FittedLaws,
+    GreenwoodWilliamson,
     plastic_area_share,
     plastic_area_share_beyond,
     plastic_number_share,
     separation_at_plastic_onset,
 )
-from asperity.theories.measured_heights import AnyHeights, HistogramHeights
-from asperity.theories.summit_heights import NAMED_HEIGHTS, GaussianHeights
+from asperity.theories.statistics.heights import NAMED_HEIGHTS, AnyHeights, GaussianHeights, HistogramHeights
 
 HEIGHTS = dict(NAMED_HEIGHTS)
 UNIT = GreenwoodWilliamson(1.0, 1.0, 1.0, 1.0)

@@ -8,8 +8,7 @@ from reference_data import reference
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
 from asperity.surfaces import generate
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.hertz_ellipse import HertzEllipse
+from asperity.theories.single.hertz import HertzEllipse, HertzPoint
 
 RADIUS, CONTACT_RADIUS = 1.0, 1.0  # the parabolic profile has no other length: any a / R is as good
 THEORY = HertzPoint(E_star=1.0, radius=RADIUS)

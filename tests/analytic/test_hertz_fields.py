@@ -9,12 +9,15 @@ from reference_data import reference
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
 from asperity.core.tensor import AXES, STRESSES
-from asperity.theories.hertz_ellipse_stress import hertz_ellipse_normal
-from asperity.theories.hertz_fields import hertz_normal, hertz_shear
-from asperity.theories.hertz_line_fields import hertz_line_normal, hertz_line_shear
-from asperity.theories.line_loads import flamant_normal, flamant_tangential
-from asperity.theories.point_loads import boussinesq, cerruti
-from asperity.theories.sliding_yield import cylinder_yield_onset, sphere_yield_onset
+from asperity.theories.subsurface.hertz import (
+    hertz_ellipse_normal,
+    hertz_line_normal,
+    hertz_line_shear,
+    hertz_normal,
+    hertz_shear,
+)
+from asperity.theories.subsurface.loads import boussinesq, cerruti, flamant_normal, flamant_tangential
+from asperity.theories.subsurface.sliding_yield import cylinder_yield_onset, sphere_yield_onset
 
 FRICTION, ONSET = reference("friction_yield"), reference("hertz_yield_onset")
 BODY = {"shear": 0.7, "nu": 0.2}

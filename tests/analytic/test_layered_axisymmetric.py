@@ -10,7 +10,7 @@ from layered_bodies import body_of, plane_of
 from reference_data import reference
 
 import asperity as asp
-from asperity.stress.invariants import max_shear, sqrt_J2
+from asperity.stress.criteria import max_shear, sqrt_J2
 from asperity.stress.regions import planes
 
 AXISYMMETRIC = reference("layered_axisym_fields")

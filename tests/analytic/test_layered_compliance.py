@@ -6,8 +6,7 @@ from reference_data import reference
 from solid_cases import elastic, layered, on_half_space
 
 import asperity as asp
-from asperity.solids.compliance.hybrid import interface_compliances
-from asperity.solids.compliance.layered import LayerStack
+from asperity.solids.compliance.layered import LayerStack, interface_compliances
 from asperity.solids.compliance.tensor import surface_tensor
 
 ALPHA_H = np.geomspace(1e-4, 1e2, 61)

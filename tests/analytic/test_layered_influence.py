@@ -8,12 +8,9 @@ from solid_cases import elastic, layered, on_half_space
 
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.hybrid import interface_compliances
-from asperity.solids.compliance.influence_tensor import coupling_influence, influence_tensor
-from asperity.solids.compliance.layered import LayerStack
-from asperity.solids.compliance.line_coupling import coupling_strips
-from asperity.solids.compliance.patch_average import ISOTROPIC, patch_coefficients
-from asperity.solids.compliance.samples import samples
+from asperity.solids.compliance.influence import ISOTROPIC, patch_coefficients
+from asperity.solids.compliance.layered import LayerStack, interface_compliances, samples
+from asperity.solids.compliance.tensor import coupling_influence, coupling_strips, influence_tensor
 from asperity.solids.compliance.two_bodies import contact_compliance
 
 ROWS = reference("layered_influence_surface")

@@ -13,8 +13,8 @@ from scipy.integrate import quad
 import asperity as asp
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.catalogue import theory as theory_by_name
-from asperity.theories.majumdar_bhushan import MajumdarBhushan
-from asperity.theories.roughness import Roughness
+from asperity.theories.rough.majumdar_bhushan import MajumdarBhushan
+from asperity.theories.statistics.roughness import Roughness
 
 AREA = 1e-8
 DIMENSIONS = st.floats(1.1, 1.9)

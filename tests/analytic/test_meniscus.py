@@ -12,13 +12,11 @@ from reference_data import reference
 from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
-from asperity.theories import meniscus
-from asperity.theories.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.kinetic_meniscus import KineticMeniscus, caught
-from asperity.theories.meniscus_growth import MeniscusGrowth, grown
-from asperity.theories.statistical_meniscus import StatisticalMeniscus
-from asperity.theories.summit_heights import ExponentialHeights, GaussianHeights
-from asperity.theories.wet_summits import GrowingMenisci, WetSummits
+from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
+from asperity.theories.statistics.heights import ExponentialHeights, GaussianHeights
+from asperity.theories.wet import meniscus
+from asperity.theories.wet.meniscus import MeniscusGrowth, grown
+from asperity.theories.wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits, caught
 
 
 @pytest.mark.parametrize("row", reference("kelvin_film"), ids=lambda row: f"{row['T_K']:g}-{row['RH']:g}")

@@ -6,7 +6,7 @@ from reference_data import reference
 
 from asperity.core.grid import Grid
 from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.patch import patch_displacement
+from asperity.solids.compliance.influence import patch_displacement
 
 ROWS = [row for row in reference("homogeneous_patch") if row["load"] == "z" and row["z"] == 0.0]
 

@@ -13,11 +13,9 @@ from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.catalogue import theory as theory_by_name
-from asperity.theories.isotropic_spectrum import IsotropicSpectrum
-from asperity.theories.persson import LOW_LOAD_SLOPE, Persson
-from asperity.theories.persson_diffusion import diffused_pressure
-from asperity.theories.persson_gap import PerssonGap
-from asperity.theories.roughness import Roughness, Spectrum
+from asperity.theories.rough.persson import LOW_LOAD_SLOPE, Persson, PerssonGap, diffused_pressure
+from asperity.theories.statistics.isotropic_spectrum import IsotropicSpectrum
+from asperity.theories.statistics.roughness import Roughness, Spectrum
 
 MODULUS = 2.0
 NORMALISED = Persson(MODULUS, 0.5)  # E* h' = 1: pressures are in units of it

@@ -5,7 +5,8 @@ import pytest
 from elastic_fields import constants, expected, found, label
 from reference_data import reference
 
-from asperity.theories import line_loads, point_loads
+from asperity.theories.subsurface import loads as line_loads
+from asperity.theories.subsurface import loads as point_loads
 
 POINTS, LINES = reference("point_loads"), reference("line_and_strip_loads")
 KINDS = {

@@ -9,17 +9,11 @@ import pytest
 from reference_data import reference
 
 from asperity.core.errors import InputError
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.identical_asperities import IdenticalAsperities
-from asperity.theories.oliver_pharr import CONE, PARABOLOID, PUNCH, OliverPharr
-from asperity.theories.restitution import rebound
-from asperity.theories.sinusoidal_asperity import (
-    TWO_TERMS,
-    SinusoidalAsperity,
-    two_term_approach,
-    two_term_load,
-    two_terms,
-)
+from asperity.theories.dynamics.restitution import rebound
+from asperity.theories.rough.discrete_summits import IdenticalAsperities
+from asperity.theories.single.hertz import HertzPoint
+from asperity.theories.single.oliver_pharr import CONE, PARABOLOID, PUNCH, OliverPharr
+from asperity.theories.single.waves import TWO_TERMS, SinusoidalAsperity, two_term_approach, two_term_load, two_terms
 
 DIGITS = 1e-13  # the tables carry 15 digits (found: 6e-15)
 

@@ -12,14 +12,16 @@ from reference_data import reference
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
-from asperity.theories.bisinusoid import HIGH_LOAD, LOW_LOAD, CrossedWaves
-from asperity.theories.hertz import HertzPoint
-from asperity.theories.hertz_ellipse import HertzEllipse, axis_ratio
-from asperity.theories.hertz_line import HertzLine
-from asperity.theories.indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
-from asperity.theories.line_indenters import LineFlatPunch, LinePowerLawIndenter
-from asperity.theories.mindlin import MindlinLine, MindlinPoint, tangential_modulus
-from asperity.theories.wavy import Westergaard
+from asperity.theories.single.hertz import HertzEllipse, HertzLine, HertzPoint, axis_ratio
+from asperity.theories.single.indenters import (
+    FlatPunch,
+    LineFlatPunch,
+    LinePowerLawIndenter,
+    PowerLawIndenter,
+    SphericalIndenter,
+)
+from asperity.theories.single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
+from asperity.theories.single.waves import HIGH_LOAD, LOW_LOAD, CrossedWaves, Westergaard
 
 DIGITS = 1e-13  # the tables carry 16 digits; some hundred roundings in the longest formulas (found: 3e-14)
 AXISYMMETRIC, PLANE = reference("axisymmetric_indenters"), reference("plane_strain_indenters")

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from asperity.core.errors import InputError
-from asperity.theories.effective_hardness import EffectiveHardness
-from asperity.theories.stack_hardness import StackHardness
+from asperity.theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 
 values = st.floats(0.05, 20.0)
 parts = st.lists(st.tuples(values, values, values), min_size=1, max_size=4)

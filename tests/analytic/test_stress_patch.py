@@ -6,9 +6,9 @@ from elastic_fields import constants, expected, found, label
 from reference_data import reference
 
 from asperity.core.grid import Grid
-from asperity.solids.compliance.patch import patch_displacement
-from asperity.stress.patch import Patch, displacement_coefficients, patch_fields, stress_coefficients
-from asperity.theories.point_loads import boussinesq, cerruti
+from asperity.solids.compliance.influence import patch_displacement
+from asperity.stress.kernels.patch import Patch, displacement_coefficients, patch_fields, stress_coefficients
+from asperity.theories.subsurface.loads import boussinesq, cerruti
 
 ROWS = reference("homogeneous_patch")
 BODY = {"shear": 0.4, "nu": 0.3}

@@ -11,14 +11,18 @@ from hypothesis import strategies as st
 from reference_data import reference
 
 from asperity.core.errors import InputError
-from asperity.theories.anisotropic_summits import AnisotropicSummits, equivalent_isotropic
-from asperity.theories.bush_gibson_thomas import ASYMPTOTE, BushGibsonThomas, GreenwoodElliptic
-from asperity.theories.elliptic_asperity import ellipse, ellipse_of_curvatures
-from asperity.theories.greenwood_tripp import GreenwoodTripp
-from asperity.theories.hertz_ellipse import axis_ratio
-from asperity.theories.mccool import McCool
-from asperity.theories.onions_archard import OnionsArchard, plastic_area_share
-from asperity.theories.roughness import MomentTensor, Roughness
+from asperity.theories.rough.elliptic_summits import (
+    ASYMPTOTE,
+    AnisotropicSummits,
+    BushGibsonThomas,
+    GreenwoodElliptic,
+    McCool,
+    equivalent_isotropic,
+)
+from asperity.theories.rough.greenwood_williamson import GreenwoodTripp
+from asperity.theories.rough.profile_peaks import OnionsArchard, plastic_area_share
+from asperity.theories.single.hertz import axis_ratio, ellipse, ellipse_of_curvatures
+from asperity.theories.statistics.roughness import MomentTensor, Roughness
 
 # sums of hundreds of positive terms in double precision, tails of Gaussians at arguments of up to ten
 ROUNDING = 2e-13

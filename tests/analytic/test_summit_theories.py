@@ -13,8 +13,8 @@ from scipy.integrate import dblquad, quad
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.theories.nayak import GEOMETRIC_CURVATURE, NayakSummits
-from asperity.theories.whitehouse_archard import SampledPeaks
+from asperity.theories.rough.profile_peaks import SampledPeaks
+from asperity.theories.statistics.nayak import GEOMETRIC_CURVATURE, NayakSummits
 
 SUMMITS = {
     "density_times_m2_over_m4": lambda n: n.density * n.m2 / n.m4,

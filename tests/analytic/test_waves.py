@@ -8,8 +8,7 @@ from reference_data import reference
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
 from asperity.surfaces import generate
-from asperity.theories.bisinusoid import CrossedWaves
-from asperity.theories.wavy import Westergaard
+from asperity.theories.single.waves import CrossedWaves, Westergaard
 
 SOLVER = ConjugateGradient(tolerance=1e-10)
 NUMERIC = [row for row in reference("johnson_greenwood_higginson") if row["area_fraction_numeric"] != ""]

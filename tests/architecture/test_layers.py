@@ -96,7 +96,7 @@ def test_upward_and_sideways_imports_are_found() -> None:
         ("asperity.stress.layered", "from ..contact.result import Result"),
         ("asperity.solids.library", "from ..surfaces import surface"),
         ("asperity.surfaces.pair", "from ..solids import elastic"),
-        ("asperity.theories.hertz", "from ..solids import elastic"),
+        ("asperity.theories.single.hertz", "from ...solids import elastic"),
         ("asperity.plots.maps", "from ..io import results"),
         ("asperity.parts.contact", "from ..run import executor"),
         ("asperity.run.executor", "from ..report import page"),

@@ -16,9 +16,7 @@ from hypothesis import strategies as st
 import asperity as asp
 from asperity.contact.certificate import Certificate, certify
 from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
-from asperity.contact.solvers.feasible import scaled_to_load
-from asperity.contact.solvers.optimality import best_level, duality_gap, relative_error
-from asperity.contact.solvers.protocol import SolverState
+from asperity.contact.solvers.protocol import SolverState, best_level, duality_gap, relative_error, scaled_to_load
 from asperity.core.arrays import RealArray
 from asperity.core.status import Outcome, Status
 from asperity.solids.compliance.halfspace import HalfSpace

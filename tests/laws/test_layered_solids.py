@@ -8,7 +8,8 @@ from scipy.linalg import expm
 from solid_cases import MATERIALS, THICKNESSES, elastic, stacks
 
 import asperity as asp
-from asperity.solids.compliance.hybrid import (
+from asperity.solids.compliance.layered import (
+    LayerStack,
     PlaneVector,
     half_space,
     interface_compliances,
@@ -16,7 +17,6 @@ from asperity.solids.compliance.hybrid import (
     lower_face,
     lowered,
 )
-from asperity.solids.compliance.layered import LayerStack
 from asperity.solids.compliance.tensor import surface_tensor
 
 WAVENUMBERS = np.geomspace(1e-6, 1e4, 21)

@@ -12,8 +12,8 @@ import typer
 from .options import ReadingOptions
 
 if TYPE_CHECKING:
-    from ..surfaces.channels import ChannelInfo
     from ..surfaces.characterise.summary import Characterisation
+    from ..surfaces.formats import ChannelInfo
     from ..surfaces.surface import Surface
 
 
@@ -50,8 +50,8 @@ def info(
     import json
 
     from ..core.units import parse
-    from ..surfaces.channels import chosen
     from ..surfaces.characterise.summary import characterise
+    from ..surfaces.formats import chosen
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
     from .reading import level_of, read_surface

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from ..solids.library import MaterialRecord
-    from ..solids.liquids import LiquidRecord
+    from ..solids.library import LiquidRecord, MaterialRecord
 
 
 @dataclass(frozen=True)
@@ -78,8 +77,8 @@ def liquids(
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, in SI units.")] = False,
 ) -> None:
     """List the named liquids for films between surfaces, with their values and sources."""
-    from ..solids.liquids import liquid
-    from ..solids.liquids import liquids as library
+    from ..solids.library import liquid
+    from ..solids.library import liquids as library
 
     wanted = None if name is None else liquid(name, library=file).name
     _print(LIQUIDS, library(file), wanted, as_json=as_json)

@@ -99,7 +99,7 @@ def cite(
     from ..io.documents import load_document, loads
     from ..io.results import document_in, load
     from ..run.build import build
-    from ..stress.request import Planned
+    from ..stress.survey import Planned
     from .show import say
 
     if file.suffix.lower() in (".toml", ".json"):

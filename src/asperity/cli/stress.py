@@ -17,8 +17,7 @@ from .stressing import StressOptions, stress_names, with_stress
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..io.documents import ProblemDocument
-    from ..stress.request import StressRequest
-    from ..stress.survey import StressSurvey
+    from ..stress.survey import StressRequest, StressSurvey
 
 _option = options_of(OUTPUT)
 

@@ -13,8 +13,8 @@ import typer
 
 from ..core import units
 from ..core.errors import InputError
+from ..theories.ask import Way, evaluate, ways_of
 from ..theories.protocol import Described, Input
-from ..theories.ways import Way, evaluate, ways_of
 from .options import BODIES, READING, ReadingOptions
 from .theory_surface import BODY_INPUTS, from_surface, of_bodies
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ..core.arrays import RealArray
-    from ..theories.ways import Evaluation
+    from ..theories.ask import Evaluation
 
 LEFT = "!"
 """Mark of a row beyond a limit."""
@@ -40,7 +40,7 @@ def print_list(*, as_json: bool) -> None:
 
 
 def _print_kind(kind: type[Described]) -> None:
-    from ..theories.ways import numbers_of, ways_of
+    from ..theories.ask import numbers_of, ways_of
 
     measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
     say(f"\n{kind.name}{' *' if measured else ''}", "cyan")

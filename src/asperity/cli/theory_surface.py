@@ -26,9 +26,8 @@ def of_bodies(kind: type[Described], given: dict[str, Any], body: str, counter: 
         If a body is not understood, or its strength is needed and not known.
     """
     from ..io.build_body import body_of_text
-    from ..solids.body import contact_modulus
     from ..solids.elastic import Rigid
-    from ..solids.weaker import weaker_strength
+    from ..solids.layers import contact_modulus, weaker_strength
 
     first = body_of_text(body, "--body")
     second = Rigid() if counter is None else body_of_text(counter, "--counter")

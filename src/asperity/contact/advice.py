@@ -9,10 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.status import Advice
-from ..solids.body import materials_of, surface_material
-from ..surfaces.characterise.differences import axis_index
-from ..surfaces.characterise.slopes import rms_profile_curvature
-from ..surfaces.characterise.stencils import stencil_sums
+from ..solids.layers import materials_of, surface_material
+from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from .control import Control, Force, MeanPressure, mean_pressure
 from .laws import LayeredHardness

@@ -14,8 +14,7 @@ from .depth_limit import added_indentation
 from .laws import work_density
 from .problem import ContactProblem
 from .result import ContactResult
-from .solvers.optimality import level
-from .solvers.protocol import ContactQP, Solution
+from .solvers.protocol import ContactQP, Solution, level
 from .state import InterfaceState
 from .stiffness import normal_stiffness
 

@@ -9,7 +9,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
-from ..solids.compliance.protocol import Compliance
+from ..solids.compliance.halfspace import Compliance
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,8 @@ import numpy as np
 
 from ..core.status import Advice
 from ..core.units import show
-from ..solids.body import materials_of
 from ..solids.elastic import Elastic
-from ..solids.layers import Layered
+from ..solids.layers import Layered, materials_of
 from .laws import LimitByDepth
 from .problem import ContactProblem
 

@@ -17,8 +17,7 @@ from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
 from ..core.progress import Progress
 from ..core.status import Outcome, Status
-from .solvers.optimality import level
-from .solvers.protocol import ContactQP, FixedMean, Solution, Solver, run
+from .solvers.protocol import ContactQP, FixedMean, Solution, Solver, level, run
 
 Solved: TypeAlias = tuple[ContactQP, Solution]
 Measure: TypeAlias = Callable[[ContactQP, Solution], float]

@@ -19,7 +19,7 @@ from .operators import Operator, prepare_operator
 from .problem import ContactProblem
 from .result import ContactResult
 from .solve import Keep, solve
-from .solvers.choose import default_solver
+from .solvers.by_name import default_solver
 from .solvers.protocol import Solver
 from .state import InterfaceState
 

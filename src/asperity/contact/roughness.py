@@ -6,15 +6,14 @@ import math
 
 from ..core import require
 from ..core.errors import InputError
-from ..surfaces.characterise.autocorrelation import DROP_1E, autocovariance
-from ..surfaces.characterise.fractal import fractal_parameters
+from ..surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
 from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import difference_moments, spectral_moments
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
 from ..surfaces.prepare.fill import filled
 from ..surfaces.surface import Surface
-from ..theories.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
+from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
 
 MOMENTS = ("auto", "spectrum", "differences")
 """Where the moments can come from."""

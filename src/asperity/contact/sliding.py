@@ -21,7 +21,7 @@ from .operators.coupling import SlidingCoupling
 from .problem import ContactProblem
 from .result import ContactResult
 from .solve import Keep, solve
-from .solvers.active_set import ActiveSet
+from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
 

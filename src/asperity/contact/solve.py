@@ -17,7 +17,7 @@ from .drive import drive
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
 from .result import ContactResult
-from .solvers.choose import default_solver
+from .solvers.by_name import default_solver
 from .solvers.protocol import Solver
 from .state import InterfaceState
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from .operators.protocol import Operator
-from .solvers.correction import Effort, System, correction
-from .solvers.workspace import bench
+from .solvers.active_set.linear_system import Effort, System, bench, correction
 
 _EFFORT = Effort(reduction=1e-4, limit=500)
 

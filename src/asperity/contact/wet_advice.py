@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.status import Advice
-from ..theories.meniscus import wetting_factor
+from ..theories.wet.meniscus import wetting_factor
 from .wet_result import WetContactResult
 
 FEWEST_PIXELS = 5.0

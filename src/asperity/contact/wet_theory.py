@@ -9,12 +9,10 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..surfaces.surface import Surface
-from ..theories.kinetic_meniscus import KineticMeniscus
-from ..theories.kotwal_bhushan import KotwalBhushan
-from ..theories.meniscus import wetting_factor
-from ..theories.meniscus_growth import MeniscusGrowth
-from ..theories.roughness import Roughness
-from ..theories.statistical_meniscus import StatisticalMeniscus
+from ..theories.rough.kotwal_bhushan import KotwalBhushan
+from ..theories.statistics.roughness import Roughness
+from ..theories.wet.meniscus import MeniscusGrowth, wetting_factor
+from ..theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 from .problem import ContactProblem
 from .roughness import roughness_of
 from .wet_result import WetContactResult

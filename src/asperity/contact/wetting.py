@@ -11,8 +11,8 @@ import numpy as np
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
-from ..solids.liquids import Liquid
-from ..theories.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
+from ..solids.library import Liquid
+from ..theories.wet.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
 from .islands import Labels, labelled, spans
 
 FLOODED = 0.95

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,3 +18,26 @@ ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 
 BoolArray: TypeAlias = NDArray[np.bool_]
 """Boolean array, for masks and contact maps."""
+
+
+# Content digests, so that a result can name its inputs exactly.
+
+
+def array_digest(array: RealArray | BoolArray) -> str:
+    """SHA-256 (hex) of shape, type and content of ``array``, the same on every machine."""
+    data = np.ascontiguousarray(array)
+    little = data.astype(data.dtype.newbyteorder("<"), copy=False)
+    text = f"{little.dtype.str}{data.shape}"
+    return hashlib.sha256(text.encode() + little.tobytes()).hexdigest()
+
+
+def content_digest(value: Any) -> str:
+    """SHA-256 (hex) of nested dictionaries, lists, text and numbers, whatever the order of keys; exact in every float."""
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def file_digest(path: str | Path) -> str:
+    """SHA-256 (hex) of the bytes of the file at ``path``."""
+    with Path(path).open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

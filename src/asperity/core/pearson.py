@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike
 from . import require
 from .arrays import RealArray
 from .errors import InputError
-from .partial_moment import partial_moment
 from .pearson_beta import BetaCurve, BetaPrimeCurve
 from .pearson_curves import Curve, MirroredCurve, NormalCurve
 from .pearson_gamma import GammaCurve, InverseGammaCurve
 from .pearson_iv import StudentLikeCurve
+from .quadrature import partial_moment
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import RealArray
-from .partial_moment import partial_moment
 from .pearson_curves import log_ratio
+from .quadrature import partial_moment
 
 _SERIES = 1e-9  # z of a beta distribution below which the second term of the series, z times the first, is left out
 

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import RealArray
-from .partial_moment import partial_moment
 from .pearson_curves import log_ratio
+from .quadrature import partial_moment
 
 _LEAST = 1e-100  # distance from the end of type V below which its density is zero, and its logarithm needs no digits
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+from collections.abc import Callable
+
 import numpy as np
 
 from .arrays import RealArray
@@ -26,3 +30,56 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
     half = 0.5 * (high - low)
     shape = (*breaks.shape[:-1], -1)
     return (low + half * (x + 1.0)).reshape(shape), (half * w).reshape(shape)
+
+
+# Moments of the part of a distribution above a level: ∫ (s - D)^m f(s) ds over s > D.
+
+
+_STEP = 0.02  # of the trapezoidal rule over τ; half of it changes no moment by more than 1e-11 of itself
+_REACH = 6.5  # |τ| beyond which a node lies within 1e-400 of its end
+_EDGES = (-4.0, 0.0)
+_FARTHEST = 1e100  # beyond, a density with four moments adds nothing
+_CHUNK = 64  # levels whose temporaries fit into the cache
+
+LogDensity = Callable[[RealArray, RealArray, RealArray], RealArray]
+"""ln f at x, of which the distances to the lower and the upper end are given, too: close to an end they keep their digits."""
+
+
+def partial_moment(log_density: LogDensity, ends: tuple[float, float], order: float, level: RealArray) -> RealArray:
+    """∫ (s - level)^order f(s) ds over s > ``level`` (any shape), by double exponential quadrature (Takahasi & Mori 1974).
+
+    The interval is divided at the mean and four standard deviations below, for a density of zero mean and unit variance.
+    Either of the ``ends`` between which it is positive may be infinite; order > -1.
+    """
+    flat, moments = level.ravel(), np.zeros(level.size)
+    edges = [ends[0], *(edge for edge in _EDGES if ends[0] < edge < ends[1]), ends[1]]
+    for begin in range(0, flat.size, _CHUNK):
+        part = slice(begin, begin + _CHUNK)
+        for low, high in itertools.pairwise(edges):
+            reached = np.flatnonzero(flat[part] < high) + begin
+            moments[reached] += _piece(log_density, ends, order, flat[reached], (low, high))
+    return moments.reshape(level.shape)
+
+
+def _piece(
+    log_density: LogDensity, ends: tuple[float, float], order: float, level: RealArray, piece: tuple[float, float]
+) -> RealArray:
+    """∫ (s - level)^order f(s) ds over the part of a ``piece`` above each ``level`` (n,), which is below its end."""
+    start, end = np.maximum(level, piece[0])[:, None], piece[1]
+    tau = np.arange(-_REACH, _REACH + 0.5 * _STEP, _STEP)
+    if math.isinf(end):  # distance from the start exp(π/2 sinh τ)
+        log_y = 0.5 * math.pi * np.sinh(tau)[None, :]
+        log_rest = np.full(log_y.shape, np.inf)
+        log_slope = log_y + np.log(0.5 * math.pi * np.cosh(tau))
+    else:  # distances (end - start)/(1 + exp(∓π sinh τ)) from both sides
+        width, u = np.log(end - start), math.pi * np.sinh(tau)
+        log_y, log_rest = width - np.logaddexp(0.0, -u), width - np.logaddexp(0.0, u)
+        log_slope = log_y + log_rest - width + np.log(math.pi * np.cosh(tau))
+    with np.errstate(over="ignore"):
+        y, rest = np.exp(log_y), np.exp(log_rest)
+    from_low, from_high = (start - ends[0]) + y, (ends[1] - end if math.isfinite(end) else 0.0) + rest
+    used = (y > 0.0) & (y < _FARTHEST) & (from_high > 0.0)
+    y, from_low, from_high = (np.where(used, values, 1.0) for values in (y, from_low, from_high))
+    logs = order * np.log((start - level[:, None]) + y) + log_density(start + y, from_low, from_high) + log_slope
+    values: RealArray = _STEP * np.sum(np.exp(np.where(used, logs, -np.inf)), axis=1)
+    return values

@@ -8,13 +8,10 @@ from pydantic import ValidationError
 
 from ..core import units
 from ..core.errors import InputError
-from ..solids.body import Body
-from ..solids.elastic import Elastic, Rigid
+from ..solids.elastic import Elastic, Rigid, Strength
 from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGrading, graded
-from ..solids.interface import Bonded, Frictionless, Interface
-from ..solids.layers import Base, Layer, Layered, RigidBase
+from ..solids.layers import Base, Body, Bonded, Frictionless, Interface, Layer, Layered, RigidBase
 from ..solids.library import material
-from ..solids.strength import Strength
 from .schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable
 from .schemas.body_text import body_from_text
 from .schemas.wording import problems

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..contact.wet import Friction
 from ..contact.wetting import LiquidFilm
-from ..solids.liquids import Liquid, liquid
+from ..solids.library import Liquid, liquid
 from .quantities import si_values
 from .schemas.film import FilmTable
 

@@ -7,7 +7,7 @@ from ..core import units
 from ..core.errors import InputError
 from ..solids.elastic import Rigid
 from ..stress.criteria import Tresca, VonMises
-from ..stress.request import Place, Strengths, StressRequest, WantedProfile, WantedSection
+from ..stress.survey import Place, Strengths, StressRequest, WantedProfile, WantedSection
 from .quantities import si_values
 from .schemas.stress import StressTable
 from .schemas.values import PLACES

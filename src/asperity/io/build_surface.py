@@ -9,15 +9,10 @@ from typing import Any, TypeAlias
 from ..core import units
 from ..surfaces.common_grid import on_common_grid
 from ..surfaces.pair import turned_over
-from ..surfaces.prepare.crop import cropped
+from ..surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
 from ..surfaces.prepare.fill import filled
-from ..surfaces.prepare.filter import filtered
-from ..surfaces.prepare.level import levelled
-from ..surfaces.prepare.outliers import despiked, line_corrected
-from ..surfaces.prepare.resample import resampled
-from ..surfaces.prepare.slice import sliced
-from ..surfaces.prepare.tip import tip_limited
-from ..surfaces.prepare.window import periodised, tapered
+from ..surfaces.prepare.filter import filtered, tip_limited
+from ..surfaces.prepare.level import despiked, levelled, line_corrected
 from ..surfaces.read import read
 from ..surfaces.surface import Surface
 from .build_generated import build_generated

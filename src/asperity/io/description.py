@@ -16,10 +16,8 @@ from ..contact.problem import Flat
 from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
-from ..solids.body import Body
-from ..solids.interface import Interface
-from ..solids.layers import Layer, RigidBase
-from ..solids.strength import Strength
+from ..solids.elastic import Strength
+from ..solids.layers import Body, Interface, Layer, RigidBase
 
 TYPES: tuple[type, ...] = (
     *get_args(Body),

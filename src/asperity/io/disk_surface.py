@@ -15,9 +15,8 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.progress import NoProgress, Progress
 from ..core.spectral import complex_lines, line_transform, real_lines, thread_count
-from ..surfaces.generate.columns import Columns, column_slices, spectrum_columns
-from ..surfaces.generate.embedding import Spectrum
-from ..surfaces.generate.noise import noise_rows
+from ..surfaces.generate.gaussian import Spectrum, noise_rows
+from ..surfaces.generate.spectra import Columns, column_slices, spectrum_columns
 from .atomic import atomic_file
 from .surface_files import require_ending
 from .tiles import PRECISIONS

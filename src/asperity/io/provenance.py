@@ -8,7 +8,7 @@ from importlib import metadata
 from typing import Any
 
 from ..contact.result import ContactResult
-from ..core.digest import array_digest
+from ..core.arrays import array_digest
 from ..core.spectral import fft_library
 from ..surfaces.surface import Surface
 

@@ -12,8 +12,7 @@ import numpy as np
 from ..contact.certificate import Certificate
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
-from ..core.arrays import RealArray
-from ..core.digest import array_digest
+from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError
 from ..core.status import Outcome, Status
 from ..surfaces.surface import Origin, Surface

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import OutputError
-from ..surfaces.netcdf import write_netcdf
+from ..surfaces.formats import write_netcdf
 from ..surfaces.surface import Surface
 from .atomic import atomic_file
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..core.citations import reference
+from ..theories.ask import Evaluation, numbers_of, ways_of
 from ..theories.protocol import Described, Input
-from ..theories.ways import Evaluation, numbers_of, ways_of
 from .atomic import atomic_file
 
 

@@ -16,10 +16,8 @@ from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.units import percent, show
-from ..solids.body import materials_of
 from ..solids.elastic import Elastic
-from ..solids.interface import Frictionless
-from ..solids.layers import Layer, Layered
+from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..stress.field import DERIVED, StressField
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface

@@ -13,8 +13,7 @@ from .part import Found, Part, Solved
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
-    from ..stress.request import StressRequest
-    from ..stress.survey import StressSurvey
+    from ..stress.survey import StressRequest, StressSurvey
 
 
 class Stress(Part):
@@ -66,7 +65,7 @@ class Stress(Part):
 
     def citations(self, ask: StressRequest, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the stresses will rest on."""
-        from ..stress.request import Planned
+        from ..stress.survey import Planned
 
         return Planned(ask, problem).citation_keys
 

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.units import percent
-from ..surfaces.characterise.autocorrelation import DROP_1E, DROP_TENTH
+from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
 from ..surfaces.characterise.material_ratio import core
 from ..surfaces.characterise.summary import Characterisation
 from .style import BLACK, BLUE, ORANGE, SKY, VERMILLION, Scale, scale

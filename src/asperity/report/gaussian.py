@@ -5,8 +5,8 @@ from __future__ import annotations
 from ..core.errors import InputError
 from ..core.units import show
 from ..surfaces.characterise.summary import Characterisation
-from ..theories.nayak import NayakSummits
-from ..theories.whitehouse_archard import SampledPeaks
+from ..theories.rough.profile_peaks import SampledPeaks
+from ..theories.statistics.nayak import NayakSummits
 
 Row = tuple[str, str, str, str]
 """Quantity, measured, from the moments by differences, from the spectral moments."""

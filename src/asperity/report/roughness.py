@@ -12,8 +12,7 @@ from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import surface_rows
 from ..plots.surface_figures import SURFACE_PLOTS, render_surface_plot
-from ..surfaces.characterise.parameters import SpectralParameters
-from ..surfaces.characterise.summary import Characterisation
+from ..surfaces.characterise.summary import Characterisation, SpectralParameters
 from .gaussian import peak_comparison, summit_comparison
 from .page import rendered
 from .quantities import headline_values, quantity_rows

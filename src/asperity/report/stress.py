@@ -12,8 +12,7 @@ from ..core.units import show
 from ..io.words import Rows
 from ..plots.figure import Figure
 from ..stress.criteria import TABOR
-from ..stress.field import Peak
-from ..stress.maxima import RegionMaxima
+from ..stress.field import Peak, RegionMaxima
 from ..stress.regions import Region
 from ..stress.survey import StressSurvey
 from ..stress.yielding import RegionYield

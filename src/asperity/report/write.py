@@ -30,15 +30,7 @@ from ..plots.figures import PLASTIC_PLOTS, PLOTS, render
 from ..plots.path_figures import PATH_PLOTS, render_path_plot
 from .page import rendered
 from .plasticity import energy_table, path_sentence, plastic_rows, turn_table
-from .stress import (
-    StressPart,
-    interface_table,
-    maxima_table,
-    remarks,
-    strength_table,
-    yield_sentence,
-    yield_table,
-)
+from .stress import StressPart, interface_table, maxima_table, remarks, strength_table, yield_sentence, yield_table
 from .stress import setting_rows as stress_rows
 from .wet import REMARK, THEORY_REMARK, WetPart, film_rows, theory_rows, wet_rows, wet_sentence
 

@@ -13,8 +13,7 @@ from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
 from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
 from ..contact.problem import ContactProblem, Flat
 from ..contact.ramps import Ramped, ramps
-from ..contact.solvers.by_name import solver_by_name
-from ..contact.solvers.choose import default_solver
+from ..contact.solvers.by_name import default_solver, solver_by_name
 from ..contact.solvers.protocol import Solver
 from ..core import units
 from ..core.citations import citation_keys
@@ -32,8 +31,7 @@ from ..io.schemas.problem import (
 )
 from ..io.schemas.values import EFFECTIVE, FROM_BODY, NONE
 from ..parts.registry import parts
-from ..solids.body import Body, surface_material
-from ..solids.layers import Layered
+from ..solids.layers import Body, Layered, surface_material
 
 
 @dataclass(frozen=True, eq=False)

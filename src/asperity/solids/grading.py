@@ -7,10 +7,8 @@ from typing import ClassVar, TypeAlias
 
 from ..core import require
 from ..core.errors import InputError
-from .elastic import Elastic
-from .interface import Bonded, Interface
-from .layers import Layer
-from .strength import Strength
+from .elastic import Elastic, Strength
+from .layers import Bonded, Interface, Layer
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,8 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
+from .boundaries import FreePlanes, PeriodicPlanes, require_held
 from .field import StressField
-from .free import FreePlanes
-from .mean_mode import require_held
-from .periodic import PeriodicPlanes
 from .regions import Plane, planes, stack
 from .tractions import Shear, ShearTraction, Sliding, Tractions
 from .where import Everywhere, Where, selection

@@ -3,14 +3,177 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
+import numpy as np
+
 from ..core import require
 from ..core.arrays import RealArray
-from ..core.tensor import StressTensor
+from ..core.tensor import StressTensor, second_invariant
 from ..solids.elastic import Elastic
-from . import invariants
+
+# Scalars and directions derived from a stress tensor; each function takes a StressTensor of arrays of any shape.
+
+
+_BLOCK = 1 << 14
+
+
+def sqrt_J2(s: StressTensor) -> RealArray:
+    """√J2 in Pa, to be compared with the yield stress in pure shear k; Peng (2001, eq. 3.33) calls it von Mises stress."""
+    root: RealArray = np.sqrt(second_invariant(s))
+    return root
+
+
+def von_mises(s: StressTensor) -> RealArray:
+    """Equivalent stress √(3 J2) in Pa, to be compared with the tensile yield stress Y = √3 k."""
+    equivalent: RealArray = np.sqrt(3.0 * second_invariant(s))
+    return equivalent
+
+
+def hydrostatic(s: StressTensor) -> RealArray:
+    """Mean normal stress in Pa, positive in tension."""
+    mean: RealArray = (s.xx + s.yy + s.zz) / 3.0
+    return mean
+
+
+def principal_tensile(s: StressTensor) -> RealArray:
+    """Larger principal stress within planes parallel to the surface in Pa (Peng 2001, eq. 3.34).
+
+    It is the largest principal stress on a free surface in tension, and a lower bound of it inside the body.
+    """
+    largest: RealArray = 0.5 * (s.xx + s.yy) + np.hypot(0.5 * (s.xx - s.yy), s.xy)
+    return largest
+
+
+def principal_stresses(s: StressTensor) -> RealArray:
+    """Principal stresses σ1 >= σ2 >= σ3 in Pa, shape (3, ...); error a few roundings of the largest.
+
+    The eigenvalue apart from the others by the trigonometric formula, the others from the 2 x 2 problem across its
+    direction (Eberly 2014): unlike the formula alone this loses no digits where two of them are equal.
+    """
+    return _in_blocks(_values, s, (3,))
+
+
+def tresca(s: StressTensor) -> RealArray:
+    """σ1 - σ3 in Pa, to be compared with the tensile yield stress."""
+    values = principal_stresses(s)
+    difference: RealArray = values[0] - values[2]
+    return difference
+
+
+def max_shear(s: StressTensor) -> RealArray:
+    """Largest shear stress on any plane, (σ1 - σ3)/2, in Pa."""
+    return 0.5 * tresca(s)
+
+
+def principal_directions(s: StressTensor) -> RealArray:
+    """Unit vectors of the principal stresses, shape (3, 3, ...): [number of the principal stress, axis x y z].
+
+    Signs are arbitrary, and where principal stresses are equal so is the direction across the others.
+    """
+    return _in_blocks(_directions, s, (3, 3))
+
+
+def max_shear_normal(s: StressTensor) -> RealArray:
+    """Unit normal (3, ...) of a plane of largest shear stress: (n1 + n3)/√2, n1 and n3 the first and last direction.
+
+    The other such plane has the normal (n1 - n3)/√2.
+    """
+    directions = principal_directions(s)
+    normal: RealArray = (directions[0] + directions[2]) * math.sqrt(0.5)
+    return normal
+
+
+def _in_blocks(function: Callable[[StressTensor], RealArray], s: StressTensor, shape: tuple[int, ...]) -> RealArray:
+    """``function`` on blocks of points that stay in the cache: five times faster on large fields than all at once."""
+    points = s.map(np.ravel)
+    out = np.empty((*shape, points.xx.size), points.xx.dtype)
+    for first in range(0, points.xx.size, _BLOCK):
+        block = slice(first, first + _BLOCK)
+        out[..., block] = function(points.map(lambda component, block=block: component[block]))  # type: ignore[misc]
+    shaped: RealArray = out.reshape(*shape, *np.shape(s.xx))
+    return shaped
+
+
+def _values(s: StressTensor) -> RealArray:
+    state = _Deviator(s)
+    middle, radius = 0.5 * (state.uu + state.vv), np.hypot(0.5 * (state.uu - state.vv), state.uv)
+    upper, lower = middle + radius, middle - radius
+    first, apart = state.first, state.apart
+    ordered = [np.where(first, apart, upper), np.where(first, upper, lower), np.where(first, lower, apart)]
+    values: RealArray = state.mean + state.size * np.stack(ordered)
+    return values
+
+
+def _directions(s: StressTensor) -> RealArray:
+    state = _Deviator(s)
+    angle = 0.5 * np.arctan2(2.0 * state.uv, state.uu - state.vv)
+    upper = np.cos(angle) * state.u + np.sin(angle) * state.v
+    lower = np.cos(angle) * state.v - np.sin(angle) * state.u
+    first, apart = state.first, state.n
+    return np.stack([np.where(first, apart, upper), np.where(first, upper, lower), np.where(first, lower, apart)])
+
+
+class _Deviator:
+    """Deviator over √(J2/3): the eigenvalue ``apart`` from the others, its direction ``n``, the 2 x 2 form across it.
+
+    ``first`` says whether that eigenvalue is the largest or the smallest.
+    """
+
+    def __init__(self, s: StressTensor) -> None:
+        self.mean = hydrostatic(s)
+        self.size = np.sqrt(second_invariant(s) / 3.0)
+        scale = np.where(self.size > 0.0, self.size, 1.0)
+        m = a, b, c, d, e, f = tuple(
+            v / scale for v in (s.xx - self.mean, s.yy - self.mean, s.zz - self.mean, s.xy, s.xz, s.yz)
+        )
+        half_determinant = 0.5 * (a * (b * c - f * f) - d * (d * c - f * e) + e * (d * f - b * e))
+        self.first = half_determinant >= 0.0
+        largest = 2.0 * np.cos(np.arccos(np.minimum(np.abs(half_determinant), 1.0)) / 3.0)
+        self.apart = np.where(self.first, largest, -largest)
+        self.n = _kernel(a - self.apart, b - self.apart, c - self.apart, d, e, f)
+        self.u, self.v = _across(self.n)
+        self.uu, self.vv, self.uv = _form(self.u, self.u, m), _form(self.v, self.v, m), _form(self.u, self.v, m)
+
+
+def _kernel(a: RealArray, b: RealArray, c: RealArray, d: RealArray, e: RealArray, f: RealArray) -> RealArray:
+    """Unit vector (3, ...) that the singular matrix [[a d e], [d b f], [e f c]] of rank 2 maps to zero."""
+    rows = (np.stack([a, d, e]), np.stack([d, b, f]), np.stack([e, f, c]))
+    crosses = np.stack([_cross(rows[0], rows[1]), _cross(rows[1], rows[2]), _cross(rows[2], rows[0])])
+    squares = (crosses**2).sum(axis=1)
+    best = np.argmax(squares, axis=0)
+    vector = np.take_along_axis(crosses, best[None, None], axis=0)[0]
+    length = np.sqrt(np.take_along_axis(squares, best[None], axis=0)[0])
+    vector[0] = np.where(length > 0.0, vector[0], 1.0)
+    unit: RealArray = vector / np.where(length > 0.0, length, 1.0)
+    return unit
+
+
+def _across(n: RealArray) -> tuple[RealArray, RealArray]:
+    """Two unit vectors that make an orthonormal triad with the unit vectors ``n`` (3, ...)."""
+    x, y, z = n
+    wide = np.abs(x) > np.abs(y)
+    length = np.where(wide, np.hypot(x, z), np.hypot(y, z))
+    zero = np.zeros_like(x)
+    u = np.where(wide, np.stack([-z, zero, x]), np.stack([zero, z, -y])) / length
+    return u, _cross(n, u)
+
+
+def _cross(u: RealArray, v: RealArray) -> RealArray:
+    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def _form(u: RealArray, v: RealArray, m: tuple[RealArray, ...]) -> RealArray:
+    """Product u·M·v with the symmetric matrix of the components xx, yy, zz, xy, xz, yz."""
+    a, b, c, d, e, f = m
+    x = a * v[0] + d * v[1] + e * v[2]
+    y = d * v[0] + b * v[1] + f * v[2]
+    z = e * v[0] + f * v[1] + c * v[2]
+    product: RealArray = u[0] * x + u[1] * y + u[2] * z
+    return product
+
 
 TABOR = 2.8
 """Hardness over tensile yield stress of metals (Tabor 1951), used where only the hardness is known."""
@@ -51,7 +214,7 @@ class VonMises:
 
     def equivalent(self, stress: StressTensor) -> RealArray:
         """√(3 J2) in Pa."""
-        return invariants.von_mises(stress)
+        return von_mises(stress)
 
     def limit(self, material: Elastic) -> Limit:
         """Tensile yield stress of ``material``."""
@@ -67,7 +230,7 @@ class Tresca:
 
     def equivalent(self, stress: StressTensor) -> RealArray:
         """σ1 - σ3 in Pa."""
-        return invariants.tresca(stress)
+        return tresca(stress)
 
     def limit(self, material: Elastic) -> Limit:
         """Tensile yield stress of ``material``."""
@@ -93,7 +256,7 @@ class MaxPrincipal:
 
     def equivalent(self, stress: StressTensor) -> RealArray:
         """σ1 in Pa."""
-        largest: RealArray = invariants.principal_stresses(stress)[0]
+        largest: RealArray = principal_stresses(stress)[0]
         return largest
 
     def limit(self, material: Elastic) -> Limit:

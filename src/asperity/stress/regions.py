@@ -7,11 +7,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from ..core import require
+from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..solids.elastic import Elastic, Rigid
-from ..solids.interface import Frictionless
-from ..solids.layers import Layered
+from ..solids.layers import Frictionless, Layered
 
 Side: TypeAlias = Literal["surface", "inside", "above", "below"]
 """Position of a plane in its region: on the loaded surface, inside, just above or just below an interface."""
@@ -128,3 +130,32 @@ def _planes_at(depth: float, parts: tuple[Region, ...]) -> list[Plane]:
             f"depth (m) must lie in the body, whose rigid base is at {parts[-1].bottom:g}, but is {depth:g}."
         )
     return found
+
+
+# Depths that show a body: both ends of every layer and points between, denser towards the surface in the substrate.
+
+
+_GRADING = 1.5  # power of the spacing below the lowest interface, where stresses vary ever more slowly
+
+
+def depths_through(body: object, deepest: float, *, per_region: int = 12) -> RealArray:
+    """Increasing depths in m from the surface of ``body`` to ``deepest`` (m), for ``stress``.
+
+    Every layer has ``per_region`` equal intervals, so that both its faces are among the depths; the substrate has as many
+    intervals down to ``deepest``, short ones first. Layers below ``deepest`` are left out.
+
+    Raises
+    ------
+    InputError
+        If the body is rigid, ``deepest`` is not positive or there is less than one interval.
+    """
+    limit = require.positive(deepest, "deepest depth (m)")
+    count = require.integer(per_region, 1, "number of intervals in a region")
+    share = np.arange(count + 1) / count
+    found = [0.0]
+    for region in regions(body):
+        bottom = min(region.bottom, limit)
+        if bottom > region.top:
+            steps = share**_GRADING if math.isinf(region.bottom) else share
+            found.extend((region.top + (bottom - region.top) * steps)[1:])
+    return np.array(found)

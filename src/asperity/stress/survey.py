@@ -2,22 +2,318 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
-from ..core.arrays import RealArray
+from ..core import units
+from ..core.arrays import BoolArray, RealArray
 from ..core.citations import citation_keys
+from ..core.errors import InputError
+from ..core.grid import Grid
 from ..core.progress import NoProgress, Progress
-from .compute import stress_planes
-from .cuts import cut, wanted_lines
-from .field import StressField
-from .maxima import InterfaceMaxima, Maxima, RegionMaxima
-from .regions import planes
-from .request import Contact, StressRequest
-from .survey_depths import line_depths, survey_depths, wants_lines
+from ..core.tensor import StressTensor
+from ..solids.elastic import Rigid
+from .boundaries import require_held
+from .compute import Loaded, papers, stress_planes
+from .criteria import Criterion, VonMises
+from .field import InterfaceMaxima, Maxima, Peak, RegionMaxima, StressField
+from .regions import depths_through, planes, regions
+from .tractions import Sliding, Tractions
+from .where import DepthProfile, Position, Section, Selection, Where, selection
 from .yielding import YieldReport, first_yield
+
+# Which stresses inside a body are wanted, in SI; checked before the contact is solved.
+
+
+Place: TypeAlias = float | Literal["max", "pressure"]
+"""Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
+
+
+class Contact(Loaded, Protocol):
+    """What a survey needs of a contact result beside its pressure and problem."""
+
+    @property
+    def spot_areas(self) -> RealArray:
+        """Areas of the contact spots in m², in any order."""
+
+    @property
+    def plastic(self) -> BoolArray:
+        """(nx, ny), True where the pressure is at its limit."""
+
+
+@dataclass(frozen=True)
+class WantedSection:
+    """Vertical plane at ``place`` of the ``axis`` "x" or "y"."""
+
+    axis: Literal["x", "y"]
+    place: Place
+
+
+@dataclass(frozen=True)
+class WantedProfile:
+    """Line into the body at ``x`` and ``y``."""
+
+    x: Place
+    y: Place
+
+
+@dataclass(frozen=True)
+class Strengths:
+    """Strengths in Pa with which the largest tension, shear and peel are compared; NaN where not given."""
+
+    tensile: float = math.nan
+    interface_shear: float = math.nan
+    interface_peel: float = math.nan
+
+
+@dataclass(frozen=True)
+class StressRequest:
+    """Stresses that are asked for, all values SI.
+
+    Attributes
+    ----------
+    friction, direction, coupled
+        Friction coefficient, angle in rad of the shear traction on the body, and whether it may change the pressure.
+    of
+        ``"body"`` or ``"counter_body"``.
+    depths
+        Depths in m of whole planes.
+    sections, profiles
+        Vertical planes and lines.
+    deepest
+        Depth in m at which those end; None for one that suits the contact.
+    criterion, strengths
+        What decides on yield, and strengths beside those of the materials.
+    dtype
+        Type of the numbers.
+    """
+
+    friction: float = 0.0
+    direction: float = 0.0
+    coupled: bool = False
+    of: Literal["body", "counter_body"] = "body"
+    depths: tuple[float, ...] = ()
+    sections: tuple[WantedSection, ...] = (WantedSection("y", "max"),)
+    profiles: tuple[WantedProfile, ...] = ()
+    deepest: float | None = None
+    criterion: Criterion = VonMises()
+    strengths: Strengths = Strengths()
+    dtype: str = "float64"
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers on what is done with the stresses: principal ones, those in sections, coupling, criterion."""
+        drawn = ("Peng2001",) if self.sections else ()
+        return ("Eberly2014", *drawn, *(("Dundurs1969",) if self.coupled else ()), *self.criterion.citation_keys)
+
+    def check(self, problem: Any) -> None:
+        """Refuse what ``problem`` has no stress for, before it is solved.
+
+        Raises
+        ------
+        InputError
+            If the body does not deform, a depth lies below its rigid base, a position outside the grid, or nothing would
+            hold sheared layers (see ``require_held``).
+        """
+        body, grid = getattr(problem, self.of), problem.grid
+        if isinstance(body, Rigid):
+            asked = self.of.replace("_", " ")
+            raise InputError(
+                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body."
+            )
+        planes(body, self.depths or (0.0,))
+        boundary: Any = problem.boundary.name
+        require_held(Tractions(grid, np.ones(grid.shape), Sliding(self.friction), boundary), body)
+        for section in self.sections:
+            _require_within(section.place, section.axis, "section", grid)
+            if grid.shape["yx".index(section.axis)] == 1:
+                raise InputError(
+                    f"stress section must hold more than one point, but that at {section.axis} = const is one point wide "
+                    f"on this surface of {grid.shape[0]} x {grid.shape[1]} points."
+                )
+        for line in self.profiles:
+            _require_within(line.x, "x", "profile", grid)
+            _require_within(line.y, "y", "profile", grid)
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Stresses asked for in a ``problem``, before it is solved; for ``cite``."""
+
+    request: StressRequest
+    problem: Any
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers that the stresses will rest on."""
+        body = getattr(self.problem, self.request.of)
+        sheared = self.request.friction != 0.0
+        return (*papers(body, self.problem.boundary.name, sheared=sheared), *self.request.citation_keys)
+
+
+def _require_within(place: Place, axis: str, kind: str, grid: Grid) -> None:
+    size = grid.size["xy".index(axis)]
+    if isinstance(place, float) and place > size:
+        raise InputError(
+            f"{axis} of a stress {kind} must be at most the length {units.show(size, 'm')} of the surface, "
+            f"but is {units.show(place, 'm')}."
+        )
+
+
+# Depths of the planes of a survey: dense against the contact spots, both faces of every layer, and what is asked for.
+
+
+RATIO = 1.25
+"""Depths below a contact grow by this factor: the largest √J2 under a sphere is at most 0.7 % low on them."""
+
+SHALLOWEST, DEEPEST = 0.1, 3.0
+"""First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is largest at 0.48."""
+
+PIXELS = 0.5
+"""First depth in pixels at least: shallower the trigonometric interpolation of pressures ripples as it does on the surface."""
+
+INTERVALS = 64
+"""Number of intervals of planes in all layers together, at most 4 and at least 1 in each."""
+
+SAME, CLOSE = 1e-9, 0.1
+"""Relative differences of depths that are one and the same, and so close that no plane is needed between."""
+
+FAR_LAYERS = 6.0
+"""Layers that end within this many radii of the largest spot are sampled to their end."""
+
+
+def survey_depths(request: StressRequest, result: Contact) -> RealArray:
+    """Increasing depths (m) of all planes: those asked for, and for sections and profiles those that show the contact.
+
+    To the latter belong all interfaces, however deep.
+    """
+    if not wants_lines(request):
+        return _distinct(np.array(request.depths), SAME)
+    interfaces = [
+        region.bottom for region in regions(getattr(result.problem, request.of)) if math.isfinite(region.bottom)
+    ]
+    return _distinct(np.array([*line_depths(request, result), *interfaces, *request.depths]), SAME)
+
+
+def line_depths(request: StressRequest, result: Contact) -> RealArray:
+    """Increasing depths (m) of sections and profiles: dense against the contact spots, and both faces of each layer."""
+    body = getattr(result.problem, request.of)
+    small, large = _spot_radii(result)
+    bottom = request.deepest or _deepest(body, large)
+    layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
+    asked = [depth for depth in request.depths if depth <= layered[-1]]
+    needed = _distinct(np.array([*layered, *asked]), SAME)
+    shallow = max(SHALLOWEST * small, PIXELS * max(_pixels(result)))
+    count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
+    graded = shallow * RATIO ** np.arange(count)
+    away = [depth for depth in graded if np.abs(needed - depth).min() > CLOSE * depth]
+    return np.unique([*needed, *away])
+
+
+def wants_lines(request: StressRequest) -> bool:
+    """Whether sections or profiles are asked for."""
+    return bool(request.sections or request.profiles)
+
+
+def _deepest(body: object, radius: float) -> float:
+    """Depth (m) at which stresses have mostly decayed, below the layers where these are not far below the contact."""
+    layers = [region.bottom for region in regions(body) if math.isfinite(region.bottom)]
+    near = max((bottom for bottom in layers if bottom <= FAR_LAYERS * radius), default=0.0)
+    return max(DEEPEST * radius, 1.5 * near)
+
+
+def _spot_radii(result: Contact) -> tuple[float, float]:
+    """Mean and largest radius (m) of circles as large as the contact spots, at least half a pixel.
+
+    On a grid of one row spots are strips, and half their widths take the place of radii.
+    """
+    grid = result.problem.grid
+    least = 0.5 * min(
+        (step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1), default=grid.spacing[0]
+    )
+    if not result.spot_areas.size:
+        return least, least
+    if 1 in grid.shape:
+        radii = 0.5 * result.spot_areas / grid.spacing[grid.shape.index(1)]
+    else:
+        radii = np.sqrt(result.spot_areas / math.pi)
+    return max(float(radii.mean()), least), max(float(radii.max()), least)
+
+
+def _pixels(result: Contact) -> list[float]:
+    """Spacing (m) along the axes with more than one point, or along x."""
+    grid = result.problem.grid
+    return [step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1] or [grid.spacing[0]]
+
+
+def _distinct(depths: RealArray, tolerance: float) -> RealArray:
+    """Sorted ``depths`` without those that differ from the one before by a relative ``tolerance`` at most."""
+    ordered = np.unique(depths)
+    return ordered[np.diff(ordered, prepend=-1.0) > tolerance * np.abs(ordered)]
+
+
+# Vertical sections and depth profiles through the maxima of a survey, cut out of whole planes as they pass.
+
+
+def wanted_lines(request: StressRequest, result: Contact, peaks: dict[str, Peak]) -> dict[Where, tuple[str, ...]]:
+    """Sections and profiles at positions of nodes, each with what it is to show.
+
+    A section through the maximum is one for each stress, on the plane through its own largest magnitude.
+    """
+    grid = result.problem.grid
+    found: dict[Where, tuple[str, ...]] = {}
+    for section in request.sections:
+        for quantity in _shown_on(section):
+            place = getattr(peaks[quantity], section.axis) if section.place == "max" else section.place
+            where = Section(**{section.axis: _on_node(place, section.place, grid, section.axis)})
+            found[where] = tuple(dict.fromkeys((*found.get(where, ()), quantity)))
+    top = peaks["von_mises"]
+    for line in request.profiles:
+        x, y = (_on_node(getattr(top, a) if p == "max" else p, p, grid, a) for a, p in (("x", line.x), ("y", line.y)))
+        found[DepthProfile(x, y)] = ()
+    return found
+
+
+def _shown_on(section: WantedSection) -> tuple[str, ...]:
+    return ("von_mises", "principal_tensile", "shear_xz" if section.axis == "y" else "shear_yz")
+
+
+def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
+    """Position of a node: the user's is that of figures, where a node owns the pixel that begins there."""
+    if place == "pressure":
+        return "max"  # as the library calls the place of the highest pressure
+    assert isinstance(place, float)
+    return place - 0.5 * grid.spacing["xy".index(axis)] if isinstance(wanted, float) else place
+
+
+def cut(planes: Iterator[StressField], lines: list[Where], result: Contact) -> list[StressField]:
+    """The ``lines`` out of whole planes."""
+    places = [selection(line, result.problem.grid, result.pressure) for line in lines]
+    cuts: list[list[StressField]] = [[] for _ in lines]
+    for field in planes:
+        for place, found in zip(places, cuts, strict=True):
+            found.append(_at(field, place))
+    for found in cuts:
+        if found[-1].planes[0].side == "below":  # the region that begins at the last depth is not shown
+            found.pop()
+    return [_joined(found) for found in cuts]
+
+
+def _at(field: StressField, place: Selection) -> StressField:
+    """The points of a whole plane that ``place`` picks."""
+    part = (slice(None), *place.index)
+    tensor = field.tensor.map(lambda component: component[part].copy())
+    return replace(field, tensor=tensor, x=place.x, y=place.y, dims=("plane", *place.dims))
+
+
+def _joined(planes: list[StressField]) -> StressField:
+    """One field of the fields of single ``planes``."""
+    components = (np.concatenate([getattr(f.tensor, name) for f in planes]) for name in vars(planes[0].tensor))
+    return replace(planes[0], planes=tuple(f.planes[0] for f in planes), tensor=StressTensor(*components))
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,12 +18,12 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import AsperityError, InputError
 from ..core.progress import Progress
-from ..solids.body import Body
 from ..solids.elastic import Rigid
+from ..solids.layers import Body
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction, SurfaceTheory
-from ..theories.roughness import Roughness
+from ..theories.statistics.roughness import Roughness
 from .comparison import Comparison, TheoryCurve
 from .comparison_numerical import solved
 from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodies
@@ -150,7 +150,7 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
         return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
-    from ..theories.interacting_crests import InteractingCrests
+    from ..theories.rough.interacting_crests import InteractingCrests
 
     checked = check(theory, found, context.roughness)
     valid = np.zeros(loads.size, dtype=bool)
@@ -172,8 +172,8 @@ def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple
 
     Contacts of interacting crests are those of crests alone, or what their growth at lighter loads makes of them if more.
     """
-    from ..theories.discrete_summits import DiscreteSummits
-    from ..theories.interacting_crests import InteractingCrests
+    from ..theories.rough.discrete_summits import DiscreteSummits
+    from ..theories.rough.interacting_crests import InteractingCrests
 
     if not isinstance(theory, InteractingCrests):
         return loads.size, ()

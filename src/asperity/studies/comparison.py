@@ -16,7 +16,7 @@ from ..io.provenance import software, surface_provenance
 from ..io.results import FORMAT_VERSION
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction
-from ..theories.roughness import Roughness
+from ..theories.statistics.roughness import Roughness
 from .comparison_theories import LeftOut
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from ..contact.control import MeanPressure
 from ..contact.path import steps
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
-from ..contact.solvers.choose import default_solver
+from ..contact.solvers.by_name import default_solver
 from ..contact.solvers.protocol import Solver
 from ..core.arrays import RealArray
 from ..core.engine import Engine

@@ -12,9 +12,9 @@ from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.errors import InputError
-from ..solids.weaker import weaker_strength
+from ..solids.layers import weaker_strength
 from ..theories.protocol import SurfaceTheory
-from ..theories.roughness import Roughness
+from ..theories.statistics.roughness import Roughness
 
 YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
 """Parameters that tell a theory with plastic deformation, and one with adhesion."""

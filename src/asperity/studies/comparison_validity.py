@@ -16,7 +16,7 @@ from ..core.units import show
 from ..solids.layers import Layered
 from ..theories.limits import constant_limit
 from ..theories.protocol import Limit, Prediction, SurfaceTheory
-from ..theories.roughness import Roughness
+from ..theories.statistics.roughness import Roughness
 from .comparison_theories import family
 
 ISOTROPIC = ("mccool", "bush-gibson-thomas", "greenwood-elliptic", "greenwood-tripp", "persson")

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias, get_args
 from pydantic.fields import FieldInfo
 
 from ..core import units
-from ..core.digest import file_digest
+from ..core.arrays import file_digest
 from ..core.errors import InputError
 from ..io.documents import tidy
 from ..io.quantities import quantity

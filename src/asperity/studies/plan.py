@@ -9,7 +9,7 @@ from functools import cached_property
 from math import prod
 from typing import Any
 
-from ..core.digest import content_digest
+from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument

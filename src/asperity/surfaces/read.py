@@ -6,8 +6,10 @@ import os
 from pathlib import Path
 
 from ..core.errors import FileFormatError
-from . import instrument, netcdf, plain
-from .channels import ChannelInfo, chosen
+from . import formats as instrument
+from . import formats as netcdf
+from . import formats as plain
+from .formats import ChannelInfo, chosen
 from .surface import Surface
 
 

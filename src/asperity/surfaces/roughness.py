@@ -4,20 +4,30 @@
 """
 
 from ..core.quantity import Quantity
-from .characterise.autocorrelation import DROP_1E, DROP_ISO, DROP_TENTH, Autocovariance, autocovariance
-from .characterise.distribution import HeightDistribution, height_distribution
-from .characterise.expectation import effective_samples, expected_difference_moments, mean_square_after_levelling
-from .characterise.fractal import (
+from .characterise.correlation import (
+    DROP_1E,
+    DROP_ISO,
+    DROP_TENTH,
+    Autocovariance,
     FractalParameters,
+    ScaleDependence,
+    StructureFunction,
+    autocovariance,
     fitted_fractal,
     fractal_parameters,
     fractal_roughness,
+    mean_square_increment,
+    scale_dependence,
     spectrum_coefficient,
     structure_coefficient,
+    structure_function,
+    tip_cutoff,
 )
 from .characterise.heights import (
+    HeightDistribution,
     HeightParameters,
     deepest_valley,
+    height_distribution,
     height_parameters,
     highest_peak,
     kurtosis,
@@ -25,6 +35,7 @@ from .characterise.heights import (
     peak_to_valley,
     rms_height,
     skewness,
+    tilt_share,
 )
 from .characterise.material_ratio import (
     Core,
@@ -43,15 +54,6 @@ from .characterise.moments import (
     slope_tensor,
     spectral_moments,
 )
-from .characterise.parameters import (
-    HybridParameters,
-    Moments,
-    Sampling,
-    SpatialParameters,
-    SpectralParameters,
-    SummitDensities,
-)
-from .characterise.peaks import ProfilePeaks, profile_peaks
 from .characterise.quantities import QUANTITIES
 from .characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
 from .characterise.slopes import (
@@ -61,28 +63,30 @@ from .characterise.slopes import (
     rms_profile_slope,
     rms_slope,
 )
-from .characterise.spectral_fit import SpectralFit, fit_spectrum
-from .characterise.spectral_model import SpectralModel
+from .characterise.spectral_fit import SpectralFit, SpectralModel, fit_spectrum
 from .characterise.spectrum import (
     PowerSpectrum,
     ProfileSpectrum,
     RadialSpectrum,
+    effective_samples,
+    expected_difference_moments,
+    mean_square_after_levelling,
     power_spectrum,
     profile_spectrum,
     radial_spectrum,
 )
-from .characterise.structure import (
-    ScaleDependence,
-    StructureFunction,
-    mean_square_increment,
-    scale_dependence,
-    structure_function,
-    tip_cutoff,
+from .characterise.summary import (
+    Characterisation,
+    HybridParameters,
+    Moments,
+    Sampling,
+    SpatialParameters,
+    SpectralParameters,
+    SummitDensities,
+    characterise,
 )
-from .characterise.summary import Characterisation, characterise
-from .characterise.summits import Summits, SummitStatistics, summit_statistics, summits
+from .characterise.summits import ProfilePeaks, Summits, SummitStatistics, profile_peaks, summit_statistics, summits
 from .characterise.texture import AngularSpectrum, TextureLengths, angular_spectrum, texture_lengths
-from .characterise.tilt import tilt_share
 
 __all__ = [
     "DROP_1E",

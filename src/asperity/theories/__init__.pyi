@@ -1,47 +1,12 @@
-from .adhesive_sphere import DMT, JKR, tabor_parameter
-from .anisotropic_summits import AnisotropicSummits
-from .bisinusoid import CrossedWaves
-from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
+from .adhesion.fuller_tabor import FullerTabor
+from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_parameter
+from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
-from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
-from .cone import Cone, Wedge
-from .design_guidance import LeastArea
-from .discrete_summits import DiscreteSummits
-from .effective_hardness import EffectiveHardness
-from .elastic_plastic_summits import ElasticPlasticSummits
-from .fuller_tabor import FullerTabor
-from .greenwood_tripp import GreenwoodTripp
-from .greenwood_williamson import GreenwoodWilliamson
-from .greenwood_williamson_fits import FittedGreenwoodWilliamson
-from .greenwood_williamson_plastic import plastic_area_share, separation_at_plastic_onset
-from .hertz import HertzPoint
-from .hertz_ellipse import HertzEllipse
-from .hertz_ellipse_stress import hertz_ellipse_normal
-from .hertz_fields import hertz_normal, hertz_shear
-from .hertz_line import HertzLine
-from .hertz_line_fields import hertz_line_normal, hertz_line_shear
-from .hertz_stress import HertzEllipseStress, HertzLineStress, HertzStress
-from .identical_asperities import IdenticalAsperities
-from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
-from .interacting_crests import InteractingCrests
-from .jackson_green import JacksonGreen, JacksonGreenSphere
-from .kinetic_meniscus import KineticMeniscus
-from .kogut_etsion import KogutEtsion, KogutEtsionSphere
-from .kotwal_bhushan import KotwalBhushan, PearsonHeights
-from .line_indenters import LineFlatPunch, LinePowerLawIndenter
-from .line_loads import flamant_normal, flamant_tangential, strip_pressure, strip_shear
-from .majumdar_bhushan import MajumdarBhushan
-from .maugis import MaugisDugdale, maugis_pull_off
-from .mccool import McCool
-from .measured_heights import AnyHeights, HistogramHeights
-from .meniscus_growth import MeniscusGrowth
-from .mindlin import MindlinLine, MindlinPoint, tangential_modulus
-from .nayak import NayakSummits
-from .oliver_pharr import OliverPharr
-from .onions_archard import OnionsArchard
-from .persson import Persson
-from .plasticity import PlasticityIndex, ProfilePlasticityIndex
-from .plasticity_index import (
+from .dynamics.restitution import rebound
+from .hardness.effective_hardness import EffectiveHardness, StackHardness
+from .hardness.plasticity import (
+    PlasticityIndex,
+    ProfilePlasticityIndex,
     critical_interference,
     hardness_coefficient,
     nominal_interference,
@@ -49,20 +14,79 @@ from .plasticity_index import (
     summit_plasticity_index,
     yield_coefficient,
 )
-from .point_loads import boussinesq, cerruti
-from .protocol import Limit, Prediction
-from .restitution import rebound
-from .single_contact import ContactAnswer
-from .sinusoidal_asperity import SinusoidalAsperity
-from .sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
-from .stack_hardness import StackHardness
-from .statistical_meniscus import StatisticalMeniscus
-from .summit_heights import ExponentialHeights, GaussianHeights, LaplaceHeights, TriangularHeights, UniformHeights
-from .surface_forces import Boussinesq, Cerruti, Flamant, Strip
-from .wavy import Westergaard
-from .ways import Evaluation, evaluate
-from .wet_summits import GrowingMenisci, WetSummits
-from .whitehouse_archard import SampledPeaks
+from .protocol import ContactAnswer, Limit, Prediction
+from .rough.design_guidance import LeastArea
+from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
+from .rough.elastic_plastic_laws import (
+    ChangEtsionBogy,
+    ChangEtsionBogySphere,
+    JacksonGreen,
+    JacksonGreenSphere,
+    KogutEtsion,
+    KogutEtsionSphere,
+)
+from .rough.elastic_plastic_summits import ElasticPlasticSummits
+from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
+from .rough.greenwood_williamson import (
+    FittedGreenwoodWilliamson,
+    GreenwoodTripp,
+    GreenwoodWilliamson,
+    plastic_area_share,
+    separation_at_plastic_onset,
+)
+from .rough.interacting_crests import InteractingCrests
+from .rough.kotwal_bhushan import KotwalBhushan, PearsonHeights
+from .rough.majumdar_bhushan import MajumdarBhushan
+from .rough.persson import Persson
+from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .single.hertz import HertzEllipse, HertzLine, HertzPoint
+from .single.indenters import (
+    Cone,
+    FlatPunch,
+    LineFlatPunch,
+    LinePowerLawIndenter,
+    PowerLawIndenter,
+    SphericalIndenter,
+    Wedge,
+)
+from .single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
+from .single.oliver_pharr import OliverPharr
+from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
+from .statistics.heights import (
+    AnyHeights,
+    ExponentialHeights,
+    GaussianHeights,
+    HistogramHeights,
+    LaplaceHeights,
+    TriangularHeights,
+    UniformHeights,
+)
+from .statistics.nayak import NayakSummits
+from .subsurface.hertz import (
+    HertzEllipseStress,
+    HertzLineStress,
+    HertzStress,
+    hertz_ellipse_normal,
+    hertz_line_normal,
+    hertz_line_shear,
+    hertz_normal,
+    hertz_shear,
+)
+from .subsurface.loads import (
+    Boussinesq,
+    Cerruti,
+    Flamant,
+    Strip,
+    boussinesq,
+    cerruti,
+    flamant_normal,
+    flamant_tangential,
+    strip_pressure,
+    strip_shear,
+)
+from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
+from .wet.meniscus import MeniscusGrowth
+from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
 
 __all__ = [
     "DMT",

@@ -6,46 +6,46 @@ import difflib
 from types import MappingProxyType
 
 from ..core.errors import InputError
-from .adhesive_sphere import DMT, JKR
-from .anisotropic_summits import AnisotropicSummits
-from .bisinusoid import CrossedWaves
-from .bush_gibson_thomas import BushGibsonThomas, GreenwoodElliptic
-from .chang_etsion_bogy import ChangEtsionBogy, ChangEtsionBogySphere
-from .cone import Cone, Wedge
-from .design_guidance import LeastArea
-from .discrete_summits import DiscreteSummits
-from .effective_hardness import EffectiveHardness
-from .fuller_tabor import FullerTabor
-from .greenwood_tripp import GreenwoodTripp
-from .greenwood_williamson import GreenwoodWilliamson
-from .greenwood_williamson_fits import FittedGreenwoodWilliamson
-from .hertz import HertzPoint
-from .hertz_ellipse import HertzEllipse
-from .hertz_line import HertzLine
-from .hertz_stress import HertzEllipseStress, HertzLineStress, HertzStress
-from .identical_asperities import IdenticalAsperities
-from .indenters import FlatPunch, PowerLawIndenter, SphericalIndenter
-from .interacting_crests import InteractingCrests
-from .jackson_green import JacksonGreen, JacksonGreenSphere
-from .kogut_etsion import KogutEtsion, KogutEtsionSphere
-from .kotwal_bhushan import KotwalBhushan
-from .line_indenters import LineFlatPunch, LinePowerLawIndenter
-from .majumdar_bhushan import MajumdarBhushan
-from .maugis import MaugisDugdale
-from .mccool import McCool
-from .mindlin import MindlinLine, MindlinPoint
-from .nayak import NayakSummits
-from .oliver_pharr import OliverPharr
-from .onions_archard import OnionsArchard
-from .persson import Persson
-from .plasticity import PlasticityIndex, ProfilePlasticityIndex
+from .adhesion.fuller_tabor import FullerTabor
+from .adhesion.spheres import DMT, JKR, MaugisDugdale
+from .hardness.effective_hardness import EffectiveHardness
+from .hardness.plasticity import PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
-from .sinusoidal_asperity import SinusoidalAsperity
-from .sliding_yield import CylinderYield, SphereYield
-from .surface_forces import Boussinesq, Cerruti, Flamant, Strip
-from .wavy import Westergaard
-from .wet_summits import GrowingMenisci, WetSummits
-from .whitehouse_archard import SampledPeaks
+from .rough.design_guidance import LeastArea
+from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
+from .rough.elastic_plastic_laws import (
+    ChangEtsionBogy,
+    ChangEtsionBogySphere,
+    JacksonGreen,
+    JacksonGreenSphere,
+    KogutEtsion,
+    KogutEtsionSphere,
+)
+from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
+from .rough.greenwood_williamson import FittedGreenwoodWilliamson, GreenwoodTripp, GreenwoodWilliamson
+from .rough.interacting_crests import InteractingCrests
+from .rough.kotwal_bhushan import KotwalBhushan
+from .rough.majumdar_bhushan import MajumdarBhushan
+from .rough.persson import Persson
+from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .single.hertz import HertzEllipse, HertzLine, HertzPoint
+from .single.indenters import (
+    Cone,
+    FlatPunch,
+    LineFlatPunch,
+    LinePowerLawIndenter,
+    PowerLawIndenter,
+    SphericalIndenter,
+    Wedge,
+)
+from .single.mindlin import MindlinLine, MindlinPoint
+from .single.oliver_pharr import OliverPharr
+from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
+from .statistics.nayak import NayakSummits
+from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress
+from .subsurface.loads import Boussinesq, Cerruti, Flamant, Strip
+from .subsurface.sliding_yield import CylinderYield, SphereYield
+from .wet.summits import GrowingMenisci, WetSummits
 
 FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
     {

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from .nayak import NARROWEST, ROUNDING
 from .protocol import Limit, Prediction
+from .statistics.nayak import NARROWEST, ROUNDING
 
 SMALL_AREA = 0.1
 """Area fraction up to which contacts count as independent; a few per cent are safe, narrow spectra bear 0.2."""

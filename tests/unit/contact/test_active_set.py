@@ -10,11 +10,11 @@ import pytest
 from contact_cases import elastic, rough
 
 import asperity as asp
-from asperity.contact.operators.coarse import coarse_grid, restricted
+from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
-from asperity.contact.solvers.choose import default_solver
-from asperity.contact.solvers.nested import COARSEST, coarsened, nested_start
-from asperity.contact.solvers.optimality import relative_error
+from asperity.contact.solvers.active_set.cells import COARSEST, coarsened, nested_start
+from asperity.contact.solvers.by_name import default_solver
+from asperity.contact.solvers.protocol import relative_error
 from asperity.solids.compliance.halfspace import HalfSpace
 
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -119,7 +119,7 @@ def test_monotone_steps_lead_to_the_same_answer_with_more_products(boundary: Any
 
 def test_free_steps_end_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
     """With first steps ten times too long none of them helps: careful ones take over, and the answer is found."""
-    monkeypatch.setattr("asperity.contact.solvers.preconditioner._STEP", 8.0)
+    monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP", 8.0)
     qp = posed((64, 60))
     state, solver = ActiveSet().init(qp, None), ActiveSet(tolerance=1e-9)
     frees = 0

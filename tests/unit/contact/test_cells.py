@@ -6,16 +6,21 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.contact.solvers import workspace
-from asperity.contact.solvers.cell_waves import Waves, waves_of
-from asperity.contact.solvers.cells import hierarchies, pixel_compliance
-from asperity.contact.solvers.correction import Effort, System, correction
-from asperity.contact.solvers.preconditioner import NestedCells, RestrictedInverse, preconditioner
-from asperity.contact.solvers.workspace import Bench, bench
+from asperity.contact.solvers.active_set import linear_system as workspace
+from asperity.contact.solvers.active_set.cells import Waves, hierarchies, pixel_compliance, waves_of
+from asperity.contact.solvers.active_set.linear_system import (
+    Bench,
+    Effort,
+    NestedCells,
+    RestrictedInverse,
+    System,
+    bench,
+    correction,
+    preconditioner,
+)
 from asperity.core.arrays import RealArray
 from asperity.core.engine import Engine, Face, Hierarchy
-from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.protocol import Compliance
+from asperity.solids.compliance.halfspace import Compliance, HalfSpace
 
 BODY = HalfSpace(2.0)
 SHAPES = [(1, 1), (1, 64), (37, 1), (16, 16), (12, 50), (31, 17)]

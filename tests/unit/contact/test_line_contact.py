@@ -11,9 +11,8 @@ from solid_cases import on_half_space, stacks
 
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.hybrid import interface_compliances
-from asperity.solids.compliance.layered import LayerStack
-from asperity.theories.hertz_line import HertzLine
+from asperity.solids.compliance.layered import LayerStack, interface_compliances
+from asperity.theories.single.hertz import HertzLine
 
 ROW = next(row for row in reference("cylinder_layered") if row["E1_over_E2"] == 4.0)
 LAYERED = on_half_space(5.0, 0.7)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.patch import patch_displacement
+from asperity.solids.compliance.influence import patch_displacement
 
 SHAPES = st.tuples(st.integers(1, 9), st.integers(1, 9))
 BOUNDARIES = st.sampled_from([asp.Periodic(), asp.Free()])

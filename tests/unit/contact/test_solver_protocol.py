@@ -12,9 +12,7 @@ from hypothesis import strategies as st
 
 from asperity import Grid, InputError, NoSolutionError
 from asperity.contact.operators import PeriodicOperator
-from asperity.contact.solvers import (
-    SOLVERS as CLASSES,
-)
+from asperity.contact.solvers import SOLVERS as CLASSES
 from asperity.contact.solvers import (
     ActiveSet,
     ContactQP,
@@ -28,9 +26,8 @@ from asperity.contact.solvers import (
     run,
     solver_by_name,
 )
-from asperity.contact.solvers.feasible import scaled_to_load
-from asperity.contact.solvers.optimality import best_level, duality_gap, relative_error
-from asperity.contact.solvers.steepest_descent import shifted_to_load
+from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
+from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.theories.kotwal_bhushan import KotwalBhushan
-from asperity.theories.statistical_meniscus import StatisticalMeniscus
+from asperity.theories.rough.kotwal_bhushan import KotwalBhushan
+from asperity.theories.wet.summits import StatisticalMeniscus
 
 NM = 1e-9
 LOAD = asp.MeanPressure(2e6)

@@ -15,7 +15,7 @@ import asperity as asp
 from asperity.contact.viscous import viscous_force
 from asperity.contact.wetting import LiquidFilm, wetting
 from asperity.core.errors import InputError
-from asperity.theories.meniscus import film_force
+from asperity.theories.wet.meniscus import film_force
 
 MODES = defaultdict(list)
 for _row in reference("meniscus_map_modes"):

@@ -18,7 +18,7 @@ from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
 from asperity.core.arrays import RealArray
 from asperity.core.engine import CellWaves, Engine, Hierarchy, Load, Merge
-from asperity.core.engine.blocks import FEW
+from asperity.core.engine.cpu import FEW
 from asperity.core.engine.neighbourhood import SIDE, local_means
 
 REFERENCE = asp.CpuEngine(1)

@@ -5,8 +5,7 @@ import pytest
 from scipy import special
 
 from asperity.core.grid import Grid
-from asperity.core.hankel import log_hankel
-from asperity.core.panels import STEP, TERMS, log_grid, log_table, panels
+from asperity.core.interpolation import STEP, TERMS, log_grid, log_hankel, log_table, panels
 
 COUNT = 8192
 START = float(np.exp(-COUNT // 2 * STEP))

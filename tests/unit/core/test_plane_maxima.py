@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asperity.core.plane_maxima import BLOCK, BOUNDS, block_bounds
 from asperity.core.tensor import StressTensor
-from asperity.stress import invariants
+from asperity.stress import criteria as invariants
+from asperity.stress.kernels.planes import BLOCK, BOUNDS, block_bounds
 
 EXACT = {
     "von_mises": invariants.von_mises,

@@ -7,8 +7,8 @@ import pytest
 
 import asperity as asp
 from asperity.core import require
+from asperity.core.arrays import array_digest
 from asperity.core.citations import REFERENCES, citation_keys, reference
-from asperity.core.digest import array_digest
 
 
 @pytest.mark.parametrize(

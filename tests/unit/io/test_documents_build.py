@@ -45,7 +45,7 @@ from asperity.io.build_surface import build_surface
 from asperity.io.documents import checked, relocated
 from asperity.io.schemas.surfaces import RandomSurface, Shape
 from asperity.run.build import build, build_control
-from asperity.stress.request import StressRequest, WantedProfile, WantedSection
+from asperity.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}

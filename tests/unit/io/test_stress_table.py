@@ -10,8 +10,7 @@ from contact_cases import TIGHT, rough
 
 import asperity as asp
 from asperity.io.stress_table import HEADINGS, export_stress_csv
-from asperity.stress.request import Strengths, StressRequest
-from asperity.stress.survey import survey
+from asperity.stress.survey import Strengths, StressRequest, survey
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
 SOFT = asp.Elastic(0.5, 0.4, name="soft")

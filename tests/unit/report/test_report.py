@@ -15,8 +15,8 @@ from PIL import Image
 import asperity as asp
 from asperity.contact.result import SCALARS
 from asperity.contact.solvers import ConjugateGradient
+from asperity.core.arrays import array_digest
 from asperity.core.citations import reference
-from asperity.core.digest import array_digest
 from asperity.core.errors import OutputError
 from asperity.io.words import body_rows, body_text, surface_rows, value_text
 from asperity.plots import PLASTIC_PLOTS, PLOTS

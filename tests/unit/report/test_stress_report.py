@@ -24,8 +24,7 @@ from asperity.report.stress import (
     yield_sentence,
     yield_table,
 )
-from asperity.stress.request import Strengths, StressRequest
-from asperity.stress.survey import StressSurvey, survey
+from asperity.stress.survey import Strengths, StressRequest, StressSurvey, survey
 
 FILM = asp.Elastic(200e9, 0.25, asp.Strength(hardness=14e9), name="film")
 BASE = asp.Elastic(100e9, 0.3, name="base")

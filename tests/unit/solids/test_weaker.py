@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asperity as asp
-from asperity.solids.weaker import weaker_strength
+from asperity.solids.layers import weaker_strength
 
 
 def body(nu: float, **strength: float) -> asp.Elastic:

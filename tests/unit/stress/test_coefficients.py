@@ -8,13 +8,13 @@ from reference_data import reference
 
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
-from asperity.stress import coefficients
-from asperity.stress.coefficients import PlaneCoefficients
-from asperity.stress.free import FreePlanes
-from asperity.stress.patch import Patch, patch_fields
+from asperity.stress.boundaries import FreePlanes
+from asperity.stress.kernels import coefficients
+from asperity.stress.kernels.coefficients import PlaneCoefficients
+from asperity.stress.kernels.patch import Patch, patch_fields
 from asperity.stress.regions import planes
 from asperity.stress.tractions import ShearTraction, Sliding, Tractions
-from asperity.theories.point_loads import boussinesq, cerruti
+from asperity.theories.subsurface.loads import boussinesq, cerruti
 
 PATCHES, POINTS = reference("layered_patch_fields"), reference("layered_point_fields")
 LAYERED = asp.Layered(

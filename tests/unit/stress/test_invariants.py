@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from asperity.core.deviator import second_invariant
-from asperity.core.tensor import StressTensor
-from asperity.stress import invariants
+from asperity.core.tensor import StressTensor, second_invariant
+from asperity.stress import criteria as invariants
 
 EPS = np.finfo(float).eps
 

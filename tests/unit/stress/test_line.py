@@ -7,12 +7,12 @@ from axisymmetric import wavenumbers
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES
 from asperity.stress.compute import StressPlanes
-from asperity.stress.line_coefficients import FIELDS, LineCoefficients
+from asperity.stress.kernels.coefficients import FIELDS, LineCoefficients
+from asperity.stress.kernels.transfer import transfer
 from asperity.stress.regions import planes
 from asperity.stress.tractions import Tractions
-from asperity.stress.transfer import transfer
-from asperity.theories.hertz_line import HertzLine
-from asperity.theories.hertz_line_fields import hertz_line_normal
+from asperity.theories.single.hertz import HertzLine
+from asperity.theories.subsurface.hertz import hertz_line_normal
 
 BODY = asp.Layered(
     [asp.Layer(asp.Elastic(4.0, 0.2), 0.8), asp.Layer(asp.Elastic(0.5, 0.4), 1.5)], asp.Elastic(1.0, 0.3)

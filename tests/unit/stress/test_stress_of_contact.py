@@ -11,7 +11,7 @@ from asperity.core.tensor import STRESSES
 from asperity.stress.compute import StressPlanes
 from asperity.stress.regions import planes
 from asperity.stress.tractions import Tractions
-from asperity.theories.hertz_fields import hertz_normal, hertz_shear
+from asperity.theories.subsurface.hertz import hertz_normal, hertz_shear
 
 DISK = asp.Layered(
     [asp.Layer(asp.Elastic(280e9, 0.25, name="DLC"), 50e-9), asp.Layer(asp.Elastic(190e9, 0.3), 200e-9)],

@@ -12,10 +12,16 @@ from reference_data import reference
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
-from asperity.stress.invariants import sqrt_J2
-from asperity.stress.request import StressRequest, WantedProfile, WantedSection
-from asperity.stress.survey import survey
-from asperity.stress.survey_depths import RATIO, line_depths, survey_depths
+from asperity.stress.criteria import sqrt_J2
+from asperity.stress.survey import (
+    RATIO,
+    StressRequest,
+    WantedProfile,
+    WantedSection,
+    line_depths,
+    survey,
+    survey_depths,
+)
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
 SOFT = asp.Elastic(0.5, 0.4, name="soft")

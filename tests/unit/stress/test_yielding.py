@@ -7,9 +7,8 @@ from reference_data import reference
 import asperity as asp
 from asperity.stress.compute import StressPlanes
 from asperity.stress.criteria import MaxPrincipal, Tresca, VonMises
-from asperity.stress.fracture import fracture_indicators
 from asperity.stress.tractions import Tractions
-from asperity.stress.yielding import first_yield, load_at_yield
+from asperity.stress.yielding import first_yield, fracture_indicators, load_at_yield
 
 A = 40.0
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from study_cases import PROBLEM
 
-from asperity.core.digest import content_digest
+from asperity.core.arrays import content_digest
 from asperity.core.errors import InputError
 from asperity.io.documents import checked
 from asperity.studies.places import content, locate, problem_table, replaced, scalars

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from study_cases import LOADS, PROBLEM, SEEDS, plan
 
-from asperity.core.digest import content_digest
+from asperity.core.arrays import content_digest
 from asperity.core.errors import InputError
 from asperity.io.documents import checked
 from asperity.studies.edits import edited

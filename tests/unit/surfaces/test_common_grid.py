@@ -7,9 +7,8 @@ from hypothesis import strategies as st
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.common_grid import on_common_grid
+from asperity.surfaces.common_grid import largest_rectangle, on_common_grid
 from asperity.surfaces.generate import GaussianAutocorrelation, gaussian
-from asperity.surfaces.overlap import largest_rectangle
 from asperity.surfaces.pair import composite
 from asperity.surfaces.surface import Surface
 

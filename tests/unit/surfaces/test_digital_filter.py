@@ -19,10 +19,8 @@ from asperity.surfaces.generate import (
     digital_filter,
     endless,
 )
-from asperity.surfaces.generate.digital_filter import input_noise
-from asperity.surfaces.generate.embedding import lattice_eigenvalues
-from asperity.surfaces.generate.kernel import cumulant_factors, filter_kernel, zero_phase_weights
-from asperity.surfaces.generate.noise import block_noise
+from asperity.surfaces.generate.digital_filter import cumulant_factors, filter_kernel, input_noise, zero_phase_weights
+from asperity.surfaces.generate.gaussian import block_noise, lattice_eigenvalues
 
 HU_TONDER = reference("surfaces_hu_tonder")
 KINDS = {"exp": ExponentialAutocorrelation, "gauss": GaussianAutocorrelation}

@@ -12,9 +12,8 @@ from reference_data import FOLDER, reference
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.surfaces.generate import ExponentialAutocorrelation, gaussian, sinusoid
-from asperity.surfaces.prepare.filter import filtered
+from asperity.surfaces.prepare.filter import filtered, transmission
 from asperity.surfaces.prepare.level import levelled
-from asperity.surfaces.prepare.regression import transmission
 from asperity.surfaces.surface import Surface
 
 ROWS = reference("surfaces_map_filter")

@@ -13,8 +13,8 @@ from scipy.integrate import quad
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.surfaces.characterise import fractal
-from asperity.surfaces.characterise.structure import structure_function
+from asperity.surfaces.characterise import correlation as fractal
+from asperity.surfaces.characterise.correlation import structure_function
 
 
 def weierstrass_mandelbrot(row) -> asp.Surface:

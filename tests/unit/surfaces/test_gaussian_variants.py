@@ -30,7 +30,7 @@ from asperity.surfaces.generate import (
     TwoSlopes,
     gaussian,
 )
-from asperity.surfaces.generate.noise import block_noise, node_noise, wave_noise
+from asperity.surfaces.generate.gaussian import block_noise, node_noise, wave_noise
 from asperity.surfaces.prepare.level import levelled
 from asperity.surfaces.surface import Surface
 

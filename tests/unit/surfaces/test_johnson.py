@@ -8,8 +8,7 @@ from reference_data import reference
 from scipy.special import ndtri
 
 from asperity.core.errors import InputError
-from asperity.surfaces.generate.johnson import johnson
-from asperity.surfaces.generate.translation import translated_correlation
+from asperity.surfaces.generate.non_gaussian import johnson, translated_correlation
 
 ROWS = reference("surfaces_johnson")
 KINDS = {"SU": "unbounded", "SB": "bounded"}

@@ -18,7 +18,7 @@ from asperity.surfaces.generate import (
     gaussian,
     spectrum_of,
 )
-from asperity.surfaces.generate.modes import mode_sum
+from asperity.surfaces.generate.power_laws import mode_sum
 from asperity.surfaces.surface import Surface
 
 BAND = SelfAffine(amplitude=RmsHeight(2.0), hurst=0.7, rolloff_wavelength=25.0, shortest_wavelength=4.0)

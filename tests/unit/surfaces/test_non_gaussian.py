@@ -27,8 +27,8 @@ from asperity.surfaces.generate import (
     spectrum_of,
     translated,
 )
-from asperity.surfaces.generate.kernel import cumulant_factors
-from asperity.surfaces.generate.modes import mode_sum
+from asperity.surfaces.generate.digital_filter import cumulant_factors
+from asperity.surfaces.generate.power_laws import mode_sum
 from asperity.surfaces.surface import Surface
 
 GRID = Grid((128, 128), (1.0, 1.0))

@@ -17,10 +17,8 @@ from asperity.surfaces.generate import (
     SelfAffine,
     gaussian,
 )
-from asperity.surfaces.prepare.filter import filtered
-from asperity.surfaces.prepare.level import levelled
-from asperity.surfaces.prepare.outliers import despiked, line_corrected
-from asperity.surfaces.prepare.tip import reliability_cutoff, tip_limited
+from asperity.surfaces.prepare.filter import filtered, reliability_cutoff, tip_limited
+from asperity.surfaces.prepare.level import despiked, levelled, line_corrected
 from asperity.surfaces.surface import Surface
 
 with warnings.catch_warnings():

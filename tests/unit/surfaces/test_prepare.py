@@ -11,11 +11,9 @@ from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.surfaces.characterise.heights import rms_height
 from asperity.surfaces.generate import RmsHeight, SelfAffine, gaussian
-from asperity.surfaces.prepare.crop import cropped
+from asperity.surfaces.prepare.extent import cropped, periodised, resampled, tapered
 from asperity.surfaces.prepare.fill import filled
 from asperity.surfaces.prepare.level import levelled
-from asperity.surfaces.prepare.resample import resampled
-from asperity.surfaces.prepare.window import periodised, tapered
 from asperity.surfaces.surface import Surface
 
 GRID = Grid((36, 30), (1e-7, 1.5e-7))

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from reference_data import FOLDER, Row, reference
 
-from asperity.surfaces.characterise import autocorrelation, material_ratio, moments, slopes, spectrum, structure
+from asperity.surfaces.characterise import correlation as autocorrelation
+from asperity.surfaces.characterise import correlation as structure
+from asperity.surfaces.characterise import material_ratio, moments, slopes, spectrum
 from asperity.surfaces.characterise.heights import mean_height, rms_height
 from asperity.surfaces.characterise.summits import summit_statistics, summits
 from asperity.surfaces.characterise.texture import texture_lengths

@@ -17,10 +17,8 @@ from spectra_cases import GOLD, GOLD_GRID, with_fixed_amplitudes
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
-from asperity.surfaces.characterise.spectral_fit import fit_spectrum
-from asperity.surfaces.characterise.spectral_model import SpectralModel
+from asperity.surfaces.characterise.spectral_fit import Shape, SpectralModel, _log_psd, fit_spectrum
 from asperity.surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
-from asperity.surfaces.characterise.whittle import Shape, _log_psd
 from asperity.surfaces.generate.spectra import mode_sum
 
 GRID = asp.Grid((256, 256), (1.0, 1.0))

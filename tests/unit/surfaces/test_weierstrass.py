@@ -7,7 +7,7 @@ from reference_data import reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.characterise.structure import mean_square_increment
+from asperity.surfaces.characterise.correlation import mean_square_increment
 from asperity.surfaces.generate import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 from asperity.surfaces.surface import Surface
 

@@ -9,7 +9,7 @@ import pytest
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.theories.roughness import MomentTensor, Spectrum, SummitList
+from asperity.theories.statistics.roughness import MomentTensor, Spectrum, SummitList
 
 AMPLITUDE, WAVES, N, PIXEL = 2e-9, 4, 64, 10e-9
 

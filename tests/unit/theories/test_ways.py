@@ -10,8 +10,8 @@ import pytest
 import asperity as asp
 from asperity.core.citations import reference
 from asperity.theories import FAMILIES, THEORIES, evaluate, theory
+from asperity.theories.ask import numbers_of, ways_of
 from asperity.theories.catalogue import nearest
-from asperity.theories.ways import numbers_of, ways_of
 
 SUMMITS = {"E_star": 1e11, "density": 1e12, "radius": 1e-6, "height_deviation": 1e-8}
 BALL = {"E_star": 1e11, "radius": 1e-6}

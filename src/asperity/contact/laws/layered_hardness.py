@@ -13,8 +13,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered
-from ...theories.effective_hardness import EffectiveHardness
-from ...theories.stack_hardness import StackHardness
+from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 from .hardness import Hardness
 
 

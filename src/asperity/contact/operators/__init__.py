@@ -3,10 +3,9 @@
 from ...core.engine import Engine
 from ...core.errors import InputError
 from ...core.grid import Grid
-from ...solids.compliance.protocol import Compliance
+from ...solids.compliance.halfspace import Compliance
 from ..boundary import Boundary, Free, FreeLine, Periodic
-from .free import FreeOperator
-from .periodic import PeriodicOperator
+from .convolution import FreeOperator, PeriodicOperator
 from .protocol import Operator
 
 __all__ = ["FreeOperator", "Operator", "PeriodicOperator", "prepare_operator"]

@@ -1,12 +1,23 @@
-"""Dense forms of the two convolutions, for small grids and as reference for the fast ones."""
+"""From pressure to deflection by transforms, periodic and free."""
 
 from __future__ import annotations
+
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arrays import RealArray
+from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.spectral import RealTransform, fast_length, wrapped
+from ...solids.compliance.halfspace import Compliance
+from ..boundary import Boundary, Free, FreeLine, Periodic
+from .protocol import Octaves, displacement
+
+# Dense forms of the two convolutions, for small grids and as reference for the fast ones.
+
 
 LARGEST_DENSE = 4096
 """Largest number of points for a dense matrix (134 MB); its factorisations take seconds."""
@@ -52,3 +63,196 @@ def _small(kernel: RealArray) -> tuple[int, int]:
             "Use ConjugateGradient() on larger grids."
         )
     return nx, ny
+
+
+# Coarser grids and the fields on them, for first guesses.
+
+
+def coarse_grid(grid: Grid) -> Grid:
+    """Grid of half as many points per side (rounded up) on the same area."""
+    shape = (-(-grid.shape[0] // 2), -(-grid.shape[1] // 2))
+    return Grid(shape, (grid.size[0] / shape[0], grid.size[1] / shape[1]))
+
+
+def restricted(field: RealArray) -> RealArray:
+    """Means of 2 x 2 points of ``field``; at an odd end the last point counts twice."""
+    for axis in (0, 1):
+        n = field.shape[axis]
+        pairs = (
+            np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis),
+            np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis),
+        )
+        field = 0.5 * (pairs[0] + pairs[1])
+    return field
+
+
+# Periodic contact: multiplication by the compliance in Fourier space.
+
+
+class PeriodicOperator:
+    """u(q) = c(q) p(q) on a periodic grid (Stanley & Kato 1997), spectral discretisation.
+
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+
+    Parameters
+    ----------
+    compliance
+        Normal compliance of the contact.
+    grid
+        Periodic cell.
+    engine
+        Machine to compute on; the CPU with its default threads if not given.
+    kernel
+        Compliance (m/Pa) on the half spectrum of ``grid`` where it is known already.
+    octaves
+        Values of the compliance to share, from the operator of a finer grid.
+    """
+
+    pairs_per_application = 1.0
+
+    def __init__(
+        self,
+        compliance: Compliance,
+        grid: Grid,
+        *,
+        engine: Engine | None = None,
+        kernel: RealArray | None = None,
+        octaves: Octaves | None = None,
+    ) -> None:
+        self.grid = grid
+        self.compliance = compliance
+        self.octaves = octaves or Octaves(compliance)
+        self.boundary: Boundary = Periodic()
+        self.engine: Engine = engine or CpuEngine()
+        self.kernel = spectral_kernel(compliance, grid) if kernel is None else kernel
+        self._prepared: dict[tuple[str, float], Convolution] = {}
+        self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
+
+    @property
+    def padded(self) -> tuple[int, int]:
+        """Shape of the grid of the kernel: no padding."""
+        return self.grid.shape
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
+        if (dtype, scale) not in self._prepared:
+            kernel = self.kernel if scale == 1.0 else self.kernel / scale
+            self._prepared[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
+        return self._prepared[dtype, scale]
+
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the compliance over ``scale``: the application ``fast`` itself."""
+        return fast
+
+    @cached_property
+    def coarsened(self) -> PeriodicOperator:
+        """Operator on the grid of half as many points per side, whose waves are the longer half of those here."""
+        grid = coarse_grid(self.grid)
+        fine, (rows, columns) = self.grid.shape[0], grid.shape
+        row = np.arange(rows)
+        of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
+        kernel = self.kernel[of_wave, : columns // 2 + 1]
+        return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel, octaves=self.octaves)
+
+    def apply(self, pressure: RealArray) -> RealArray:
+        """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
+        return displacement(self, pressure)
+
+    def matrix(self) -> RealArray:
+        """Dense matrix in m/Pa, built from the response to one loaded point."""
+        point = np.zeros(self.grid.shape)
+        point[0, 0] = 1.0
+        return circulant_matrix(self.apply(point))
+
+
+def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
+    """Compliance (m/Pa) on the half spectrum of ``grid``; negative frequencies along x are copies of positive ones."""
+    nx, ny = grid.shape
+    rows = nx // 2 + 1
+    qx, qy = grid.wavevector()
+    q = np.hypot(qx[:rows], qy)
+    q[0, 0] = q[-1, -1] or 1.0  # any wavenumber of the grid: its value is replaced
+    kernel = np.empty((nx, ny // 2 + 1))
+    kernel[:rows] = compliance.spectral(q)
+    kernel[0, 0] = compliance.mean_mode()
+    kernel[rows:] = kernel[nx - rows : 0 : -1]
+    return kernel
+
+
+# Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.
+
+
+class FreeOperator:
+    """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no periodicity error.
+
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+
+    Parameters
+    ----------
+    compliance
+        Normal compliance of the contact.
+    grid
+        Grid of pixels that can carry pressure.
+    boundary
+        ``Free()`` or, for strips in plane strain, ``FreeLine()``.
+    engine
+        Machine to compute on; the CPU with its default threads if not given.
+    octaves
+        Values of the compliance to share, from the operator of a finer grid.
+    """
+
+    zero_mean_mode = False
+
+    def __init__(
+        self,
+        compliance: Compliance,
+        grid: Grid,
+        boundary: Free | FreeLine = Free(),
+        *,
+        engine: Engine | None = None,
+        octaves: Octaves | None = None,
+    ) -> None:
+        nx, ny = grid.shape
+        self.grid = grid
+        self.compliance = compliance
+        self.octaves = octaves or Octaves(compliance)
+        self.boundary: Free | FreeLine = boundary
+        self.engine: Engine = engine or CpuEngine()
+        self._influence = boundary.influence(compliance, grid)
+        self._prepared: dict[tuple[str, float], Convolution] = {}
+        self._preconditioners: dict[tuple[str, float], Convolution] = {}
+        self.padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
+        self.pairs_per_application = 0.75 * self.padded[0] * self.padded[1] / grid.n_points  # pruned along y
+
+    @cached_property
+    def kernel(self) -> RealArray:
+        """Transform of the influence coefficients (m/Pa) on the padded grid."""
+        return RealTransform(self.padded).forward(wrapped(self._influence, self.padded)).real.copy()
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
+        if (dtype, scale) not in self._prepared:
+            kernel = self.kernel if scale == 1.0 else self.kernel / scale
+            self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self.padded, dtype)
+        return self._prepared[dtype, scale]
+
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
+        if (dtype, scale) not in self._preconditioners:
+            kernel = spectral_kernel(self.compliance, self.grid) / scale
+            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
+        return self._preconditioners[dtype, scale]
+
+    @cached_property
+    def coarsened(self) -> FreeOperator:
+        """Operator on the grid of half as many points per side."""
+        grid = coarse_grid(self.grid)
+        return FreeOperator(self.compliance, grid, self.boundary, engine=self.engine, octaves=self.octaves)
+
+    def apply(self, pressure: RealArray) -> RealArray:
+        """Displacement (m) under ``pressure`` (Pa), zero at infinity (strips: at the datum)."""
+        return displacement(self, pressure)
+
+    def matrix(self) -> RealArray:
+        """Dense matrix in m/Pa."""
+        return toeplitz_matrix(self._influence)

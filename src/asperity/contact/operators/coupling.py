@@ -6,9 +6,7 @@ import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
-from ...solids.compliance.influence_tensor import coupling_influence
-from ...solids.compliance.line_coupling import coupling_strips
-from ...solids.compliance.tensor import surface_tensor
+from ...solids.compliance.tensor import coupling_influence, coupling_strips, surface_tensor
 from ..boundary import Free, Periodic
 from ..problem import ContactProblem
 

@@ -8,14 +8,13 @@ from typing import Any, TypeAlias
 
 from ...core import require
 from ...core.errors import InputError
-from .active_set import ActiveSet
-from .conjugate_gradient import ConjugateGradient
-from .dense import DenseActiveSet
-from .lemke import Lemke
-from .nnls import NonNegativeLeastSquares
+from ..problem import ContactProblem
+from .active_set.solver import ActiveSet
 from .protocol import Solver
-from .quasi_newton import QuasiNewton
-from .steepest_descent import SteepestDescent
+from .reference.conjugate_gradient import ConjugateGradient
+from .reference.dense import DenseActiveSet, Lemke, NonNegativeLeastSquares
+from .reference.quasi_newton import QuasiNewton
+from .reference.steepest_descent import SteepestDescent
 
 SolverClass: TypeAlias = Callable[..., Solver]
 """Makes a solver from the optional keywords ``tolerance`` and ``max_iterations``."""
@@ -62,3 +61,11 @@ def solver_by_name(
             )
         settings["precision"] = precision
     return make(**settings)
+
+
+# Which method solves a problem best.
+
+
+def default_solver(problem: ContactProblem) -> Solver:
+    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size."""
+    return ActiveSet()

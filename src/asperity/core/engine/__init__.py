@@ -1,7 +1,7 @@
 """Machines to compute on: the CPU with compiled passes, or any array-API library."""
 
+from .array_api import ArrayEngine
 from .cpu import CpuEngine
-from .generic import ArrayEngine
 from .protocol import (
     Cells,
     CellWaves,

@@ -2,19 +2,319 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from .blocks import FEW, Blocks
-from .cpu_cells import CpuCells
-from .cpu_face import ROW_PAD, CpuFace, bound, memory
-from .cpu_waves import CpuWaves
 from .neighbourhood import SIDE, entering_levels
-from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Totals, Violation
+from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Load, Products, Totals, Violation
+
+# Threads for compiled passes: fixed blocks of work, shared out evenly.
+
+
+FEW = 1 << 17
+"""Points below which handing work to another thread costs more than it saves. Two threads on grids of 256² points took
+half as long again as one, on 512² they make no difference, above they gain (two-core virtual machine)."""
+
+
+class Blocks:
+    """Runs compiled passes with a given number of threads. Numba takes long to import, so only when something runs."""
+
+    def __init__(self, threads: int) -> None:
+        self.threads = threads
+        self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
+
+    @cached_property
+    def kernels(self) -> Any:
+        """Passes over whole arrays and over working sets."""
+        return import_module(".kernels", __package__)
+
+    @cached_property
+    def cell_kernels(self) -> Any:
+        """Sweeps over nested cells, also those that end at a convolution."""
+        return import_module(".cell_kernels", __package__)
+
+    def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
+        """Call ``kernel`` over all blocks of ``size`` elements."""
+        blocks = -(-size // self.kernels.BLOCK)
+        self.share(kernel, blocks, *arguments, alone=size < FEW)
+
+    def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, alone: bool) -> None:
+        """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless it is to run ``alone``."""
+        if self._pool is None or alone:
+            kernel((0, parts), *arguments)
+            return
+        shares = min(self.threads, parts)
+        cuts = [parts * i // shares for i in range(shares + 1)]
+        own, *others = pairwise(cuts)
+        jobs = [self._pool.submit(kernel, span, *arguments) for span in others]
+        kernel(own, *arguments)
+        for job in jobs:
+            job.result()
+
+    def sums(self, kernel: Callable[..., None], size: int, columns: int, *arguments: Any) -> RealArray:
+        """Per-block sums (blocks, columns) that ``kernel`` leaves in its last argument."""
+        partial = np.zeros((-(-size // self.kernels.BLOCK), columns))
+        self.run(kernel, size, *arguments, partial)
+        return partial
+
+
+# Working set of the CPU engine: indices of its points, vectors as compressed arrays.
+
+
+ROW_PAD = 16
+"""Gap in floats between the rows of a field in single precision."""
+
+_NO_CAP = np.full(1, np.inf)
+
+
+@dataclass(frozen=True, eq=False)
+class CpuFace:
+    """Working set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual."""
+
+    blocks: Blocks
+    shape: tuple[int, int]
+    index: Any
+    start: RealArray
+    entering: int
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return int(self.index.size)
+
+    @cached_property
+    def rows(self) -> Any:
+        """Where the points of every row begin in ``index``, and the number of points."""
+        return np.searchsorted(self.index, np.arange(self.shape[0] + 1, dtype=np.int64) * self.shape[1])
+
+    @cached_property
+    def _apart(self) -> Any:
+        return self.index + self.index // self.shape[1] * self.index.dtype.type(ROW_PAD)
+
+    def place(self, field: RealArray) -> Any:
+        """Indices of the points in the memory of ``field``."""
+        return self.index if field.flags.c_contiguous else self._apart
+
+    def residual(self, *, centred: bool) -> RealArray:
+        """Residual vector."""
+        if centred and self.size:
+            self.start[...] -= self.start.mean(dtype=np.float64)
+        return self.start
+
+    def copied(self, vector: RealArray) -> RealArray:
+        """Copy of ``vector``."""
+        return vector.copy()
+
+    def zeros(self) -> RealArray:
+        """Vector of zeros."""
+        return np.zeros_like(self.start)
+
+    def lay(self, values: RealArray, field: RealArray, added: float | None = None) -> None:
+        """Lay ``values`` out in the field, or add to it."""
+        if added is None:
+            self._run("scatter", self.place(field), values, memory(field))
+        else:
+            self._run("scatter_more", self.place(field), values, values.dtype.type(added), memory(field))
+
+    def press(self, p: RealArray, factor: float, scale: float) -> RealArray:
+        """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
+        self._run("press", self.index, p.ravel(), factor, scale, self.start)
+        return self.start
+
+    def lay_change(self, old: RealArray, values: RealArray, r: RealArray, field: RealArray) -> tuple[RealArray, float]:
+        """Lay ``values`` - ``old`` out in the field."""
+        change = np.empty_like(r)
+        arguments = (self.index, self.place(field), old, values.ravel(), r, change, memory(field))
+        return change, self._sums("lay_change", 1, *arguments)[0]
+
+    def gather(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
+        """Vector of ``field`` in ``out``."""
+        total, first, second = self._sums("gather", 3, self.place(field), memory(field), a, b, out)
+        return Products(out, total, first, second)
+
+    def direct(
+        self, z: RealArray, mean: float, ratio: float, t: RealArray, r: RealArray, field: RealArray
+    ) -> tuple[RealArray, float]:
+        """t = (z - mean) + ratio t in place, laid out in the field."""
+        kind = t.dtype.type
+        arguments = (self.place(field), z, kind(mean), kind(ratio), t, r, memory(field))
+        return t, self._sums("direct", 1, *arguments)[0]
+
+    def advance(
+        self, length: float, t: RealArray, kt: RealArray, mean: float, d: RealArray, r: RealArray
+    ) -> tuple[RealArray, RealArray]:
+        """d += length t and r -= length (kt - mean) in place."""
+        kind = t.dtype.type
+        self._run("advance", kind(length), t, kt, kind(mean), d, r)
+        return d, r
+
+    def pick(self, values: RealArray) -> tuple[RealArray, float]:
+        """Vector of ``values`` and its sum."""
+        out = np.empty(self.size, values.dtype)
+        return out, self._sums("pick", 1, self.index, values.ravel(), out)[0]
+
+    def blend(self, old: RealArray, share: float, values: RealArray) -> None:
+        """values = old + share (values - old)."""
+        self._run("blend", self.index, old, share, values.ravel())
+
+    def shift(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
+        """p += scale d."""
+        below, lack = self._sums("shift", 2, self.index, p.ravel(), d, scale)
+        return int(below), lack
+
+    def move(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> tuple[Load, int]:
+        """p += scale d, clipped."""
+        total, movable, below, clipped = self._sums("move", 4, self.index, p.ravel(), d, scale, bound(cap))
+        return Load(total, movable, int(below)), int(clipped)
+
+    def scale(self, p: RealArray, factor: float, shift: float, cap: RealArray | None) -> Load:
+        """p = factor p + shift below the cap, clipped."""
+        total, movable, below = self._sums("scale", 3, self.index, p.ravel(), factor, shift, bound(cap))
+        return Load(total, movable, int(below))
+
+    def _run(self, kernel: str, *arguments: Any) -> None:
+        self.blocks.run(getattr(self.blocks.kernels, kernel), self.size, *arguments)
+
+    def _sums(self, kernel: str, columns: int, *arguments: Any) -> list[float]:
+        found = self.blocks.sums(getattr(self.blocks.kernels, kernel), self.size, columns, *arguments)
+        return [float(value) for value in found.sum(axis=0)]
+
+
+def memory(field: RealArray) -> RealArray:
+    """All memory of a field made by ``CpuEngine.field``, gaps between rows included; of others the field itself."""
+    base = field if field.flags.c_contiguous or not isinstance(field.base, np.ndarray) else field.base
+    return base.reshape(-1)
+
+
+def bound(cap: RealArray | None) -> RealArray:
+    """Flat cap for the kernels: one value for all points, infinity for none, or one for each."""
+    return _NO_CAP if cap is None else cap.ravel()
+
+
+# Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
+
+
+class CpuCells:
+    """Exact inverse of nested cells on a working set (see ``cell_kernels``), a hierarchy per thread."""
+
+    def __init__(
+        self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
+    ) -> None:
+        self._blocks = blocks
+        self._shape = shape
+        self.levels, size = _layout(shape, hierarchies)
+        self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
+        self.g = np.zeros(size, dtype)
+        self.s = np.zeros(size, dtype)
+        self._nothing = np.empty(0, dtype)
+
+    def restrict(self, face: Face) -> None:
+        """Prepare for the points of ``face``."""
+        self._sweep("stiffen", face, self._nothing)
+
+    def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """Inverse times ``r``."""
+        self._sweep("deflect", face, r)
+        return self.at_points(face, r, other, out)
+
+    def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
+        """r - factor times the deflection of the cells, which pass everything on: g = 1, and 0 on the rims."""
+        for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
+            self.g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
+        self._sweep("deflect", loaded, change * change.dtype.type(factor))
+        return np.asarray(self.at_points(face, r, r, np.empty_like(r)).vector)
+
+    def at_points(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """``r`` less the deflections of the finest cells that lie in s."""
+        assert isinstance(face, CpuFace)
+        sums = np.zeros((self._shape[0], 3))
+        arguments = (self.levels, self._shape, face.rows, face.index, r, other, self.s, out, sums)
+        relieve = self._blocks.cell_kernels.relieve
+        self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
+        total, first, second = (float(value) for value in sums.sum(axis=0))
+        return Products(out, total, first, second)
+
+    def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
+        assert isinstance(face, CpuFace)
+        arguments = (self.levels, self.weights, self._shape, face.rows, face.index, values, self.g, self.s)
+        call = getattr(self._blocks.cell_kernels, kernel)
+        self._blocks.share(call, len(self.levels), *arguments, alone=self.g.size < FEW)
+
+
+def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
+    """Table ``levels`` of ``cell_kernels`` (hierarchy, level, column) and the memory in elements."""
+    levels = np.zeros((len(hierarchies), len(hierarchies[0].merges) + 1, 10), np.int64)
+    end = 0
+    for number, hierarchy in enumerate(hierarchies):
+        nx, ny = shape
+        for depth, merge in enumerate(hierarchy.merges, start=1):
+            nx, ny = merged(nx, merge.x, merge.offset_x), merged(ny, merge.y, merge.offset_y)
+            stride = ny + 2
+            flags = merge.x, merge.y, merge.offset_x, merge.offset_y
+            levels[number, depth] = end + stride + 1, nx, ny, stride, *flags, *hierarchy.roll
+            end += (nx + 2) * stride
+    return levels, end
+
+
+def merged(n: int, pairs: bool, offset: int) -> int:
+    """Number of cells that ``n`` cells form in ``pairs`` (or stay), the first alone if ``offset`` is 1."""
+    return ((n - 1 + offset) >> 1) + 1 if pairs else n
+
+
+# Nested cells of the CPU engine that end at a convolution.
+
+
+class CpuWaves:
+    """Inverse of nested cells with waves on a working set (see ``cell_kernels``), a hierarchy and a product per thread."""
+
+    def __init__(
+        self, blocks: Blocks, cells: CpuCells, waves: CellWaves, products: tuple[Convolution, ...], dtype: str
+    ) -> None:
+        self._blocks = blocks
+        self._cells = cells
+        self._depth = waves.depth
+        self._products = products
+        self._fields = np.zeros((len(products), 5, *waves.cells), dtype)
+
+    def restrict(self, face: Face) -> None:
+        """Prepare for the points of ``face``."""
+        self._cells.restrict(face)
+        kernels = self._blocks.cell_kernels
+        for levels, fields in zip(self._cells.levels, self._fields, strict=True):
+            kernels.take(levels[self._depth], self._cells.s, fields[kernels.UNIT])
+
+    def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """Inverse times ``r``, nearly."""
+        assert isinstance(face, CpuFace)
+        self._blocks.share(self._deflect, len(self._products), face, r, alone=self._cells.g.size < FEW)
+        return self._cells.at_points(face, r, other, out)
+
+    def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
+        """r - factor times the deflection of nested cells, which is near enough."""
+        return self._cells.relieved(face, r, loaded, change, factor)
+
+    def _deflect(self, span: tuple[int, int], face: CpuFace, r: RealArray) -> None:
+        """Deflections of the finest cells of the hierarchies of the span."""
+        kernels: Any = self._blocks.cell_kernels
+        cells = self._cells
+        for number in range(*span):
+            tower = cells.levels[number], cells.weights, cells.g, cells.s, self._depth
+            fields, apply = self._fields[number], self._products[number].apply
+            field, response = fields[kernels.FIELD], fields[kernels.RESPONSE]
+            kernels.begin(tower, face.shape, face.rows, face.index, r, fields)
+            apply(field, response)
+            product = kernels.improve(tower, fields)
+            apply(field, response)
+            kernels.finish(tower, fields, product)
 
 
 class CpuEngine:
@@ -114,7 +414,7 @@ class CpuEngine:
     def release(self, face: Face, field: RealArray) -> None:
         """Zero on the face."""
         assert isinstance(face, CpuFace)
-        self.blocks.run(self.blocks.face_kernels.clear, face.size, face.place(field), memory(field))
+        self.blocks.run(self.blocks.kernels.clear, face.size, face.place(field), memory(field))
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,19 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from .preparation import Step
-from .values import (
-    ORDERED,
-    Angle,
-    Channel,
-    HeightUnit,
-    Length,
-    Lengths,
-    Points,
-    SignedLengths,
-    Size,
-    Table,
-    Text,
-)
+from .values import ORDERED, Angle, Channel, HeightUnit, Length, Lengths, Points, SignedLengths, Size, Table, Text
 
 
 class Place(Table):

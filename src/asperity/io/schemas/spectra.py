@@ -8,18 +8,7 @@ from pydantic import Field, model_validator
 
 from ...core.errors import InputError
 from .base import FileSurface
-from .values import (
-    ORDERED,
-    AnyNumber,
-    Fraction,
-    Hurst,
-    Length,
-    NonNegativeLength,
-    Number,
-    Numbers,
-    Psd,
-    Table,
-)
+from .values import ORDERED, AnyNumber, Fraction, Hurst, Length, NonNegativeLength, Number, Numbers, Psd, Table
 
 AMPLITUDES = ("rms_height", "rms_slope", "plateau")
 """Keys of which a spectrum has exactly one."""

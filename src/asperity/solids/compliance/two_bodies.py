@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.grid import Grid
-from ..body import Body, contact_modulus, deformable, materials_of
-from ..layers import Layered
-from .halfspace import HalfSpace
+from ..layers import Body, Layered, contact_modulus, deformable, materials_of
+from .halfspace import Compliance, HalfSpace
 from .layered import LayerStack
-from .protocol import Compliance
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ..surface import Surface
@@ -113,3 +114,68 @@ def _defined(value: float, what: str) -> float:
     if math.isnan(value):
         raise InputError(f"surface must have heights that differ for its {what} to be defined, but all are equal.")
     return value
+
+
+# How the heights are distributed, beside the normal distribution of the same deviation.
+
+
+@dataclass(frozen=True, eq=False)
+class HeightDistribution:
+    """Probability density of the heights about their mean: ``edges`` (n + 1,) in m, ``density`` (n,) in 1/m.
+
+    ``deviation`` is Sq in m, that of the normal distribution to compare with.
+    """
+
+    edges: RealArray
+    density: RealArray
+    deviation: float
+
+    def normal(self, height: RealArray) -> RealArray:
+        """Density in 1/m of the normal distribution of the same deviation at ``height`` in m; zero for a flat map."""
+        if self.deviation == 0.0:
+            return np.zeros_like(height)
+        values: RealArray = np.exp(-0.5 * (height / self.deviation) ** 2) / (np.sqrt(2.0 * np.pi) * self.deviation)
+        return values
+
+
+def height_distribution(surface: Surface, bins: int | None = None) -> HeightDistribution:
+    """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the highest.
+
+    By default there are as many bins as Rice's rule says, 2 N^(1/3), up to 100.
+
+    Raises
+    ------
+    InputError
+        If ``bins`` is not a whole number >= 1.
+    """
+    z = deviations(surface)
+    count = (
+        min(100, int(np.ceil(2.0 * z.size ** (1.0 / 3.0))))
+        if bins is None
+        else require.integer(bins, 1, "number of bins")
+    )
+    density, edges = np.histogram(z, count, density=True)
+    return HeightDistribution(edges, density, float(np.sqrt(np.mean(np.square(z)))))
+
+
+# How much of a map is its tilt, which has to be removed before most numbers mean anything.
+
+
+def tilt_share(surface: Surface) -> float:
+    """Share of the mean square height that lies in the best plane, 0 to 1; exact for a complete map, 0 for a flat one.
+
+    On a map with holes the fits along x and y are not independent, and the share is an estimate.
+    """
+    z = np.where(surface.mask, 0.0, surface.heights - mean_height(surface))
+    total = float(np.einsum("ij,ij", z, z))
+    if total == 0.0:
+        return 0.0
+    count = surface.grid.n_points - surface.n_missing
+    return min(1.0, sum(_explained(z.sum(axis=1 - axis), count) for axis in (0, 1)) / total)
+
+
+def _explained(sums: RealArray, count: int) -> float:
+    """Sum of squares that the line along an axis explains, from the ``sums`` of heights of its lines."""
+    x = np.arange(sums.size) - 0.5 * (sums.size - 1)
+    spread = float(x @ x) * count / sums.size
+    return float(x @ sums) ** 2 / spread if spread > 0.0 else 0.0

@@ -12,11 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import RealArray
-from ..generate.modes import mode_sum
+from ..generate.power_laws import mode_sum
 from ..surface import Surface
-from .differences import mean_of
 from .heights import rms_height
-from .slopes import forward_slopes, rms_laplacian, rms_profile_curvature, rms_profile_slope
+from .slopes import forward_slopes, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope
 from .spectrum import PowerSpectrum
 
 

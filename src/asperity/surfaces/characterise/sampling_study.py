@@ -15,8 +15,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ..prepare.level import levelled
 from ..surface import Origin, Surface
-from .autocorrelation import DROP_1E, DROP_TENTH, autocovariance
-from .fractal import fractal_parameters
+from .correlation import DROP_1E, DROP_TENTH, autocovariance, fractal_parameters
 from .heights import height_parameters
 from .moments import nayak_parameter
 from .slopes import rms_profile_curvature, rms_profile_slope

@@ -3,39 +3,279 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
 from operator import attrgetter
-from typing import ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from ...core import require
+from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.units import percent
+from ..prepare.fill import filled
 from ..surface import Surface
-from .attempts import Attempts
-from .autocorrelation import DROP_1E, DROP_TENTH
-from .curves import Curves, SpectralCurves, completed, measured_curves, measured_spectra
-from .expectation import effective_samples
-from .fractal import FractalParameters, fractal_parameters
-from .heights import HeightParameters, height_parameters
-from .material_ratio import FunctionalParameters, functional_parameters
-from .moments import DifferenceMoments, SlopeTensor, SpectralMoments, difference_moments, spectral_moments
-from .parameters import (
-    HybridParameters,
-    Moments,
-    Sampling,
-    SpatialParameters,
-    SpectralParameters,
-    SummitDensities,
-    spectral_parameters,
-    undefined,
+from .correlation import (
+    DROP_1E,
+    DROP_TENTH,
+    Autocovariance,
+    FractalParameters,
+    ScaleDependence,
+    StructureFunction,
+    autocovariance,
+    fractal_parameters,
+    scale_dependence,
+    structure_function,
+    tip_cutoff,
 )
-from .peaks import ProfilePeaks, profile_peaks
+from .heights import HeightDistribution, HeightParameters, height_distribution, height_parameters, tilt_share
+from .material_ratio import FunctionalParameters, MaterialRatioCurve, functional_parameters, material_ratio_curve
+from .moments import DifferenceMoments, SlopeTensor, SpectralMoments, difference_moments, spectral_moments
 from .quantities import QUANTITIES
 from .slopes import developed_area_ratio, rms_slope
-from .summits import summit_statistics, summits
-from .texture import texture_lengths
-from .tilt import tilt_share
-from .windows import chosen_window
+from .spectral_fit import SpectralFit, fit_spectrum
+from .spectrum import (
+    PowerSpectrum,
+    ProfileSpectrum,
+    RadialSpectrum,
+    chosen_window,
+    effective_samples,
+    power_spectrum,
+    profile_spectrum,
+    radial_spectrum,
+)
+from .summits import ProfilePeaks, Summits, SummitStatistics, profile_peaks, summit_statistics, summits
+from .texture import AngularSpectrum, angular_spectrum, texture_lengths
+
+# Measurements that not every surface allows.
+
+
+T = TypeVar("T")
+
+
+class Attempts:
+    """Runs measurements; one that the surface does not allow gives None and leaves a sentence in ``remarks``."""
+
+    def __init__(self) -> None:
+        self.remarks: list[str] = []
+
+    def __call__(self, what: str, measure: Callable[[], T]) -> T | None:
+        """Value of ``measure()``, or None after an ``InputError``; ``what`` names it in the remark."""
+        try:
+            return measure()
+        except InputError as error:
+            self.remarks.append(f"No {what}: {error}")
+            return None
+
+    def along_axes(self, what: str, measure: Callable[[str], T]) -> tuple[T | None, T | None]:
+        """Values of ``measure("x")`` and ``measure("y")``."""
+        return self(f"{what} along x", lambda: measure("x")), self(f"{what} along y", lambda: measure("y"))
+
+
+# The functions behind the numbers of a characterisation, each computed once.
+
+
+_MODEL_ERROR = 0.1  # of power laws fitted to measured maps, which are not periodic
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Functions of a surface; tuples hold those along x and y. None where a function is not defined."""
+
+    material_ratio: MaterialRatioCurve
+    distribution: HeightDistribution
+    autocovariance: Autocovariance
+    summits: Summits
+    structure: tuple[StructureFunction | None, StructureFunction | None]
+    scale: tuple[ScaleDependence | None, ScaleDependence | None]
+
+
+@dataclass(frozen=True, eq=False)
+class SpectralCurves:
+    """Spectra of a surface; ``tip_cutoff`` (m) is the wavelength below which they were not fitted, NaN if none was given.
+
+    ``power`` two-dimensional spectrum, ``radial`` its mean over rings, ``profiles`` those along x and y, ``angular`` by
+    direction, ``fit`` the fitted model. None where it is not defined.
+    """
+
+    power: PowerSpectrum | None
+    radial: RadialSpectrum | None
+    profiles: tuple[ProfileSpectrum | None, ProfileSpectrum | None]
+    angular: AngularSpectrum | None
+    fit: SpectralFit | None
+    tip_cutoff: float
+
+
+def measured_curves(surface: Surface, attempt: Attempts) -> Curves:
+    """Functions of ``surface`` that need no spectrum; missing points are left out."""
+    structure = attempt.along_axes("structure function", lambda axis: structure_function(surface, axis=axis))
+    known = dict(zip("xy", structure, strict=True))
+    scale = attempt.along_axes(
+        "scale-dependent curvature", lambda axis: scale_dependence(surface, axis=axis, structure=known[axis])
+    )
+    return Curves(
+        material_ratio=material_ratio_curve(surface),
+        distribution=height_distribution(surface),
+        autocovariance=autocovariance(surface),
+        summits=summits(surface),
+        structure=structure,
+        scale=scale,
+    )
+
+
+def measured_spectra(
+    surface: Surface, window: str, *, tip_radius: float | None, curves: Curves, attempt: Attempts
+) -> SpectralCurves:
+    """Spectra of the complete ``surface``, fitted above the length that a tip of ``tip_radius`` (m) resolves."""
+    cutoff = math.nan
+    if tip_radius is not None:
+        cutoff = max((tip_cutoff(curve, tip_radius) for curve in curves.scale if curve is not None), default=math.nan)
+    power = attempt("power spectrum", lambda: power_spectrum(surface, window))
+    lines = "hann" if window == "radial hann" else window
+    profiles = attempt.along_axes(
+        "spectrum of profiles", lambda axis: profile_spectrum(surface, axis=axis, window=lines)
+    )
+    if power is None:
+        return SpectralCurves(None, None, profiles, None, None, cutoff)
+    reliable = 0.0 if math.isnan(cutoff) else cutoff
+    error = 0.0 if surface.periodic else _MODEL_ERROR
+    return SpectralCurves(
+        power,
+        radial=radial_spectrum(power),
+        profiles=profiles,
+        angular=angular_spectrum(power),
+        fit=attempt("fitted spectrum", lambda: fit_spectrum(power, reliable_wavelength=reliable, model_error=error)),
+        tip_cutoff=cutoff,
+    )
+
+
+def completed(surface: Surface, fill: str | None, attempt: Attempts) -> Surface:
+    """``surface`` with its missing points filled by the method ``fill``, for the spectra; as it is without one."""
+    if fill is None or surface.n_missing == 0:
+        return surface
+    complete = filled(surface, fill)
+    step = complete.origin.history[-1]
+    attempt.remarks.append(f"For the spectra alone the surface was {step}; all other numbers leave these points out.")
+    return complete
+
+
+# The groups of numbers that make up the characterisation of a surface.
+
+
+_NAN = math.nan
+
+
+@dataclass(frozen=True)
+class SpatialParameters:
+    """Lengths over which heights are correlated (m) and directions of the texture (rad from +x towards +y, [0, π)).
+
+    ``Sal``, ``Str``, ``Std`` of ISO 25178-2; ``lay`` across the steepest axis of the slope tensor, which is less
+    sensitive to noise than Std; ``beta_e_x``, ``beta_e_y`` distance of R/R(0) = 1/e and ``beta_01_x``, ``beta_01_y``
+    (β*) of 0.1 along the axes. NaN where the correlation does not fall that far inside the map.
+    """
+
+    Sal: float
+    Str: float
+    Std: float
+    lay: float
+    beta_e_x: float
+    beta_e_y: float
+    beta_01_x: float
+    beta_01_y: float
+
+
+@dataclass(frozen=True)
+class HybridParameters:
+    """``Sdq`` rms gradient, ``Sdr`` developed area less one (both dimensionless), ``Ssc`` mean summit curvature (1/m)."""
+
+    Sdq: float
+    Sdr: float
+    Ssc: float
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Moments by finite differences and from the spectrum."""
+
+    difference: DifferenceMoments
+    spectral: SpectralMoments
+
+
+@dataclass(frozen=True)
+class SummitDensities:
+    """Summit statistics by both definitions: above 8 neighbours (``eight``, the one to use) and above 4 (``four``)."""
+
+    eight: SummitStatistics
+    four: SummitStatistics
+
+
+@dataclass(frozen=True)
+class SpectralParameters:
+    """Fitted form of the spectrum; relative standard errors (``*_error``) but for exponents, whose are absolute.
+
+    ``exponent_1``, ``exponent_2`` of C ~ q^-a; ``hurst`` = (a1 - 2)/2 where that is a Hurst exponent, between 0 and 1 to
+    two standard errors; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
+    (m), NaN if the scan shows no roll-off; ``crossover_wavelength`` (m) between two power laws; ``floor`` (m⁴) of white
+    noise; ``short_cutoff`` wavelength (m) at which the spectrum ends. NaN for what the spectrum does not have.
+    """
+
+    hurst: float = _NAN
+    hurst_error: float = _NAN
+    exponent_1: float = _NAN
+    exponent_1_error: float = _NAN
+    exponent_2: float = _NAN
+    exponent_2_error: float = _NAN
+    plateau: float = _NAN
+    plateau_error: float = _NAN
+    rolloff_wavelength: float = _NAN
+    rolloff_error: float = _NAN
+    crossover_wavelength: float = _NAN
+    crossover_error: float = _NAN
+    floor: float = _NAN
+    floor_error: float = _NAN
+    short_cutoff: float = _NAN
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How far the map speaks for the surface, if its heights are Gaussian.
+
+    ``effective_samples`` number of independent heights; ``Sq_error`` relative scatter of Sq from map to map,
+    1/sqrt(2 N_eff); ``tip_cutoff`` length (m) below which the tip may have shaped the map, NaN if no tip was given.
+    """
+
+    effective_samples: float
+    Sq_error: float
+    tip_cutoff: float
+
+
+def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
+    """The numbers of ``fit``."""
+    model, errors = fit.model, fit.errors
+    two = len(model.exponents) == 2
+    self_affine = 0.0 < model.hurst[0] <= 1.0 + 2.0 * fit.hurst_error
+    return SpectralParameters(
+        hurst=model.hurst[0] if self_affine else _NAN,
+        hurst_error=fit.hurst_error if self_affine else _NAN,
+        exponent_1=model.exponents[0],
+        exponent_1_error=errors["exponent_1"],
+        exponent_2=model.exponents[1] if two else _NAN,
+        exponent_2_error=errors.get("exponent_2", _NAN),
+        plateau=model.level if model.has_plateau else _NAN,
+        plateau_error=errors["level"] if model.has_plateau else _NAN,
+        rolloff_wavelength=model.rolloff_wavelength if model.has_plateau else _NAN,
+        rolloff_error=errors.get("rolloff_wavelength", _NAN),
+        crossover_wavelength=model.crossover_wavelength,
+        crossover_error=errors.get("crossover_wavelength", _NAN),
+        floor=model.floor if "floor" in errors else _NAN,
+        floor_error=errors.get("floor", _NAN),
+        short_cutoff=fit.short_cutoff,
+    )
+
+
+def undefined(kind: type[T], **known: Any) -> T:
+    """Group of the dataclass ``kind`` with NaN for all that is not ``known``."""
+    return kind(**{item.name: known.get(item.name, _NAN) for item in fields(kind)})  # type: ignore[arg-type]
+
 
 _TILT = 1e-3  # share of the mean square height in a plane above which a map was not levelled
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from .autocorrelation import DROP_ISO, Autocovariance
+from .correlation import DROP_ISO, Autocovariance
 from .spectrum import PowerSpectrum
 
 _RAY_STEPS = 2  # samples per pixel along a ray

@@ -1,28 +1,28 @@
 """Generated surfaces: deterministic shapes and textures, spectra, Gaussian and other random roughness."""
 
-from .amplitude import PlateauPSD, RmsHeight, RmsSlope
 from .autocorrelation import ExponentialAutocorrelation, GaussianAutocorrelation
 from .bimodal import bimodal, particles, two_process
-from .digital_filter import EndlessSurface, digital_filter, endless
-from .gaussian import gaussian
-from .marginal import HeightMoments, HeightsOf, TwoLevels
-from .measured import MeasuredSpectrum, TabulatedSpectrum, spectrum_of
-from .rank_ordered import rank_ordered
-from .shapes import (
+from .deterministic import (
     bisinusoid,
     cone,
     cylinder,
+    dimples,
     elliptic_paraboloid,
     flat,
     flat_punch,
+    grooves,
+    laser_bumps,
     power_law,
     sinusoid,
     sphere,
     wedge,
 )
-from .spectra import SelfAffine, Spectrum, TwoSlopes
-from .textures import dimples, grooves, laser_bumps
-from .translation import translated
+from .digital_filter import EndlessSurface, digital_filter, endless
+from .gaussian import gaussian
+from .non_gaussian import HeightMoments, HeightsOf, TwoLevels, translated
+from .power_laws import PlateauPSD, RmsHeight, RmsSlope
+from .rank_ordered import rank_ordered
+from .spectra import MeasuredSpectrum, SelfAffine, Spectrum, TabulatedSpectrum, TwoSlopes, spectrum_of
 from .weierstrass import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 
 __all__ = [

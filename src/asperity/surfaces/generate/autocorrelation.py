@@ -12,7 +12,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.units import show
-from .embedding import clipping_text, embedded_psd
+from .gaussian import clipping_text, embedded_psd
 
 _EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
 _GAUSSIAN_DOMAIN = 8.0  # the same; negative part 1e-7

@@ -17,9 +17,7 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.units import show
 from ..surface import Origin, Surface
-from .embedding import Spectrum
-from .gaussian import random_field
-from .noise import sub_seeds
+from .gaussian import Spectrum, random_field, sub_seeds
 
 _KEYS = ("PengBhushan2000",)
 _MOST_PARTICLES = 10_000_000

@@ -5,14 +5,108 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
+from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
-from .amplitude import Amplitude, PlateauPSD, RmsHeight, RmsSlope
-from .modes import multiplicity
+from ...core.units import show
+
+# How the amplitude of a spectrum is given: alternatives, of which a spectrum takes one.
+
+
+@dataclass(frozen=True)
+class RmsHeight:
+    """Amplitude of a spectrum given by the rms height (m) of the surface, about its mean."""
+
+    value: float
+
+    def __post_init__(self) -> None:
+        require.positive(self.value, "rms height (m)")
+
+
+@dataclass(frozen=True)
+class RmsSlope:
+    """Amplitude of a spectrum given by the rms gradient sqrt(<|∇h|²>) of the surface (spectral, dimensionless)."""
+
+    value: float
+
+    def __post_init__(self) -> None:
+        require.positive(self.value, "rms slope")
+
+
+@dataclass(frozen=True)
+class PlateauPSD:
+    """Amplitude of a spectrum given by its plateau C0 (m⁴)."""
+
+    value: float
+
+    def __post_init__(self) -> None:
+        require.positive(self.value, "plateau of the power spectrum (m^4)")
+
+
+Amplitude: TypeAlias = RmsHeight | RmsSlope | PlateauPSD
+
+
+def require_amplitude(amplitude: object, what: str) -> None:
+    """Refuse what is not an ``Amplitude``; ``what`` names the spectrum.
+
+    Raises
+    ------
+    InputError
+        As said.
+    """
+    if not isinstance(amplitude, (RmsHeight, RmsSlope, PlateauPSD)):
+        raise InputError(
+            f"amplitude of a {what} spectrum must be an RmsHeight, RmsSlope or PlateauPSD, "
+            f"but is {amplitude!r}. Write for example RmsHeight(1e-9)."
+        )
+
+
+def amplitude_text(amplitude: Amplitude) -> str:
+    """Words and number of ``amplitude`` for the history of a surface."""
+    if isinstance(amplitude, RmsHeight):
+        return f"rms height {show(amplitude.value, 'm')}"
+    name, unit = ("rms slope", "") if isinstance(amplitude, RmsSlope) else ("plateau", " m^4")
+    return f"{name} {amplitude.value:.4g}{unit}"
+
+
+# Sums over the modes of a periodic grid.
+
+
+def mode_sum(grid: Grid, half: RealArray) -> float:
+    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 + 1).
+
+    For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
+    """
+    return float(half.sum(axis=0) @ multiplicity(grid)) / grid.area
+
+
+def multiplicity(grid: Grid) -> RealArray:
+    """How many modes of the full plane each column (ny // 2 + 1,) of a half spectrum stands for."""
+    weights = np.full(grid.shape[1] // 2 + 1, 2.0)
+    weights[0] = 1.0
+    if grid.shape[1] % 2 == 0:
+        weights[-1] = 1.0
+    return weights
+
+
+def mean_square(grid: Grid, psd: RealArray) -> float:
+    """Mean square height in m² of the spectrum C on the modes of ``grid`` in m⁴.
+
+    Raises
+    ------
+    InputError
+        If it is zero.
+    """
+    square = mode_sum(grid, psd)
+    if not square > 0.0:
+        raise InputError("spectrum of a random surface must be positive at some mode, but is zero on this grid.")
+    return square
+
 
 _ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exactly on it is kept
 

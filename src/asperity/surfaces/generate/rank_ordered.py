@@ -14,9 +14,9 @@ from ...core.grid import Grid
 from ...core.progress import NoProgress, Progress
 from ...core.spectral import RealTransform, thread_count
 from ..surface import Origin, Surface
-from .embedding import Spectrum
-from .marginal import Marginal
-from .modes import mean_square, mode_sum
+from .gaussian import Spectrum
+from .non_gaussian import Marginal
+from .power_laws import mean_square, mode_sum
 
 _KEYS = ("Schreiber1996", "PerezRafols2019")
 _PATIENCE, _SETTLED = 10, 0.97  # the error of the amplitudes has settled when so many iterations leave so much of it

@@ -1,0 +1,1 @@
+"""The default solver: an active set with a preconditioned linear system, on nested grids."""

@@ -1,0 +1,1 @@
+"""Independent methods that check the default solver."""

@@ -1,0 +1,347 @@
+"""Stresses under tractions on a periodic and on a free surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..core.arrays import ComplexArray, RealArray
+from ..core.engine.cpu import FEW, Blocks
+from ..core.errors import InputError
+from ..core.interpolation import Panels, panels
+from ..core.spectral import PaddedTransform, RealTransform, SplitTransform, fast_length, thread_count, wrapped
+from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
+from ..solids.elastic import Elastic
+from ..solids.layers import RigidBase
+from .kernels.coefficients import LineCoefficients, PlaneCoefficients
+from .kernels.patch import Load
+from .kernels.transfer import Transfers
+from .regions import Plane, Region, regions, slips, stack
+from .tractions import ShearTraction, Tractions
+
+# The uniform part of a periodic load: uniaxial strain in every region, with shear that reaches through.
+#
+# No mean lateral strain; the mean displacement counts from the rigid base, or without one from that of the surface, since
+# a half-space under uniform load sinks without bound.
+
+
+_BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precision that of a sum
+
+
+def mean_stress(loads: tuple[float, float, float], region: Region) -> tuple[float, ...]:
+    """Mean of xx, yy, zz, xy, xz, yz (Pa) in ``region`` under mean ``loads`` q_x, q_y, p: σ_xx = σ_yy = -ν/(1-ν) p."""
+    x, y, pressure = loads
+    nu = region.material.poisson_ratio
+    lateral = -nu / (1.0 - nu) * pressure
+    return lateral, lateral, -pressure, 0.0, -x, -y
+
+
+def mean_displacement(loads: tuple[float, float, float], body: object, plane: Plane) -> tuple[float, ...]:
+    """Mean displacement (m) of ``plane`` under mean ``loads`` (Pa): these times the compliance down to the datum."""
+    parts = regions(body)
+    from_base = isinstance(stack(body).base, RigidBase)
+    direct = shear = 0.0
+    for region in parts:
+        low, high = (
+            (max(plane.depth, region.top), region.bottom)
+            if from_base
+            else (region.top, min(plane.depth, region.bottom))
+        )
+        if high > low:
+            direct += (high - low) * _uniaxial(region.material)
+            shear += (high - low) / region.material.shear_modulus
+    sign = 1.0 if from_base else -1.0
+    return tuple(sign * load * c for load, c in zip(loads, (shear, shear, direct), strict=True))
+
+
+def require_held(tractions: Tractions, body: object) -> None:
+    """Refuse a mean shear traction on layers that nothing holds.
+
+    At every other wavelength the layers above a frictionless interface carry shear as a sheet does. In a periodic cell
+    the mean would push them away; without periodicity the unloaded parts of the layers hold them.
+
+    Raises
+    ------
+    InputError
+        If the boundary is periodic and there is a mean shear traction above a frictionless interface.
+    """
+    x, y, _ = tractions.means
+    mean = math.hypot(x, y)
+    if tractions.boundary == "periodic" and stack(body).slips and tractions.sheared:
+        largest = max(float(abs(tractions.shear_x).max()), float(abs(tractions.shear_y).max()))
+        if mean > _BALANCED * largest:
+            raise InputError(
+                "mean shear traction must be zero on a periodic body with a Frictionless() interface, where nothing holds the "
+                "layers above it, but is not. Use Bonded() interfaces, the boundary Free() (--boundary free), whose unloaded parts "
+                "hold the layers, a ShearTraction without its mean, or friction=0."
+            )
+
+
+def require_displacement(tractions: Tractions, body: object) -> None:
+    """Refuse displacements that have no limit: of sheared layers that slip and are held at infinity only.
+
+    Raises
+    ------
+    InputError
+        If the boundary is not periodic and there is shear traction above a frictionless interface.
+    """
+    if tractions.boundary != "periodic" and tractions.sheared and stack(body).slips:
+        raise InputError(
+            "displacement under shear traction must not be asked of a body with a Frictionless() interface on the boundary "
+            f"{tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
+            "displacement=False."
+        )
+
+
+def _uniaxial(material: Elastic) -> float:
+    """1/M = (1-2ν) / 2G(1-ν) in 1/Pa, the compliance in uniaxial strain."""
+    nu = material.poisson_ratio
+    return 0.0 if math.isclose(nu, 0.5) else (1.0 - 2.0 * nu) / (2.0 * material.shear_modulus * (1.0 - nu))
+
+
+# Fields on planes under a periodic load: multiplication in Fourier space, plane by plane.
+#
+# The transforms of the tractions are made once; a plane costs its spectra and one inverse transform for each component.
+# A few lines of all spectra are made at a time and transformed along x while they are in the cache, then all along y.
+
+
+_NEGLIGIBLE = 60.0  # depth times wavenumber from which exp(-αz) is below anything that counts
+_LINES = 32  # made at a time: vector instructions are full, and the lines of all fields stay in the cache
+_PRESSURE = ("tau_zz", "tau_Lz", "LL_z")
+_SHEAR = ("tau_zL", "tau_LL", "LL_L", "tau_T", "LT")
+_DISPLACEMENT = ("U_z", "W_z", "U_L", "W_L", "u_T")
+
+_Maker: TypeAlias = Callable[[tuple[int, int], ComplexArray], None]
+"""Writes lines (first, last + 1) of spectra into an array (fields, lines or more, nx or more)."""
+
+
+class PeriodicPlanes:
+    """Stress and displacement of ``body`` under periodic ``tractions``, one plane at a time.
+
+    Buffers are kept between planes, so one object serves one caller at a time.
+
+    Parameters
+    ----------
+    tractions, body
+        Load and the body that carries it.
+    dtype
+        ``"float64"`` or ``"float32"``: precision of spectra and fields; amplitudes are always computed in double.
+    threads
+        See ``core.spectral.thread_count``.
+    """
+
+    def __init__(
+        self, tractions: Tractions, body: object, *, dtype: str = "float64", threads: int | None = None
+    ) -> None:
+        self.tractions = tractions
+        self.dtype = np.dtype(dtype)
+        self._given = body
+        self._blocks = Blocks(thread_count(threads))
+        self._transform = SplitTransform(tractions.grid.shape)
+        self._panels: Panels = panels(tractions.grid)
+        self._transfers = Transfers(stack(body), self._panels.points)
+        self._sheared = tractions.sheared
+        self._means = tractions.means
+        self._loads = self._transformed()
+        self._between = self._transform.between(0, self._loads[0].dtype)
+        self._filled = 0  # lines that are not zero
+
+    def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
+        """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
+        functions = _PRESSURE + _SHEAR if self._sheared else _PRESSURE
+        means = mean_stress(self._means, plane.region)
+        make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
+        found = StressTensor(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
+        if plane.side == "surface":  # exact, whatever the rounding of the transforms
+            shear, pressure = self.tractions.shear, self.tractions.pressure
+            fields = (shear.x, shear.y) if isinstance(shear, ShearTraction) else (pressure, pressure)
+            factors = (1.0, 1.0) if isinstance(shear, ShearTraction) else shear.ratios
+            loads = zip((pressure, *fields), (1.0, *factors), (found.zz, found.xz, found.yz), strict=True)
+            for load, factor, component in loads:
+                np.multiply(load, -factor, out=component, casting="same_kind")
+        return found
+
+    def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
+        """Displacement (m) of ``plane``; the datum is that of ``mean_displacement``."""
+        means = mean_displacement(self._means, self._given, plane)
+        make = self._maker("displacement_spectra", plane, _DISPLACEMENT)
+        return Displacement(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
+
+    def _maker(self, kernel: str, plane: Plane, functions: tuple[str, ...], *constants: float) -> _Maker:
+        """What writes some lines of the spectra of a plane into an array (any, any, nx and a few)."""
+        found = self._transfers.to(plane)
+        coefficients = self._panels.fitted(np.stack([getattr(found, name) for name in functions]))
+        table, waves = (self._panels.breaks, coefficients, _limit(plane)), self._waves()
+        run = getattr(import_module(".kernels.planes", __package__), kernel)
+        return lambda lines, into: run(lines, waves, table, *constants, self._loads, into)
+
+    def _fields(
+        self, make: _Maker, plane: Plane, means: tuple[float, ...], out: list[RealArray] | None
+    ) -> list[RealArray]:
+        """Fields of the spectra that ``make`` writes, whose mean modes are set to ``means``."""
+        shape = self.tractions.grid.shape
+        lines = int(np.count_nonzero(self._waves()[0] < _limit(plane)))
+        between = self._room(len(means), lines)
+        fields = out or [np.empty(shape, self.dtype) for _ in means]
+        alone = shape[0] * shape[1] < FEW
+        self._blocks.share(self._first, lines, make, means, between, alone=alone)
+        self._blocks.share(self._second, shape[0], between, fields, alone=alone)
+        return fields
+
+    def _room(self, count: int, lines: int) -> ComplexArray:
+        """Room for as many fields between the steps, zero but for the first ``lines``, which are to be written."""
+        if len(self._between) < count:
+            self._between, self._filled = self._transform.between(count, self._between.dtype), self._between.shape[2]
+        self._between[:, :, lines : self._filled] = 0.0
+        self._filled = lines
+        return self._between[:count]
+
+    def _first(self, span: tuple[int, int], make: _Maker, means: tuple[float, ...], between: ComplexArray) -> None:
+        """Make the lines ``span`` of the spectra and transform them along x."""
+        shape = self.tractions.grid.shape
+        made = self._transform.lines(len(means), _LINES, between.dtype)
+        for start in range(*span, _LINES):
+            here = start, min(span[1], start + _LINES)
+            make(here, made)
+            if start == 0:
+                made[:, 0, 0] = np.multiply(means, shape[0] * shape[1])
+            for lines, out in zip(made, between, strict=True):
+                self._transform.lines_back(lines, here, out)
+
+    def _second(self, span: tuple[int, int], between: ComplexArray, fields: list[RealArray]) -> None:
+        """Transform along y to the rows ``span`` of the fields."""
+        for lines, field in zip(between, fields, strict=True):
+            self._transform.rows_back(lines, span, field)
+
+    def _waves(self) -> tuple[RealArray, RealArray, RealArray, RealArray]:
+        """Components of the wavevectors along y and x, not negative; each also with the highest of an even grid set to zero."""
+        (nx, ny), (qx, qy) = self.tractions.grid.shape, self.tractions.grid.wavevector()
+        xi, eta = np.abs(qx[: nx // 2 + 1, 0]), np.abs(qy[0])
+        return eta, _without_highest(eta, ny), xi, _without_highest(xi, nx)
+
+    def _transformed(self) -> tuple[Any, ...]:
+        """Spectra of pressure and shear fields, with the ratios of the shear to the pressure where it follows it."""
+        shear = self.tractions.shear
+        fields = [self.tractions.pressure]
+        ratios = (0.0, 0.0)
+        if isinstance(shear, ShearTraction) and self._sheared:
+            fields += [shear.x, shear.y]
+        elif not isinstance(shear, ShearTraction):
+            ratios = shear.ratios
+        spectra = [self._transform.forward(f.astype(self.dtype), self._blocks.threads) for f in fields]
+        x, y = spectra[1:] or (spectra[0], spectra[0])
+        return spectra[0], *ratios, len(fields) > 1, x, y
+
+
+def _limit(plane: Plane) -> float:
+    """Wavenumber from which nothing reaches the plane."""
+    return _NEGLIGIBLE / plane.depth if plane.depth > 0.0 else np.inf
+
+
+def _without_highest(components: RealArray, n: int) -> RealArray:
+    odd = components.copy()
+    if n % 2 == 0:
+        odd[-1] = 0.0
+    return odd
+
+
+# Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002).
+#
+# Of pixels in space, or of strips in plane strain.
+
+
+class FreePlanes:
+    """Stress and displacement of ``body`` under ``tractions`` that end at the grid, one plane at a time.
+
+    Parameters as for ``PeriodicPlanes``. Constant traction on each pixel, fields at the middle of each; the convolution is
+    exact, the coefficients are within 1e-8 of the largest of them (rounding only for a homogeneous body).
+    """
+
+    def __init__(
+        self, tractions: Tractions, body: object, *, dtype: str = "float64", threads: int | None = None
+    ) -> None:
+        (nx, ny), threads = tractions.grid.shape, thread_count(threads)
+        self.tractions = tractions
+        self.dtype = np.dtype(dtype)
+        self._body = stack(body)
+        self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
+        self._whole = RealTransform(self._padded, threads)
+        self._transform = PaddedTransform(tractions.grid.shape, self._padded, threads)
+        self._groups = self._transformed()
+
+    def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
+        """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
+        coefficients = self._coefficients(plane)
+        by_load = {load: vars(coefficients.stress(load)) for load in self._loads}
+        found = StressTensor(*self._convolved(STRESSES, by_load, None if out is None else list(vars(out).values())))
+        if plane.side == "surface":  # exact, whatever the rounding of the transforms
+            found.zz[...] = -self.tractions.pressure
+            found.xz[...] = -self.tractions.shear_x
+            found.yz[...] = -self.tractions.shear_y
+        elif slips(self._body, plane):  # likewise
+            found.xz[...] = found.yz[...] = 0.0
+        return found
+
+    def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
+        """Displacement (m) of ``plane``, zero at infinity.
+
+        Raises
+        ------
+        InputError
+            If it has no limit, see ``require_displacement``.
+        """
+        require_displacement(self.tractions, self._body)
+        coefficients = self._coefficients(plane)
+        by_load = {load: vars(coefficients.displacement(load)) for load in self._loads}
+        return Displacement(*self._convolved(AXES, by_load, None if out is None else list(vars(out).values())))
+
+    def _coefficients(self, plane: Plane) -> PlaneCoefficients | LineCoefficients:
+        grid = self.tractions.grid
+        if self.tractions.boundary == "free line":
+            return LineCoefficients(self._body, plane, grid, self.tractions.datum or grid.size[0])
+        return PlaneCoefficients(self._body, plane, grid)
+
+    @property
+    def _loads(self) -> list[Load]:
+        return list(dict.fromkeys(load for _, ratios in self._groups for load in ratios))
+
+    def _transformed(self) -> list[tuple[ComplexArray, dict[Load, float]]]:
+        """Spectra of the tractions, each with the loads it stands for and their ratios to it."""
+        shear = self.tractions.shear
+        with_pressure: dict[Load, float] = {"z": 1.0}
+        groups = [(self._forward(self.tractions.pressure), with_pressure)]
+        if isinstance(shear, ShearTraction):
+            if self.tractions.sheared:
+                groups += [(self._forward(shear.x), {"x": 1.0}), (self._forward(shear.y), {"y": 1.0})]
+        else:
+            x, y = shear.ratios
+            with_pressure |= {"x": x} if x != 0.0 else {}
+            with_pressure |= {"y": y} if y != 0.0 else {}
+        return groups
+
+    def _forward(self, field: RealArray) -> ComplexArray:
+        spectrum = np.empty(self._transform.spectrum_shape, np.result_type(self.dtype, np.complex64))
+        return self._transform.forward(np.ascontiguousarray(field, self.dtype), spectrum)
+
+    def _convolved(
+        self, components: Sequence[str], by_load: dict[Load, dict[str, RealArray]], out: list[RealArray] | None
+    ) -> list[RealArray]:
+        fields = out or [np.empty(self.tractions.grid.shape, self.dtype) for _ in components]
+        for component, field in zip(components, fields, strict=True):
+            total: ComplexArray | None = None
+            for spectrum, ratios in self._groups:
+                kernel = np.zeros(self._padded)
+                for load, ratio in ratios.items():
+                    indices = component + load  # odd in each axis that they name an odd number of times
+                    odd_x, odd_y = (indices.count(axis) % 2 == 1 for axis in "xy")
+                    kernel += ratio * wrapped(by_load[load][component], self._padded, odd_x=odd_x, odd_y=odd_y)
+                product = self._whole.forward(np.ascontiguousarray(kernel, self.dtype))
+                product *= spectrum
+                total = product if total is None else np.add(total, product, out=total)
+            assert total is not None
+            self._transform.backward(total, field)
+        return fields

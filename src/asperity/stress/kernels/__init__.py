@@ -1,0 +1,1 @@
+"""Stresses under elementary loads: pixels, waves, points of a plane."""

@@ -1,0 +1,461 @@
+"""Autocorrelation, structure functions, fractal dimension and amplitude."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.spectral import RealTransform, fast_length, thread_count
+from ..surface import Surface
+from .heights import mean_height, rms_height
+from .slopes import axis_index, increments, mean_square, stencil_sums
+
+# Autocovariance R(r) = <h(x) h(x + r)> of the heights about their mean, and the correlation lengths read from it.
+
+
+LagRange: TypeAlias = tuple[int, int]
+"""Largest lags along x and y in pixels."""
+
+DROP_1E, DROP_TENTH, DROP_ISO = math.exp(-1.0), 0.1, 0.2
+"""Values of R/R(0) that define a correlation length: 1/e (β_e), 0.1 (β*, Peng & Bhushan 2001), 0.2 (ISO 25178-2)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Autocovariance:
+    """R at the lags (k dx, l dy), 0 <= k <= K and -L <= l <= L, of a map; R(-r) = R(r).
+
+    ``values`` (K + 1, 2 L + 1) in m², ``pairs`` number of pairs of points behind each of them, NaN where there is none;
+    ``spacing`` (dx, dy) and ``size`` of the map in m.
+    """
+
+    values: RealArray
+    pairs: RealArray
+    spacing: tuple[float, float]
+    size: tuple[float, float]
+
+    @property
+    def range(self) -> LagRange:
+        """Largest lags K and L in pixels."""
+        return self.values.shape[0] - 1, self.values.shape[1] // 2
+
+    @property
+    def mean_square(self) -> float:
+        """R(0) in m²."""
+        return float(self.values[0, self.range[1]])
+
+    def at(self, lag: tuple[int, int]) -> float:
+        """R in m² at the ``lag`` (k, l) in pixels, of either sign."""
+        k, moved = lag if lag[0] >= 0 else (-lag[0], -lag[1])
+        return float(self.values[k, self.range[1] + moved])
+
+    def along(self, axis: str) -> tuple[RealArray, RealArray]:
+        """Lags (m) from 0 along +``axis`` and R (m²) there.
+
+        Raises
+        ------
+        InputError
+            If the axis is neither x nor y.
+        """
+        number = axis_index(axis)
+        values = self.values[:, self.range[1]] if number == 0 else self.values[0, self.range[1] :]
+        return np.arange(values.size) * self.spacing[number], values
+
+    def correlation_length(self, drop: float, *, axis: str = "x", logarithmic: bool = False) -> float:
+        """Lag in m at which R/R(0) first falls to ``drop`` along ``axis``; NaN if it does not, or if R(0) is zero.
+
+        Between lags R is interpolated linearly, with ``logarithmic`` its logarithm: exact for an exponential, where
+        linear interpolation is up to 6 % too long at a decay length of one pixel.
+
+        Raises
+        ------
+        InputError
+            If the axis is unknown or ``drop`` not between 0 and 1.
+        """
+        require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
+        lags, values = self.along(axis)
+        return first_crossing(lags, values, drop * self.mean_square, logarithmic=logarithmic)
+
+    def within(self, largest: LagRange) -> Autocovariance:
+        """The part with lags up to ``largest`` pixels, for maps of the centre and for the texture."""
+        k, moved = (min(have, wanted) for have, wanted in zip(self.range, largest, strict=True))
+        part = (slice(0, k + 1), slice(self.range[1] - moved, self.range[1] + moved + 1))
+        return Autocovariance(self.values[part].copy(), self.pairs[part].copy(), self.spacing, self.size)
+
+
+def autocovariance(surface: Surface) -> Autocovariance:
+    """Autocovariance of ``surface`` about the mean of its valid points, at all lags.
+
+    A complete periodic surface: circular, up to half the map. Otherwise the sum over the valid pairs over their
+    number, which is unbiased but scatters at lags beyond a quarter of the map. Missing points need no filling.
+    """
+    valid = ~surface.mask
+    heights = np.where(surface.mask, 0.0, surface.heights - mean_height(surface)).astype(np.float64, copy=False)
+    largest = tuple(n // 2 if surface.periodic else n - 1 for n in surface.shape)
+    padded = tuple(n if surface.periodic else fast_length(2 * n - 1) for n in surface.shape)
+    transform = RealTransform((padded[0], padded[1]), thread_count())
+    sums = _pair_sums(heights, transform, (largest[0], largest[1]))
+    if surface.n_missing:
+        pairs = np.rint(_pair_sums(valid.astype(np.float64), transform, (largest[0], largest[1])))
+    else:
+        pairs = _complete_pairs(surface, (largest[0], largest[1]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = np.where(pairs > 0.0, sums / pairs, np.nan)
+    return Autocovariance(values, pairs, surface.grid.spacing, surface.size)
+
+
+def first_crossing(lags: RealArray, values: RealArray, level: float, *, logarithmic: bool = False) -> float:
+    """First of the ``lags`` at which ``values`` fall to ``level``, interpolated; NaN if they do not."""
+    below = np.flatnonzero(values <= level)
+    if below.size == 0 or not level > 0.0:
+        return math.nan
+    after = int(below[0])
+    if after == 0:
+        return float(lags[0])
+    high, low = float(values[after - 1]), float(values[after])
+    if logarithmic and low > 0.0:
+        share = math.log(high / level) / math.log(high / low)
+    else:
+        share = (high - level) / (high - low)
+    return float(lags[after - 1] + share * (lags[after] - lags[after - 1]))
+
+
+def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) -> RealArray:
+    """Σ f(x) f(x + r) over all x for the lags up to ``largest``, of ``field`` (nx, ny) padded to the transform."""
+    work = np.zeros(transform.shape)
+    work[: field.shape[0], : field.shape[1]] = field
+    spectrum = transform.forward(work)
+    spectrum *= spectrum.conj()
+    full = transform.backward(spectrum, out=work)
+    k, moved = largest
+    sums: RealArray = np.concatenate([full[: k + 1, transform.shape[1] - moved :], full[: k + 1, : moved + 1]], axis=1)
+    return sums
+
+
+def _complete_pairs(surface: Surface, largest: LagRange) -> RealArray:
+    if surface.periodic:
+        return np.full((largest[0] + 1, 2 * largest[1] + 1), float(surface.grid.n_points))
+    along_x = surface.shape[0] - np.arange(largest[0] + 1.0)
+    along_y = surface.shape[1] - np.abs(np.arange(-largest[1], largest[1] + 1.0))
+    pairs: RealArray = along_x[:, None] * along_y[None, :]
+    return pairs
+
+
+# The structure function, and slopes and curvatures as functions of the scale over which they are taken.
+
+
+@dataclass(frozen=True, eq=False)
+class StructureFunction:
+    """S(τ) = <[h(x + τ) - h(x)]²> along ``axis``: ``lag`` τ in m, ``value`` S in m²."""
+
+    axis: str
+    lag: RealArray
+    value: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class ScaleDependence:
+    """Slope and curvature of profiles along ``axis`` over stencils of total length ℓ (Sanner et al. 2022).
+
+    ``slope_length`` (m) and ``slope`` = <[(h(x+ℓ) - h(x))/ℓ]²>^½; ``curvature_length`` (m), ``curvature`` (1/m) =
+    <[(h(x+ℓ/2) - 2h(x) + h(x-ℓ/2))/(ℓ/2)²]²>^½ and ``sharpest`` (1/m), the least of these second derivatives, negative
+    at peaks. At the shortest stencils they are the finite-difference slope and curvature of the map.
+    """
+
+    axis: str
+    slope_length: RealArray
+    slope: RealArray
+    curvature_length: RealArray
+    curvature: RealArray
+    sharpest: RealArray
+    citation_keys: ClassVar[tuple[str, ...]] = ("Sanner2022",)
+
+
+def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
+    """S in m² at the ``lag`` (k, l) in pixels, of either sign: mean over all valid pairs; a periodic surface wraps.
+
+    Raises
+    ------
+    InputError
+        If there is no valid pair.
+    """
+    return mean_square(increments(surface, lag), "structure function")
+
+
+def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int] | None = None) -> StructureFunction:
+    """Structure function of the profiles along ``axis``, averaged over all lines; needs no mean and no filling.
+
+    Parameters
+    ----------
+    surface
+        Surface; a tilt adds (slope τ)², so level it first.
+    axis
+        ``x`` or ``y``.
+    lags
+        Whole numbers of pixels >= 1; by default geometrically spaced, five per factor of two, up to half the map.
+
+    Raises
+    ------
+    InputError
+        If a lag has no valid pair or is not a whole number >= 1.
+    """
+    number = axis_index(axis)
+    steps = geometric_lags(surface.shape[number] // 2) if lags is None else tuple(lags)
+    values = [stencil_sums(surface, axis, 1, step).square for step in steps]
+    return StructureFunction(axis, np.array(steps) * surface.grid.spacing[number], np.array(values))
+
+
+def scale_dependence(
+    surface: Surface,
+    *,
+    axis: str = "x",
+    steps: Sequence[int] | None = None,
+    structure: StructureFunction | None = None,
+) -> ScaleDependence:
+    """Scale-dependent slope and curvature of ``surface`` along ``axis``.
+
+    Parameters
+    ----------
+    surface
+        Surface; missing points are left out, a periodic surface wraps.
+    axis
+        ``x`` or ``y``.
+    steps
+        Distances between neighbouring points of the stencils in pixels; by default geometric, five per factor of two,
+        up to a quarter of the map.
+    structure
+        Structure function along the axis, from which the slopes follow, if it is known already.
+
+    Raises
+    ------
+    InputError
+        If the map is too small for a stencil or no stencil is valid.
+    """
+    number = axis_index(axis)
+    chosen = geometric_lags(surface.shape[number] // 4) if steps is None else tuple(steps)
+    known = structure_function(surface, axis=axis, lags=chosen) if structure is None else structure
+    spacing = surface.grid.spacing[number]
+    sums = [stencil_sums(surface, axis, 2, step) for step in chosen]
+    areas = (spacing * np.array(chosen)) ** 2
+    return ScaleDependence(
+        axis,
+        slope_length=known.lag,
+        slope=np.sqrt(known.value) / known.lag,
+        curvature_length=2.0 * spacing * np.array(chosen),
+        curvature=np.sqrt([found.square for found in sums]) / areas,
+        sharpest=np.array([found.least for found in sums]) / areas,
+    )
+
+
+def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float = 0.5) -> float:
+    """Stencil length in m below which a tip of ``tip_radius`` (m) may have shaped the map; discard shorter waves.
+
+    It is where the least scale-dependent second derivative reaches -``factor``/``tip_radius``, interpolated between
+    the stencils (Sanner et al. 2022, eq. 10, which found the factor 1/2 empirically). 0 if the sharpest peak is
+    blunter than that at every length, infinity if sharper at every length.
+
+    Raises
+    ------
+    InputError
+        If the radius or the factor is not positive, or there is no stencil.
+    """
+    require.positive(tip_radius, "radius of the tip (m)")
+    require.positive(factor, "factor of the tip criterion")
+    if dependence.sharpest.size == 0:
+        raise InputError("scale dependence must hold at least one stencil for a tip cut-off, but is empty.")
+    limit = -factor / tip_radius
+    sharper = np.flatnonzero(dependence.sharpest < limit)
+    if sharper.size == 0:
+        return 0.0
+    last = int(sharper[-1])
+    if last + 1 == dependence.sharpest.size:
+        return math.inf
+    inner, outer = dependence.sharpest[last], dependence.sharpest[last + 1]
+    share = (limit - inner) / (outer - inner)
+    lengths = dependence.curvature_length
+    return float(lengths[last] + share * (lengths[last + 1] - lengths[last]))
+
+
+def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
+    """Whole numbers up to ``largest`` (1 at least), ``per_octave`` to a factor of two where there are so many.
+
+    The same numbers for every ``largest``, so that curves of different reach share their points.
+    """
+    count = 1 + math.ceil(per_octave * math.log2(max(1, largest)))
+    spaced = np.unique(np.rint(2.0 ** (np.arange(count) / per_octave)).astype(int))
+    return tuple(int(lag) for lag in spaced if lag <= max(1, largest))
+
+
+# Fractal dimension and amplitude of the profiles of a surface, from the structure function.
+#
+# S(τ) = C η^(2D-3) τ^(4-2D) (Ganti & Bhushan 1995) with the resolution η of the map; the Weierstrass-Mandelbrot profile of
+# Majumdar & Bhushan (1990) has S = B(D) G^(2(D-1)) τ^(4-2D)/ln γ, which turns C into G.
+
+
+GAMMA = 1.5
+"""Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G (Majumdar & Bhushan 1990)."""
+
+_FIRST_LAGS = (4, 2)  # pixels; below four the instrument and interpolation have a share, below two they rule
+_MARGIN = 0.04  # accuracy of D on sampled Weierstrass-Mandelbrot profiles; smooth profiles give 1 within it
+_FEWEST = 3  # lags of a line with a residual
+
+
+@dataclass(frozen=True)
+class FractalParameters:
+    """Fit of a power law to the structure function along ``axis``.
+
+    ``dimension`` D of the profile (that of the surface is D + 1) and ``dimension_error``, the standard error of the
+    straight line: the lags are correlated, so it tells of curvature rather than of sampling; ``amplitude`` C and
+    ``resolution`` η (= pixel) in m; ``roughness`` G in m for γ = 1.5, NaN if not self-affine; ``first_lag``,
+    ``last_lag`` of the fit in m; ``residual`` rms of ln S about the line.
+    """
+
+    axis: str
+    dimension: float
+    dimension_error: float
+    amplitude: float
+    resolution: float
+    roughness: float
+    first_lag: float
+    last_lag: float
+    residual: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Ganti1995", "Majumdar1990")
+
+    @property
+    def hurst(self) -> float:
+        """Hurst exponent 2 - D of the fitted range."""
+        return 2.0 - self.dimension
+
+    @property
+    def self_affine(self) -> bool:
+        """Whether D lies clearly between 1 and 2, without which the profile is no fractal in the fitted range."""
+        return _is_fractal(self.dimension)
+
+
+def fractal_parameters(
+    surface: Surface,
+    *,
+    axis: str = "x",
+    lags: Sequence[int] | None = None,
+    structure: StructureFunction | None = None,
+) -> FractalParameters:
+    """Fit the structure function of ``surface`` along ``axis`` by a power law.
+
+    Parameters
+    ----------
+    surface
+        Levelled surface; missing points are left out.
+    axis
+        ``x`` or ``y``.
+    lags
+        Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than three would remain) to
+        a tenth of the map, or to where the structure function reaches the mean square height, half of its limit.
+    structure
+        Structure function along the axis, if it is known already; its lags in the default range are fitted.
+
+    Raises
+    ------
+    InputError
+        If fewer than three lags remain, or the surface is flat.
+    """
+    number = axis_index(axis)
+    if lags is not None:
+        return fitted_fractal(structure_function(surface, axis=axis, lags=lags), surface.grid.spacing[number])
+    spacing, points = surface.grid.spacing[number], surface.shape[number]
+    if structure is None:
+        structure = structure_function(surface, axis=axis, lags=geometric_lags(points // 10))
+    pixels = structure.lag / spacing
+    below = int(np.argmax(np.append(structure.value > rms_height(surface) ** 2, True)))
+    upper = (pixels < points // 10 + 0.5) & (np.arange(pixels.size) < below)
+    ranges = [upper & (pixels > first - 0.5) for first in _FIRST_LAGS]
+    part = next((chosen for chosen in ranges if np.count_nonzero(chosen) >= _FEWEST), ranges[-1])
+    return fitted_fractal(StructureFunction(axis, structure.lag[part], structure.value[part]), spacing)
+
+
+def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParameters:
+    """Least-squares line through ln S over ln τ of ``curve``; ``resolution`` η in m.
+
+    Raises
+    ------
+    InputError
+        If the curve has fewer than three lags or is zero somewhere.
+    """
+    require.positive(resolution, "resolution (m)")
+    if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
+        raise InputError(
+            f"structure function must be positive at three lags or more for a fractal dimension, but has only {curve.lag.size} "
+            f"along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. Name the lags, or use a finer map."
+        )
+    x, y = np.log(curve.lag / resolution), np.log(curve.value)
+    centred = x - x.mean()
+    slope = float(centred @ y / (centred @ centred))
+    rest = y - y.mean() - slope * centred
+    square = float(rest @ rest)
+    error = math.sqrt(square / (x.size - 2) / float(centred @ centred))
+    dimension = 0.5 * (4.0 - slope)
+    # S = C η^(2D-3) τ^(4-2D) = C η (τ/η)^(4-2D)
+    amplitude = math.exp(float(y.mean()) - slope * float(x.mean())) / resolution
+    return FractalParameters(
+        curve.axis,
+        dimension=dimension,
+        dimension_error=0.5 * error,
+        amplitude=amplitude,
+        resolution=resolution,
+        roughness=fractal_roughness(dimension, amplitude, resolution) if _is_fractal(dimension) else math.nan,
+        first_lag=float(curve.lag[0]),
+        last_lag=float(curve.lag[-1]),
+        residual=math.sqrt(square / x.size),
+    )
+
+
+def structure_coefficient(dimension: float) -> float:
+    """B(D) = π (2π)^(4-2D)/[2 Γ(5-2D) sin π(2-D)], the factor of S = B G^(2(D-1)) τ^(4-2D)/ln γ.
+
+    For a profile of frequencies γ^n in cycles per length; papers that count them in radians lack (2π)^(4-2D).
+
+    Raises
+    ------
+    InputError
+        If not 1 < ``dimension`` < 2.
+    """
+    require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
+    power = 4.0 - 2.0 * dimension
+    return (
+        math.pi
+        * math.pow(2.0 * math.pi, power)
+        / (2.0 * math.gamma(1.0 + power) * math.sin(math.pi * (2.0 - dimension)))
+    )
+
+
+def spectrum_coefficient(dimension: float) -> float:
+    """c1/C = Γ(5-2D) sin[π(2-D)]/2π of the two-sided spectrum P = c1 η^(2D-3)/ω^(5-2D), ω in rad/m.
+
+    Source: Ganti & Bhushan (1995); Bhushan (1998), eq. 33b, whose printed denominator is incomplete.
+
+    Raises
+    ------
+    InputError
+        If not 1 < ``dimension`` < 2.
+    """
+    require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
+    return math.gamma(5.0 - 2.0 * dimension) * math.sin(math.pi * (2.0 - dimension)) / (2.0 * math.pi)
+
+
+def fractal_roughness(dimension: float, amplitude: float, resolution: float, gamma: float = GAMMA) -> float:
+    """G in m from C η^(2D-3) = B(D) G^(2(D-1))/ln γ; NaN unless 1 < D < 2."""
+    if not 1.0 < dimension < 2.0:
+        return math.nan
+    # in logarithms: G of a smooth surface underflows
+    log_power = math.log(amplitude) + (2.0 * dimension - 3.0) * math.log(resolution)
+    log_power += math.log(math.log(gamma) / structure_coefficient(dimension))
+    return math.exp(log_power / (2.0 * (dimension - 1.0)))
+
+
+def _is_fractal(dimension: float) -> bool:
+    return 1.0 + _MARGIN < dimension < 2.0 - _MARGIN

@@ -1,0 +1,471 @@
+"""Surfaces with given skewness and kurtosis: laws of heights, and Gaussian surfaces translated to them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar, Protocol
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.citations import citation_keys
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.pearson import Pearson, require_possible
+from ...core.spectral import RealTransform, thread_count
+from ..surface import Origin, Surface
+from .gaussian import CLIP_LIMIT, Spectrum, filtered_noise, lattice_eigenvalues, negative_part
+from .power_laws import mean_square
+
+# Johnson's system of distributions: the one with given skewness and kurtosis, as a function of a normal number.
+#
+# G = γ + δ f((z - ξ)/λ) is standard normal; unbounded z = ξ + λ sinh((G - γ)/δ), bounded z = ξ + λ/(1 + exp(-(G - γ)/δ)),
+# lognormal z = ξ + λ exp((G - γ)/δ) (Johnson 1949). Here z has zero mean and unit variance.
+
+
+KINDS = ("normal", "lognormal", "unbounded", "bounded")
+"""Families of the system."""
+
+_ON_LINE = 1e-7  # distance of the kurtosis from the lognormal line, relative to it, below which the lognormal serves
+_STEP, _REACH = 0.2, 9.6  # trapezoidal rule over G; the error of its step is exp(-2π² δ/step) for poles at iπδ
+_WIDEST_DELTA = 1e3  # of a symmetric bounded distribution: kurtosis 3 - 2e-6
+_SMALLEST_DELTA = 0.01  # beyond, the bounded family is two spikes that the rule above does not resolve
+_SQRT_TWO_PI = math.sqrt(2.0 * math.pi)
+
+
+@dataclass(frozen=True)
+class Johnson:
+    """Distribution of one ``kind`` of the system with its four parameters; made by :func:`johnson`."""
+
+    kind: str
+    gamma: float
+    delta: float
+    xi: float
+    scale: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1949", "Tuenter2001")
+
+    @property
+    def label(self) -> str:
+        """Name of the curve in words."""
+        return self.kind if self.kind in ("normal", "lognormal") else f"Johnson's {self.kind}"
+
+    def of_normal(self, normal: RealArray) -> RealArray:
+        """z(G): the number of this distribution for each standard normal number; increasing."""
+        if self.kind == "normal":
+            return normal
+        u = (normal - self.gamma) / self.delta
+        if self.kind == "unbounded":
+            values: RealArray = self.xi + self.scale * np.sinh(u)
+        elif self.kind == "bounded":
+            values = self.xi + self.scale * _logistic(u)
+        else:
+            values = self.xi + self.scale * np.exp(u)
+        return values
+
+
+def johnson(skewness: float, kurtosis: float) -> Johnson:
+    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis`` (3 for Gaussian heights).
+
+    The lognormal curve in the plane of both divides the unbounded family (larger kurtosis; Tuenter 2001) from the
+    bounded one, whose moments come by quadrature.
+
+    Raises
+    ------
+    InputError
+        If kurtosis < 1 + skewness², which no distribution has, or so close to it that only two heights remain.
+    """
+    require_possible(skewness, kurtosis)
+    if abs(skewness) < _ON_LINE:
+        skewness = 0.0
+    if skewness < 0.0:
+        return _mirrored(johnson(-skewness, kurtosis))
+    w = _lognormal_w(skewness)
+    line = w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
+    if abs(kurtosis - line) <= _ON_LINE * line:
+        return Johnson("normal", 0.0, 1.0, 0.0, 1.0) if skewness == 0.0 else _lognormal(w)
+    return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
+
+
+def _mirrored(other: Johnson) -> Johnson:
+    """Distribution of -z as an increasing function of a normal number."""
+    if other.kind == "unbounded":
+        return replace(other, gamma=-other.gamma, xi=-other.xi)
+    if other.kind == "bounded":
+        return replace(other, gamma=-other.gamma, xi=-(other.xi + other.scale))
+    if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
+        return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
+    return other
+
+
+def _lognormal_w(skewness: float) -> float:
+    """w = exp(1/δ²) >= 1 with (w - 1)(w + 2)² = skewness²."""
+    from scipy.optimize import brentq
+
+    square = skewness**2
+    upper = 1.0 + square / 9.0  # (w + 2)² >= 9
+    return float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - square, 1.0, upper + 1e-15, xtol=1e-15, rtol=1e-14))
+
+
+def _lognormal(w: float) -> Johnson:
+    """exp(G/δ) scaled to zero mean and unit variance: mean w^½, variance w (w - 1)."""
+    scale = 1.0 / math.sqrt(w * (w - 1.0))
+    return Johnson("lognormal", 0.0, 1.0 / math.sqrt(math.log(w)), -scale * math.sqrt(w), scale)
+
+
+def _unbounded(skewness: float, kurtosis: float) -> Johnson:
+    """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one root."""
+    from scipy.optimize import brentq
+
+    square = skewness**2
+
+    def m(w: float) -> float:
+        return -2.0 + math.sqrt(max(0.0, 4.0 + 2.0 * (w * w - (kurtosis + 3.0) / (w * w + 2.0 * w + 3.0))))
+
+    def excess(w: float) -> float:
+        return (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square
+
+    low = _root_of_line(kurtosis)  # the lognormal with this kurtosis, m = 0
+    high = math.sqrt(math.sqrt(2.0 * kurtosis - 2.0) - 1.0)  # the symmetric one, m = w - 1
+    w, omega = high, 0.0
+    if square > 0.0:
+        w = float(brentq(excess, low, high, xtol=1e-15, rtol=1e-14))
+        sinh_square = (w + 1.0) / (2.0 * w) * max(0.0, (w - 1.0) / m(w) - 1.0)
+        omega = -math.asinh(math.sqrt(sinh_square))  # negative for positive skewness
+    variance = 0.5 * (w - 1.0) * (w * math.cosh(2.0 * omega) + 1.0)
+    scale, delta = 1.0 / math.sqrt(variance), 1.0 / math.sqrt(math.log(w))
+    return Johnson("unbounded", omega * delta, delta, scale * math.sqrt(w) * math.sinh(omega), scale)
+
+
+def _root_of_line(kurtosis: float) -> float:
+    """w with w⁴ + 2 w³ + 3 w² - 3 = kurtosis."""
+    from scipy.optimize import brentq
+
+    return float(brentq(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0))
+
+
+def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
+    """At each δ the skewness fixes γ; along this line the kurtosis rises from 1 + skewness² to the lognormal one.
+
+    The line is followed to a per cent, Newton's method does the rest.
+    """
+    from scipy.optimize import brentq, root
+
+    def gamma_at(delta: float) -> float:
+        if skewness == 0.0:
+            return 0.0
+        top = 1.0
+        while _bounded_moments(top, delta).skewness < skewness:
+            top *= 2.0
+        return float(brentq(lambda gamma: _bounded_moments(gamma, delta).skewness - skewness, 0.0, top, rtol=1e-4))
+
+    def missing(log_delta: float) -> float:
+        delta = math.exp(log_delta)
+        return _bounded_moments(gamma_at(delta), delta).kurtosis - kurtosis
+
+    def both(unknown: RealArray) -> list[float]:
+        found = _bounded_moments(float(unknown[0]), math.exp(float(unknown[1])))
+        return [found.skewness - skewness, found.kurtosis - kurtosis]
+
+    widest = 1.0 / math.sqrt(math.log(w)) if skewness > 0.0 else _WIDEST_DELTA  # the lognormal of this skewness
+    low, high = math.log(_SMALLEST_DELTA), math.log(widest * (1.0 - 1e-6))
+    if missing(low) > 0.0:
+        raise InputError(
+            f"kurtosis {kurtosis:.4g} of the heights at skewness {skewness:.4g} must be further above its limit "
+            f"1 + skewness² = {1.0 + skewness**2:.4g}, at which there are only two heights."
+        )
+    start = float(brentq(missing, low, high, xtol=1e-3)) if missing(high) > 0.0 else high
+    gamma, log_delta = (float(value) for value in root(both, [gamma_at(math.exp(start)), start], tol=1e-13).x)
+    gamma = 0.0 if skewness == 0.0 else gamma
+    if max(abs(error) for error in both(np.array([gamma, log_delta]))) > _ON_LINE:
+        raise ArithmeticError(f"no bounded distribution found for skewness {skewness:g} and kurtosis {kurtosis:g}.")
+    found = _bounded_moments(gamma, math.exp(log_delta))
+    return Johnson("bounded", gamma, math.exp(log_delta), -found.mean / found.deviation, 1.0 / found.deviation)
+
+
+@dataclass(frozen=True)
+class _Moments:
+    mean: float
+    deviation: float
+    skewness: float
+    kurtosis: float
+
+
+def _bounded_moments(gamma: float, delta: float) -> _Moments:
+    """Moments of 1/(1 + exp(-(G - γ)/δ)) by the trapezoidal rule."""
+    step = _STEP * min(1.0, delta)
+    normal = np.arange(-_REACH, _REACH + 0.5 * step, step)
+    weight = step / _SQRT_TWO_PI * np.exp(-0.5 * normal**2)
+    u = (normal - gamma) / delta
+    logarithm = u - np.logaddexp(0.0, u)
+    largest = float(logarithm[-1])  # far from the bounds the values are tiny, and lognormal
+    values = np.exp(logarithm - largest)
+    mean = float(weight @ values)
+    centred = values - mean
+    square, third, fourth = (float(weight @ centred**power) for power in (2, 3, 4))
+    deviation = math.sqrt(square)
+    unit = math.exp(largest)
+    return _Moments(mean * unit, deviation * unit, third / deviation**3, fourth / square**2)
+
+
+def _logistic(u: RealArray) -> RealArray:
+    """1/(1 + exp(-u)) without overflow."""
+    small = np.exp(-np.abs(u))
+    values: RealArray = np.where(u >= 0.0, 1.0, small) / (1.0 + small)
+    return values
+
+
+# Distribution of heights with given skewness and kurtosis, of one of the systems that have one for every such pair.
+
+
+SYSTEMS = ("johnson", "pearson")
+"""Systems of distributions; both have every possible pair, but other tails, which is what touches first."""
+
+
+class HeightLaw(Protocol):
+    """A distribution of zero mean and unit variance."""
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind it."""
+
+    @property
+    def label(self) -> str:
+        """Name of the curve, for the history."""
+
+    def of_normal(self, normal: RealArray) -> RealArray:
+        """The number of this distribution for each standard normal number; increasing."""
+
+
+def height_law(skewness: float, kurtosis: float, system: str = "johnson") -> HeightLaw:
+    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis``, of ``johnson`` or ``pearson``.
+
+    Raises
+    ------
+    InputError
+        If no distribution has these moments, only one of two heights, or the system is unknown.
+    """
+    if require.one_of(system, SYSTEMS, "system of distributions of the heights") == "pearson":
+        return Pearson(skewness, kurtosis)
+    return johnson(skewness, kurtosis)
+
+
+# Distributions of heights that a surface can be made to have exactly: by moments, of a measured surface, of two levels.
+
+
+class Marginal(Protocol):
+    """Distribution of heights up to their mean and scale."""
+
+    def sorted_heights(self, count: int) -> RealArray:
+        """``count`` heights in ascending order, in any unit, that stand for the distribution."""
+
+    def describe(self) -> str:
+        """Words and numbers for the history of a surface."""
+
+
+@dataclass(frozen=True)
+class HeightMoments:
+    """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's or Pearson's system.
+
+    Raises
+    ------
+    InputError
+        If kurtosis < 1 + skewness², or the system is unknown.
+    """
+
+    skewness: float = 0.0
+    kurtosis: float = 3.0
+    system: str = "johnson"
+
+    def __post_init__(self) -> None:
+        height_law(self.skewness, self.kurtosis, self.system)
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind the system."""
+        return height_law(self.skewness, self.kurtosis, self.system).citation_keys
+
+    def sorted_heights(self, count: int) -> RealArray:
+        """Quantiles at (k - 1/2)/count; their moments are those asked for up to the tails beyond the outermost."""
+        from scipy.special import ndtri
+
+        law = height_law(self.skewness, self.kurtosis, self.system)
+        return law.of_normal(ndtri((np.arange(count) + 0.5) / count))
+
+    def describe(self) -> str:
+        """Words and numbers for the history of a surface."""
+        law = height_law(self.skewness, self.kurtosis, self.system)
+        return f"skewness {self.skewness:.4g}, kurtosis {self.kurtosis:.4g} ({law.label})"
+
+
+@dataclass(frozen=True, eq=False)
+class HeightsOf:
+    """Heights distributed as those of a measured ``surface``, levelled beforehand; missing points do not count."""
+
+    surface: Surface
+
+    def sorted_heights(self, count: int) -> RealArray:
+        """Quantiles at (k - 1/2)/count, linear between the sorted heights at (k - 1/2)/N."""
+        valid = self.surface.heights[~self.surface.mask].astype(np.float64)
+        quantiles: RealArray = np.quantile(valid, (np.arange(count) + 0.5) / count, method="hazen")
+        return np.sort(quantiles)
+
+    def describe(self) -> str:
+        """Words and numbers for the history of a surface."""
+        return f"heights of {self.surface.origin.source or 'a surface'}"
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind the surface."""
+        return self.surface.citation_keys
+
+
+@dataclass(frozen=True)
+class TwoLevels:
+    """Two Gaussian distributions of heights, ``separation`` apart: the upper one on the ``share`` of the area.
+
+    ``separation`` of their means and ``upper_deviation`` in units of the standard deviation of the lower one. Equal
+    distributions show two maxima if their means are more than two standard deviations apart.
+
+    Raises
+    ------
+    InputError
+        If the share is not between 0 and 1, or the others are not positive.
+    """
+
+    share: float
+    separation: float
+    upper_deviation: float = 1.0
+
+    def __post_init__(self) -> None:
+        require.between(self.share, 0.0, 1.0, "share of the upper level")
+        require.positive(self.separation, "separation of the two levels")
+        require.positive(self.upper_deviation, "deviation of the upper level")
+
+    def sorted_heights(self, count: int) -> RealArray:
+        """Quantiles at (k - 1/2)/count, by inversion of the distribution function on a fine table."""
+        from scipy.special import ndtr
+
+        low = min(-9.0, self.separation - 9.0 * self.upper_deviation)
+        high = max(9.0, self.separation + 9.0 * self.upper_deviation)
+        z = np.linspace(low, high, max(200_001, 4 * count))
+        upper = ndtr((z - self.separation) / self.upper_deviation)
+        below = (1.0 - self.share) * ndtr(z) + self.share * upper
+        heights: RealArray = np.interp((np.arange(count) + 0.5) / count, below, z)
+        return heights
+
+    def describe(self) -> str:
+        """Words and numbers for the history of a surface."""
+        distance = f"{self.separation:.4g} apart, the upper {self.upper_deviation:.4g} as wide"
+        return f"two levels {distance} on {self.share:.4g} of the area"
+
+
+# Surfaces whose heights are a function of a Gaussian field: any marginal distribution, at any resolution.
+
+
+_TERMS, _REST = 400, 1e-13  # most Hermite coefficients of a translation, and the variance they may miss
+_STEP_TRANSLATION, _REACH_TRANSLATION = 0.005, 12.0  # trapezoidal rule for them
+_TABLE = 20001  # correlations between -1 and 1 at which the map is tabulated; linear interpolation is good to 1e-8
+
+
+def translated(
+    grid: Grid,
+    spectrum: Spectrum,
+    *,
+    seed: int,
+    skewness: float,
+    kurtosis: float,
+    system: str = "johnson",
+    predistorted: bool = True,
+) -> Surface:
+    """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T of a system of distributions.
+
+    Every height has the distribution of T exactly, at any resolution; the moments of a realisation scatter about it. T
+    changes the correlation of two heights by a few per cent; ``predistorted`` gives G the autocovariance from which T
+    makes that of ``spectrum``. The mean is not removed.
+
+    Parameters
+    ----------
+    grid
+        Nodes of the surface.
+    spectrum
+        Any spectrum or autocorrelation; its rms height is that of the surface.
+    seed
+        Whole number >= 0 (PCG64, in the order of the array).
+    skewness, kurtosis
+        Of the heights, kurtosis >= 1 + skewness².
+    system
+        ``johnson`` or ``pearson``: of the distribution of the heights.
+    predistorted
+        Whether ``spectrum`` is that of the heights; otherwise of G.
+
+    Raises
+    ------
+    InputError
+        If no distribution has these moments, or no Gaussian field has the autocovariance that the translation would need.
+    """
+    seed = require.integer(seed, 0, "seed of a random surface")
+    law = height_law(skewness, kurtosis, system)
+    eigenvalues = lattice_eigenvalues(spectrum, grid)
+    square = mean_square(grid, eigenvalues * grid.pixel_area)
+    eigenvalues = eigenvalues / square
+    clipped = 0.0
+    if predistorted:
+        eigenvalues, clipped = _predistorted(eigenvalues, law, grid)
+    heights = math.sqrt(square) * law.of_normal(filtered_noise(grid, eigenvalues, seed))
+    how = (
+        f"autocorrelation predistorted, negative part {clipped:.1e} clipped"
+        if predistorted
+        else "of the Gaussian field"
+    )
+    what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.label}), {how}"
+    text = f"generated: translation, {spectrum.describe(grid)}, {what}, PCG64 seed {seed}"
+    keys = tuple(dict.fromkeys((*citation_keys(spectrum), *law.citation_keys)))
+    origin = Origin("translation", history=(text,), citation_keys=keys)
+    return Surface(heights, *grid.spacing, periodic=True, origin=origin)
+
+
+def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
+    """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, Hermite coefficients c_k."""
+    squares = _hermite_squares(law)
+    values: RealArray = np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], squares]))
+    return values
+
+
+def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[RealArray, float]:
+    """Eigenvalues of the Gaussian field, and the negative part of them that was clipped."""
+    transform = RealTransform(grid.shape, thread_count())
+    wanted = transform.backward(eigenvalues.astype(complex))
+    table = np.linspace(-1.0, 1.0, _TABLE)
+    reachable = translated_correlation(law, table)
+    lowest = float(wanted.min())
+    if lowest < reachable[0]:
+        raise InputError(
+            f"autocorrelation of these heights must not fall below {reachable[0]:.4g}, the least that a translation of this "
+            f"skewness and kurtosis reaches, but falls to {lowest:.4g}. Use rank_ordered()."
+        )
+    needed = np.interp(wanted, reachable, table)
+    needed[0, 0] = 1.0
+    values = transform.forward(needed).real
+    negative = negative_part(grid, values)
+    if negative > CLIP_LIMIT:
+        raise InputError(
+            "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis needs: its spectrum "
+            f"would be negative by {negative:.2g} of the whole. Use rank_ordered(), or predistorted=False."
+        )
+    return np.maximum(values, 0.0), negative
+
+
+def _hermite_squares(law: HeightLaw) -> RealArray:
+    """c_k², k = 1, 2, …, of T = Σ c_k He_k/sqrt(k!), normalised to the sum 1 (the variance)."""
+    normal = np.arange(-_REACH_TRANSLATION, _REACH_TRANSLATION + 0.5 * _STEP_TRANSLATION, _STEP_TRANSLATION)
+    weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_STEP_TRANSLATION / math.sqrt(2.0 * math.pi))
+    before, now = np.ones_like(normal), normal
+    squares: list[float] = []
+    for k in range(1, _TERMS + 1):
+        squares.append(float(weighted @ now) ** 2)
+        if sum(squares) > 1.0 - _REST:
+            break
+        before, now = now, (normal * now - math.sqrt(k) * before) / math.sqrt(k + 1.0)
+    return np.array(squares) / sum(squares)

@@ -1,0 +1,301 @@
+"""Parts of a surface, other grids, and edges that join periodically."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from ...core import require
+from ...core.arrays import ComplexArray, RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.spectral import RealTransform
+from ...core.units import show
+from ..surface import Surface
+from .level import recorded, require_complete
+
+# Cropping to a rectangle.
+
+
+def cropped(surface: Surface, *, x: tuple[float, float] | None = None, y: tuple[float, float] | None = None) -> Surface:
+    """Part of the surface between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from its corner, rounded to whole pixels.
+
+    An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result is x1 - x0 to
+    within one pixel. A cropped periodic surface is no longer periodic and needs new levelling.
+
+    Raises
+    ------
+    InputError
+        If a range is reversed, empty after rounding, or reaches more than half a pixel outside the surface.
+    """
+    (first_x, last_x), (first_y, last_y) = _pixels(surface, x, 0), _pixels(surface, y, 1)
+    if (last_x - first_x, last_y - first_y) == surface.shape:
+        return surface
+    heights = surface.heights[first_x:last_x, first_y:last_y]
+    nx, ny = heights.shape
+    step = (
+        f"cropped: x {show(first_x * surface.dx, 'm')} to {show(last_x * surface.dx, 'm')}, "
+        f"y {show(first_y * surface.dy, 'm')} to {show(last_y * surface.dy, 'm')} ({nx} x {ny} points)"
+    )
+    return Surface(heights, surface.dx, surface.dy, origin=surface.origin.continued(step))
+
+
+def _pixels(surface: Surface, limits: tuple[float, float] | None, axis: int) -> tuple[int, int]:
+    count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
+    if limits is None:
+        return 0, count
+    start, end = require.two(limits, f"limits of the crop along {name}", "Write (start, end) in m.")
+    low = require.finite(start, f"start of the crop along {name} (m)")
+    high = require.finite(end, f"end of the crop along {name} (m)")
+    first, last = round(low / spacing), round(high / spacing)
+    if high <= low or last <= first:
+        raise InputError(
+            f"crop along {name} must end at least one pixel ({spacing:g} m) after its start, "
+            f"but runs from {low:g} to {high:g} m."
+        )
+    if first < 0 or last > count:
+        raise InputError(
+            f"crop along {name} must lie within 0 and {count * spacing:g} m, but runs from {low:g} to {high:g} m."
+        )
+    return first, last
+
+
+# One line of a map as a surface of one row, for contacts in plane strain.
+
+
+Position: TypeAlias = float | Literal["middle"]
+"""Coordinate in m from the corner, or "middle"."""
+
+
+def sliced(surface: Surface, *, x: Position | None = None, y: Position | None = None, length: float = 1.0) -> Surface:
+    """The line of ``surface`` at ``y``, or that at ``x`` turned into the x direction, as a surface (n, 1).
+
+    Parameters
+    ----------
+    surface
+        Map to cut.
+    x, y
+        Exactly one of the two: position in m from the corner; the line is that whose pixels hold it.
+    length
+        Length in m along y that the line stands for. Forces and areas of a line contact are those of this length, per
+        metre with the 1 m of the default.
+
+    Raises
+    ------
+    InputError
+        If none or both positions are given, the position lies outside the map, or the length is not positive.
+    """
+    if (x is None) == (y is None):
+        raise InputError(f"line of a map must be given by exactly one of x and y, but is given by x={x!r}, y={y!r}.")
+    axis = 0 if y is None else 1
+    position = x if y is None else y
+    number = _index(surface, position, axis)
+    heights = np.take(surface.heights, number, axis=axis)[:, None]
+    at = show((number + 0.5) * surface.grid.spacing[axis], "m")
+    step = f"sliced: line at {'xy'[axis]} = {at} ({heights.size} points)"
+    return Surface(
+        heights,
+        surface.grid.spacing[1 - axis],
+        require.positive(length, "length that a line of a map stands for (m)"),
+        periodic=surface.periodic,
+        origin=surface.origin.continued(step),
+    )
+
+
+def _index(surface: Surface, position: Position | None, axis: int) -> int:
+    count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
+    if position == "middle":
+        return count // 2
+    place = require.finite(position, f"{name} of a line of a map (m)", 'Or write "middle".')  # type: ignore[arg-type]
+    if not 0.0 <= place <= count * spacing * (1.0 + 1e-9):
+        raise InputError(
+            f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is {show(place, 'm')}."
+        )
+    return min(int(place / spacing), count - 1)
+
+
+# Change of the number of points at constant physical size.
+
+
+def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
+    """Surface of the same physical size on ``shape`` = (nx, ny) points; the pixel size changes accordingly.
+
+    A periodic surface is resampled in Fourier space: zeros are added, or short waves removed (node 0 stays in place,
+    the Nyquist lines of even sizes are split in halves). Any other surface is interpolated by a bicubic spline along
+    an axis that becomes finer and averaged over pixel areas along an axis that becomes coarser (pixel areas stay in
+    place). Removing short waves and averaging both lower the rms height; neither folds short waves back.
+
+    Raises
+    ------
+    InputError
+        If a number of points is not a whole number >= 1 or points are missing.
+    """
+    pair = require.two(shape, "shape of a resampled surface", "Write (nx, ny).")
+    nx, ny = (require.integer(n, 1, f"number of points along {axis}") for n, axis in zip(pair, "xy", strict=True))
+    require_complete(surface, "resampled")
+    if (nx, ny) == surface.shape:
+        return surface
+    heights: RealArray = surface.heights.astype(np.float64, copy=False)
+    if surface.periodic:
+        how = "in Fourier space"
+        heights = _fourier_resampled(heights, (nx, ny))
+    else:
+        how = ", ".join(
+            f"{axis} by {'bicubic spline' if new > old else 'area averaging'}"
+            for axis, new, old in zip("xy", (nx, ny), surface.shape, strict=True)
+            if new != old
+        )
+        heights = _axis_resampled(_axis_resampled(heights, nx).T, ny).T
+    step = f"resampled: {surface.shape[0]} x {surface.shape[1]} -> {nx} x {ny} points, {how}"
+    size_x, size_y = surface.size
+    return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=surface.origin.continued(step))
+
+
+def _fourier_resampled(heights: RealArray, shape: tuple[int, int]) -> RealArray:
+    old = (heights.shape[0], heights.shape[1])
+    spectrum = RealTransform(old).forward(heights)
+    spectrum = _resized_half_axis(spectrum, old[1], shape[1])
+    spectrum = _resized_full_axis(spectrum, shape[0])
+    return RealTransform(shape).backward(spectrum * (shape[0] * shape[1] / heights.size))
+
+
+def _resized_full_axis(spectrum: ComplexArray, new: int) -> ComplexArray:
+    """Spectrum with ``new`` modes along axis 0 (all signs of the wavenumber)."""
+    old, kept = spectrum.shape[0], min(spectrum.shape[0], new)
+    if new == old:
+        return spectrum
+    positive, negative = (kept + 1) // 2, (kept - 1) // 2
+    result = np.zeros((new, spectrum.shape[1]), dtype=complex)
+    result[:positive] = spectrum[:positive]
+    if negative:
+        result[-negative:] = spectrum[-negative:]
+    if kept % 2 == 0:
+        half = kept // 2
+        if new > old:
+            result[half] = result[-half] = 0.5 * spectrum[half]
+        else:
+            result[half] = spectrum[half] + spectrum[-half]
+    return result
+
+
+def _resized_half_axis(spectrum: ComplexArray, old: int, new: int) -> ComplexArray:
+    """Half spectrum of ``old`` real points along axis 1 turned into that of ``new`` points."""
+    if new == old:
+        return spectrum
+    result = np.zeros((spectrum.shape[0], new // 2 + 1), dtype=complex)
+    kept = min(spectrum.shape[1], result.shape[1])
+    result[:, :kept] = spectrum[:, :kept]
+    half = min(old, new) // 2
+    if min(old, new) % 2 == 0:
+        if new > old:
+            result[:, half] *= 0.5
+        else:
+            line = spectrum[:, half]
+            result[:, half] = line + np.conj(np.roll(line[::-1], 1))  # both signs of the new Nyquist wavenumber
+    return result
+
+
+def _axis_resampled(heights: RealArray, new: int) -> RealArray:
+    old = heights.shape[0]
+    if new == old:
+        return heights
+    return _averaged(heights, new) if new < old else _interpolated(heights, new)
+
+
+def _averaged(heights: RealArray, new: int) -> RealArray:
+    """Mean over each of ``new`` equal intervals of axis 0, from the cumulative integral of the pixel values."""
+    old = heights.shape[0]
+    integral = np.concatenate([np.zeros((1, heights.shape[1])), np.cumsum(heights, axis=0)])
+    edges = np.arange(new + 1) * (old / new)
+    whole = np.minimum(edges.astype(int), old - 1)
+    at_edges = integral[whole] + (edges - whole)[:, None] * heights[whole]
+    averaged: RealArray = np.diff(at_edges, axis=0) * (new / old)
+    return averaged
+
+
+def _interpolated(heights: RealArray, new: int) -> RealArray:
+    from scipy.interpolate import make_interp_spline
+
+    old = heights.shape[0]
+    if old == 1:
+        return np.repeat(heights, new, axis=0)
+    centres = (np.arange(new) + 0.5) * (old / new) - 0.5  # pixel centres in units of the old pixel
+    spline = make_interp_spline(np.arange(old, dtype=float), heights, k=3 if old > 3 else 1)
+    interpolated: RealArray = spline(centres)
+    return interpolated
+
+
+# Making a measured surface periodic: by a taper at the borders or by removal of its smooth component.
+
+
+def tapered(surface: Surface, width: float = 0.1) -> Surface:
+    """Periodic surface whose heights fall to their mean along the borders by a cosine (Tukey) taper.
+
+    Parameters
+    ----------
+    surface
+        Surface without missing points, levelled beforehand.
+    width
+        Width of the tapered strip at each border as a fraction of the side, 0 < width <= 0.5.
+
+    Raises
+    ------
+    InputError
+        If the width is out of range or points are missing.
+    """
+    require.at_most(width, 0.5, "width of the taper (fraction of the side)")
+    require_complete(surface, "tapered")
+    heights = surface.heights.astype(np.float64, copy=False)
+    mean = float(heights.mean())
+    weight_x, weight_y = (_tukey(n, width) for n in surface.shape)
+    result = mean + weight_x[:, None] * weight_y[None, :] * (heights - mean)
+    step = f"tapered: cosine over {width:g} of the side at each border"
+    return recorded(surface, result, step, periodic=True)
+
+
+def periodised(surface: Surface) -> Surface:
+    """Periodic surface: the surface less the smooth component that carries the jumps between opposite borders.
+
+    The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the map and holds
+    the jumps at its borders, so the discrete Laplacian (curvature) of all interior points and the mean height are
+    kept. A periodic surface is returned as it is. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx²
+    and 1/dy².
+
+    Raises
+    ------
+    InputError
+        If points are missing.
+    """
+    if surface.periodic:
+        return surface
+    require_complete(surface, "periodised")
+    heights = surface.heights.astype(np.float64, copy=False)
+    smooth = _smooth_component(heights, surface.grid.spacing)
+    text = f"periodised: smooth component (rms {show(float(smooth.std()), 'm', 3)}) removed"
+    return recorded(surface, heights - smooth, text, periodic=True, citation_keys=("Moisan2011",))
+
+
+def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealArray:
+    (nx, ny), smallest = heights.shape, min(spacing)
+    weight_x, weight_y = ((smallest / step) ** 2 for step in spacing)
+    jumps = np.zeros_like(heights)
+    jump_x, jump_y = weight_x * (heights[-1] - heights[0]), weight_y * (heights[:, -1] - heights[:, 0])
+    jumps[0] += jump_x
+    jumps[-1] -= jump_x
+    jumps[:, 0] += jump_y
+    jumps[:, -1] -= jump_y
+    angle_x, angle_y = Grid((nx, ny), (1.0, 1.0)).wavevector()
+    laplacian = -4.0 * (weight_x * np.sin(angle_x / 2.0) ** 2 + weight_y * np.sin(angle_y / 2.0) ** 2)
+    laplacian[0, 0] = 1.0
+    transform = RealTransform((nx, ny))
+    spectrum = transform.forward(jumps) / laplacian
+    spectrum[0, 0] = 0.0
+    return transform.backward(spectrum)
+
+
+def _tukey(count: int, width: float) -> RealArray:
+    distance = (np.arange(count) + 0.5) / count
+    distance = np.minimum(distance, 1.0 - distance)
+    weights: RealArray = np.sin(0.5 * np.pi * np.minimum(distance / width, 1.0)) ** 2
+    return weights

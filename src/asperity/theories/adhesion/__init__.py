@@ -1,0 +1,1 @@
+"""Adhesive spheres and rough surfaces."""

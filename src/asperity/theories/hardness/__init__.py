@@ -1,0 +1,1 @@
+"""Hardness of layered bodies and plasticity indices."""

@@ -1,0 +1,232 @@
+"""The plasticity indices of a surface and the share of its contact that flows, as theories of their own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ..ask import Column, Way, asked
+from ..protocol import E_STAR, Input, poissons_ratio
+from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
+from ..statistics.roughness import Roughness
+
+# Interferences at which a summit yields, and the plasticity indices made of them (Greenwood & Williamson 1966; Bhushan 1998).
+#
+# Three indices are in use for the same surface: say which one is meant.
+
+
+HARDNESS_OVER_YIELD = 2.8
+"""H/Y of full plasticity (Tabor 1951)."""
+
+
+def hardness_coefficient(nu: float) -> float:
+    """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion & Bogy (1987); ``nu`` from 0 to 0.5.
+
+    With H = 2.8Y within 2.2 % of the exact value (``sphere_yield_onset``), 0.2 % at ν = 0.3.
+    """
+    return 0.454 + 0.41 * poissons_ratio(nu)
+
+
+def yield_coefficient(nu: float) -> float:
+    """C = 1.295 exp(0.736ν) of p0 = C Y at first yield (Jackson & Green 2005): within 0.4 % of the exact value."""
+    return 1.295 * math.exp(0.736 * poissons_ratio(nu))
+
+
+def nominal_interference(E_star: float, radius: float, hardness: float) -> float:
+    """δ_p = R (H/E*)² in m, the round number of Greenwood & Williamson; first yield at p_m = H/3 has (π²/16) δ_p."""
+    return _positive(radius, "radius (m)") * (_positive(hardness, "hardness (Pa)") / _modulus(E_star)) ** 2
+
+
+def critical_interference(E_star: float, radius: float, peak: float) -> float:
+    """ω_c = (π p0/2E*)² R in m at which the Hertz pressure of a sphere reaches the ``peak`` p0 in Pa.
+
+    p0 = K H for Chang, Etsion & Bogy and Kogut & Etsion, C Y for Jackson & Green.
+    """
+    return (
+        _positive(radius, "radius (m)")
+        * (0.5 * math.pi * _positive(peak, "peak pressure (Pa)") / _modulus(E_star)) ** 2
+    )
+
+
+def summit_plasticity_index(height_deviation: float, interference: float) -> float:
+    """ψ = sqrt(σ_s/δ): deviation of the summit heights over the ``interference`` of yield, both in m, > 0.
+
+    With δ_p (``nominal_interference``) ψ = (E*/H) sqrt(σ_s/R) of Greenwood & Williamson: below 0.6 elastic at any
+    realistic load, above 1 plastic at any. With ω_c it is ψ_c of Chang, Etsion & Bogy, 1.1 times larger at ν = 0.3.
+    """
+    return math.sqrt(
+        _positive(height_deviation, "deviation of summit heights (m)") / _positive(interference, "interference (m)")
+    )
+
+
+def profile_plasticity_index(E_star: float, hardness: float, deviation: float, correlation_length: float) -> float:
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e) of an exponential autocorrelation in m.
+
+    Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads above 0.45.
+    """
+    slope = _positive(deviation, "deviation of heights (m)") / _positive(correlation_length, "correlation length (m)")
+    return _modulus(E_star) / _positive(hardness, "hardness (Pa)") * slope
+
+
+def _positive(value: float, what: str) -> float:
+    return require.positive(value, what)
+
+
+def _modulus(E_star: float) -> float:
+    return require.positive(E_star, "contact modulus E_star (Pa)")
+
+
+HARDNESS = Input("hardness", "Pa", "hardness of the softer body", of="bodies")
+
+
+@dataclass(frozen=True, eq=False)
+class PlasticShares:
+    """Shares of the area and of the contacts that flow at standardised separations (n,)."""
+
+    area: RealArray
+    number: RealArray
+
+
+@dataclass(frozen=True)
+class PlasticityIndex:
+    """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and what flows.
+
+    Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Radius R of the summits in m, > 0.
+    height_deviation
+        Standard deviation σ_s of the summit heights in m, > 0.
+    hardness
+        Hardness H of the softer body in Pa, > 0.
+    nu
+        Poisson's ratio of the body that yields, 0 to 0.5; for the index of Chang, Etsion & Bogy.
+    """
+
+    E_star: float
+    radius: float
+    height_deviation: float
+    hardness: float
+    nu: float = 0.3
+    name: ClassVar[str] = "plasticity-index"
+    title: ClassVar[str] = "Plasticity indices of summits"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987", "Greenwood1966")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "radius of the summits"),
+        Input("height_deviation", "m", "standard deviation of the summit heights"),
+        HARDNESS,
+        Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("index", "", "ψ of Greenwood & Williamson: below 0.6 elastic, above 1 plastic"),
+        Column("critical_index", "", "ψ_c of Chang, Etsion & Bogy: from first yield"),
+        Column("nominal_interference", "m", "R (H/E*)²"),
+        Column("critical_interference", "m", "displacement at first yield"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("D", "", "separation above the mean summit height in standard deviations"),
+            "at_D",
+            (
+                Column("area", "", "share of the elastic area on summits that flow"),
+                Column("number", "", "share of the contacts that flow"),
+            ),
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        _ = self.index, self.critical_index
+
+    @classmethod
+    def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float, nu: float = 0.3) -> Self:
+        """Indices of the summits of a map.
+
+        Raises
+        ------
+        InputError
+            If the roughness holds no summits.
+        """
+        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        return cls(E_star, 1.0 / float(summits.curvature.mean()), summits.height_deviation, hardness, nu)
+
+    @property
+    def nominal_interference(self) -> float:
+        """δ_p = R (H/E*)² in m."""
+        return nominal_interference(self.E_star, self.radius, self.hardness)
+
+    @property
+    def critical_interference(self) -> float:
+        """ω_c in m at first yield, p0 = K H."""
+        peak = hardness_coefficient(self.nu) * require.positive(self.hardness, "hardness (Pa)")
+        return critical_interference(self.E_star, self.radius, peak)
+
+    @property
+    def index(self) -> float:
+        """ψ = sqrt(σ_s/δ_p)."""
+        return summit_plasticity_index(self.height_deviation, self.nominal_interference)
+
+    @property
+    def critical_index(self) -> float:
+        """ψ_c = sqrt(σ_s/ω_c)."""
+        return summit_plasticity_index(self.height_deviation, self.critical_interference)
+
+    def at_D(self, D: ArrayLike) -> PlasticShares:
+        """What flows at the standardised separations ``D`` (n,), for Gaussian heights."""
+        places = np.asarray(D, dtype=float)
+        return PlasticShares(plastic_area_share(places, self.index), plastic_number_share(places, self.index))
+
+
+@dataclass(frozen=True)
+class ProfilePlasticityIndex:
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    rms_height
+        Standard deviation σ of the heights in m, > 0.
+    correlation_length
+        β* in m, lag at which the autocorrelation has fallen to 1/e, > 0.
+    hardness
+        Hardness H of the softer body in Pa, > 0.
+    """
+
+    E_star: float
+    rms_height: float
+    correlation_length: float
+    hardness: float
+    name: ClassVar[str] = "profile-plasticity-index"
+    title: ClassVar[str] = "Plasticity index of a profile"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("rms_height", "m", "standard deviation of the surface heights"),
+        Input("correlation_length", "m", "lag at which the autocorrelation has fallen to 1/e"),
+        HARDNESS,
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (Column("index", "", "ψ: below 0.25 elastic, above 0.45 plastic"),)
+
+    def __post_init__(self) -> None:
+        _ = self.index
+
+    @classmethod
+    def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:
+        """Index of a map with this rms height and correlation length."""
+        return cls(E_star, roughness.rms_height, roughness.correlation_length, hardness)
+
+    @property
+    def index(self) -> float:
+        """ψ."""
+        return profile_plasticity_index(self.E_star, self.hardness, self.rms_height, self.correlation_length)

@@ -1,0 +1,1 @@
+"""Theories of rough surfaces: by their summits, their spectrum, their fractal dimension."""

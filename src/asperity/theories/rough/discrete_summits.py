@@ -1,0 +1,220 @@
+"""Asperities one by one: the summits of a map, and identical ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ..ask import separation_at
+from ..limits import area_limit, blunt_summits
+from ..protocol import E_STAR, ContactAnswer, Input, Limit, Prediction, curve, prediction, small_slope
+from ..single.hertz import HertzPoint
+from ..statistics.roughness import Roughness
+
+# Greenwood & Williamson's theory with the very summits of a map: each its own height and radius, no distribution.
+
+
+_REACH = 4.0  # ranges of the heights below the lowest summit to which pressures are inverted
+
+
+@dataclass(frozen=True, eq=False)
+class DiscreteSummits:
+    """Sums over the summits z_i > h of one map.
+
+        A_r = π Σ R_i (z_i - h),  W = (4/3) E* Σ R_i^(1/2) (z_i - h)^(3/2).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus in Pa.
+    height
+        (n,) heights z_i of the summits above the mean plane of the surface in m.
+    radius
+        (n,) their radii R_i in m.
+    area
+        Nominal area in m².
+
+    Raises
+    ------
+    InputError
+        If heights and radii differ in length, or a radius or a number is not positive.
+    """
+
+    E_star: float
+    height: ArrayLike = field(repr=False)
+    radius: ArrayLike = field(repr=False)
+    area: float
+    name: ClassVar[str] = "discrete-summits"
+    title: ClassVar[str] = "Greenwood-Williamson on the summits of the map"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("height", "m", "heights of the summits above the mean plane", many=True),
+        Input("radius", "m", "radii of the summits", many=True),
+        Input("area", "m^2", "nominal area"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.area, "nominal area (m^2)")
+        height = curve(self.height, "heights of summits (m)")
+        radius = curve(self.radius, "radii of summits (m)", positive=True)
+        if height.shape != radius.shape:
+            raise InputError(f"heights and radii of summits must be as many, but are {height.size} and {radius.size}.")
+        order = np.argsort(-height, kind="stable")
+        object.__setattr__(self, "height", height[order])
+        object.__setattr__(self, "radius", radius[order])
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
+        """Theory for the summits of a map, with the radii of their mean curvatures."""
+        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        return cls(E_star, summits.height, summits.radius, summits.area)
+
+    @property
+    def highest(self) -> float:
+        """Height of the highest summit in m, where contact begins."""
+        return float(self._z[0])
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
+        depths = [self._depths(value) for value in h]
+        areas = np.array([depth @ self._r[: depth.size] for depth in depths])
+        pressure, stiffness = self._law(h)
+        return prediction(
+            pressure,
+            area_fraction=math.pi * areas / self.area,
+            contact_density=np.array([depth.size for depth in depths]) / self.area,
+            separation=h,
+            stiffness=stiffness,
+        )
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or far beyond that at which all summits touch.
+        """
+        wanted = curve(pressure, "pressures (Pa)", positive=True)
+        unit = float(np.ptp(self._z)) or float(self._r.mean())
+        low = float(self._z[-1]) - _REACH * unit
+        return self.at_separation(separation_at(wanted, self._law, low, self.highest, unit=unit))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits."""
+        return area_limit(prediction), blunt_summits(prediction, float(self._z.std() / self._r.mean()))
+
+    @property
+    def _z(self) -> RealArray:
+        return np.asarray(self.height)
+
+    @property
+    def _r(self) -> RealArray:
+        return np.asarray(self.radius)
+
+    def _depths(self, h: float) -> RealArray:
+        """z_i - h of the summits above ``h``, the highest first."""
+        z = self._z
+        depths: RealArray = z[: np.searchsorted(-z, -h, side="left")] - h
+        return depths
+
+    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        roots = np.sqrt(self._r)
+        sums = np.empty((2, h.size))
+        for n, value in enumerate(h):
+            depth = self._depths(value)
+            shares = roots[: depth.size] * np.sqrt(depth)
+            sums[:, n] = shares @ depth, shares.sum()
+        unit = self.E_star / self.area
+        return 4.0 / 3.0 * unit * sums[0], 2.0 * unit * sums[1]
+
+
+# Equal spheres at equal height: a defined texture against a plane (Bhushan 1998, eq. 1-5).
+
+
+ROUNDED_ONSET = 0.5  # peak over hardness at p_m = H/3, Bhushan's rounded first yield
+
+
+@dataclass(frozen=True)
+class IdenticalAsperities:
+    """η equal spheres per area that share the load equally and do not feel each other: A_r ∝ p^(2/3).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    density
+        Asperities per area η in 1/m², > 0.
+    radius
+        Their radius R in m, > 0.
+    height
+        Height of their tops above the mean plane of the surface in m, from which separations count.
+    """
+
+    E_star: float
+    density: float
+    radius: float
+    height: float = 0.0
+    name: ClassVar[str] = "identical-asperities"
+    title: ClassVar[str] = "Identical asperities"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Hertz1882")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("density", "1/m^2", "asperities per area"),
+        Input("radius", "m", "radius of the asperities"),
+        Input("height", "m", "height of their tops above the mean plane", default=0.0),
+    )
+
+    def __post_init__(self) -> None:
+        self.asperity  # noqa: B018 - checks modulus and radius
+        require.positive(self.density, "density of asperities (1/m^2)")
+        require.finite(self.height, "height of the asperities (m)")
+
+    @property
+    def asperity(self) -> HertzPoint:
+        """One of them."""
+        return HertzPoint(self.E_star, self.radius)
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive."""
+        p = curve(pressure, "pressures (Pa)", positive=True)
+        return self._prediction(self.asperity.at_load(p / self.density))
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
+        return self._prediction(self.asperity.at_approach(np.maximum(self.height - h, 0.0)), h)
+
+    def pressure_at_yield(self, hardness: float) -> float:
+        """Nominal pressure in Pa at p_m = H/3: η π³R²H³/48E*², ``hardness`` H in Pa; plan with a third to a half of it.
+
+        Exact first yield is at p_m = 0.38H for ν = 0.3 and H = 2.8Y, half as much load again.
+        """
+        peak = ROUNDED_ONSET * require.positive(hardness, "hardness (Pa)")
+        return self.density * float(self.asperity.at_peak(peak).load)
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts, small against the radius."""
+        radius = np.sqrt(prediction.area_fraction / (math.pi * self.density))
+        slope = small_slope("contact radius over radius of the asperities", radius / self.radius)
+        return (area_limit(prediction, citation="Bhushan1998"), slope)
+
+    def _prediction(self, answer: ContactAnswer, separation: RealArray | None = None) -> Prediction:
+        touching = np.where(answer.area > 0.0, self.density, 0.0)
+        return prediction(
+            self.density * answer.load,
+            area_fraction=self.density * answer.area,
+            contact_density=touching,
+            separation=self.height - answer.approach if separation is None else separation,
+            stiffness=self.density * answer.stiffness,
+        )

@@ -1,0 +1,474 @@
+"""Spherical summits of random heights: Greenwood and Williamson, with fits, plastic share, and two rough surfaces."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import NoSolutionError
+from ..ask import separation_at
+from ..limits import area_limit, blunt_summits
+from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..statistics.heights import NAMED_HEIGHTS, GaussianHeights, HistogramHeights, SummitHeights
+from ..statistics.nayak import NayakSummits
+from ..statistics.roughness import Roughness
+
+# Greenwood & Williamson (1966): spherical summits of one radius and random heights, each a Hertz contact.
+
+
+LOWEST, HIGHEST = -40.0, 37.0
+"""Separations in standard deviations between which pressures are inverted; at 37 a Gaussian has 1e-300 left."""
+
+
+@dataclass(frozen=True)
+class GreenwoodWilliamson:
+    """Independent spherical summits on a rough surface against a rigid plane.
+
+    With D = (h - z̄_s)/σ_s and F_m(D) = ∫_D^∞ (s - D)^m p(s) ds (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
+
+        n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus in Pa.
+    density
+        Summits per area η in 1/m².
+    radius
+        Radius R of the summits in m.
+    height_deviation
+        Standard deviation σ_s of the summit heights in m.
+    mean_height
+        Mean z̄_s of the summit heights above the mean plane of the surface in m, from which separations count.
+    heights
+        Distribution of the standardised summit heights.
+
+    Raises
+    ------
+    InputError
+        If a parameter is not positive (the mean height may have any sign).
+    """
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float = 0.0
+    heights: SummitHeights = GaussianHeights()
+    name: ClassVar[str] = "greenwood-williamson"
+    title: ClassVar[str] = "Greenwood-Williamson"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("density", "1/m^2", "summits per area"),
+        Input("radius", "m", "radius of the summits"),
+        Input("height_deviation", "m", "standard deviation of the summit heights"),
+        Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
+        Input("heights", "", "distribution of the summit heights", default=GaussianHeights(), choices=NAMED_HEIGHTS),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.density, "density of summits (1/m^2)")
+        require.positive(self.radius, "radius of summits (m)")
+        require.positive(self.height_deviation, "standard deviation of summit heights (m)")
+        require.finite(self.mean_height, "mean height of summits (m)")
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float, *, bins: int | None = None) -> Self:
+        """Theory for the summits of a map: their density, 1/<κ>, and the mean and deviation of their heights.
+
+        ``bins`` None: Gaussian heights; a number: their histogram with so many bins.
+
+        Raises
+        ------
+        InputError
+            If the roughness holds no summits, or their heights are all equal.
+        """
+        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        return cls(
+            E_star,
+            summits.density,
+            1.0 / float(summits.curvature.mean()),
+            summits.height_deviation,
+            summits.mean_height,
+            GaussianHeights() if bins is None else HistogramHeights.from_samples(summits.height, bins),
+        )
+
+    @property
+    def pressure_unit(self) -> float:
+        """η R σ_s E* (σ_s/R)^(1/2) in Pa, the unit of the dimensionless pressure P_a."""
+        return self.density * self.radius * self.height_deviation * self.E_star * math.sqrt(self.roughness_ratio)
+
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/R."""
+        return self.height_deviation / self.radius
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
+        D = self.standardised(h)
+        pressure, stiffness = self._law(h)
+        return prediction(
+            pressure,
+            area_fraction=math.pi
+            * self.density
+            * self.radius
+            * self.height_deviation
+            * self.heights.tail_moment(D, 1.0),
+            contact_density=self.density * self.heights.tail_moment(D, 0.0),
+            separation=h,
+            stiffness=stiffness,
+        )
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
+        """
+        wanted = curve(pressure, "pressures (Pa)", positive=True)
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits."""
+        return (area_limit(prediction), blunt_summits(prediction, self.roughness_ratio))
+
+    def standardised(self, separation: RealArray) -> RealArray:
+        """D at ``separation`` in m, in the coordinate of the distribution of heights."""
+        D: RealArray = (separation - self.mean_height) / self.height_deviation + self.heights.mean
+        return D
+
+    def borne(self, separation: RealArray) -> RealArray:
+        """Pressure in Pa that the summits carry at ``separation`` in m, of any shape."""
+        D = self.standardised(separation)
+        return np.asarray(4.0 / 3.0 * self.pressure_unit * self.heights.tail_moment(D, 1.5))
+
+    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, pressure = self.standardised(h), self.borne(h)
+        stiffness = 2.0 * self.pressure_unit / self.height_deviation * self.heights.tail_moment(D, 0.5)
+        return pressure, stiffness
+
+
+# Power laws fitted to the Gaussian theory of Greenwood & Williamson (Bhushan 1998, table 1).
+
+
+LARGEST = 0.57
+"""P_a at D = 0, where the fit of the separation ends."""
+
+FORMS = {"power": (1e-6, 0.1), "linear": (1e-4, 1e-2)}
+"""Forms of the laws and the P_a between which they are within a fifth (power) or a half (linear) of the integrals."""
+
+
+@dataclass(frozen=True)
+class FittedLaws:
+    """Quantities of the Gaussian theory as fitted functions of P_a; logarithms are decimal.
+
+    ``"power"``: D = 1.40 [log(0.57/P_a)]^0.65, p_r = 0.42 P_a^0.04, A_r = 2.40 P_a^0.96, n = 1.21 P_a^0.88,
+    A_r/n = 2.00 P_a^0.08; ``"linear"``: p_r = 0.32, A_r = 3.20 P_a, n = 2.64 P_a, A_r/n = 1.21, no separation.
+    """
+
+    form: str = "power"
+
+    def __post_init__(self) -> None:
+        require.one_of(self.form, FORMS, "form of the fitted laws")
+
+    def separation(self, P_a: RealArray) -> RealArray:
+        """D, NaN for P_a >= 0.57 and for the linear form."""
+        inside = (P_a < LARGEST) & (self.form == "power")
+        D: RealArray = np.where(inside, 1.40 * np.log10(LARGEST / np.where(inside, P_a, LARGEST)) ** 0.65, np.nan)
+        return D
+
+    def real_pressure(self, P_a: RealArray) -> RealArray:
+        """p_r/[E* (σ_s/R)^(1/2)]."""
+        return self._law(P_a, (0.42, 0.04), (0.32, 0.0))
+
+    def area(self, P_a: RealArray) -> RealArray:
+        """A_r/(A_a η R σ_s)."""
+        return self._law(P_a, (2.40, 0.96), (3.20, 1.0))
+
+    def number(self, P_a: RealArray) -> RealArray:
+        """n/(η A_a)."""
+        return self._law(P_a, (1.21, 0.88), (2.64, 1.0))
+
+    def mean_area(self, P_a: RealArray) -> RealArray:
+        """(A_r/n)/(R σ_s)."""
+        return self._law(P_a, (2.00, 0.08), (1.21, 0.0))
+
+    def _law(self, P_a: RealArray, power: tuple[float, float], linear: tuple[float, float]) -> RealArray:
+        factor, exponent = power if self.form == "power" else linear
+        values: RealArray = factor * P_a**exponent
+        return values
+
+
+@dataclass(frozen=True)
+class FittedGreenwoodWilliamson:
+    """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
+
+    Real area and real pressure are fits of their own: their product is the load within a few per cent only.
+
+    Parameters
+    ----------
+    E_star, density, radius, height_deviation, mean_height
+        As for ``GreenwoodWilliamson``; heights are Gaussian.
+    form
+        ``"power"`` or ``"linear"``.
+
+    Raises
+    ------
+    InputError
+        If a parameter is not positive (the mean height may have any sign), or the form unknown.
+    """
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float = 0.0
+    form: str = "power"
+    name: ClassVar[str] = "greenwood-williamson-fits"
+    title: ClassVar[str] = "Greenwood-Williamson, fitted power laws"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Greenwood1966")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        *GreenwoodWilliamson.inputs[1:5],
+        Input("form", "", "fitted laws", of="choice", default="power", choices=tuple((f, f) for f in FORMS)),
+    )
+
+    def __post_init__(self) -> None:
+        self._exact()
+        FittedLaws(self.form)
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float, *, form: str = "power") -> Self:
+        """Theory for the summits of a map, as ``GreenwoodWilliamson.from_roughness``."""
+        exact = GreenwoodWilliamson.from_roughness(roughness, E_star)
+        return cls(E_star, exact.density, exact.radius, exact.height_deviation, exact.mean_height, form)
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa."""
+        p = curve(pressure, "pressures (Pa)", positive=True)
+        exact, laws = self._exact(), FittedLaws(self.form)
+        P_a = p / exact.pressure_unit
+        return prediction(
+            p,
+            area_fraction=self.density * self.radius * self.height_deviation * laws.area(P_a),
+            contact_density=self.density * laws.number(P_a),
+            mean_real_pressure=self.E_star * exact.roughness_ratio**0.5 * laws.real_pressure(P_a),
+            separation=self.mean_height + self.height_deviation * laws.separation(P_a),
+        )
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """The range of the fits, and that of the theory."""
+        P_a = prediction.pressure / self._exact().pressure_unit
+        message = "The fits leave the integrals they replace by more than a fifth (power) or a half (linear)."
+        return (Limit("P_a", P_a, *FORMS[self.form], "Bhushan1998", message), area_limit(prediction))
+
+    def _exact(self) -> GreenwoodWilliamson:
+        return GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
+
+
+# Onset of plastic flow in the theory of Greenwood & Williamson (1966): the plastic share of the contact.
+#
+# With the plasticity index ψ = (E*/H)(σ_s/R)^(1/2), summits pressed deeper than δ_p = R (H/E*)² flow; w = δ_p/σ_s = 1/ψ².
+
+
+NOTICEABLE = 0.02
+"""Plastic share of the area that counts as the onset (Greenwood & Williamson 1966)."""
+
+_LOWEST, _HIGHEST = -35.0, 35.0  # D between which the onset is sought
+
+
+def plastic_area_share(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
+    """Share of the elastic contact area on summits that flow: ∫_(D + w)^∞ (s - D) p ds/F_1(D).
+
+    Parameters
+    ----------
+    D
+        Standardised separations, any shape.
+    psi
+        Plasticity index ψ > 0.
+    heights
+        Distribution of the summit heights.
+    """
+    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
+    deep = heights.tail_moment(D + w, 1.0) + w * heights.tail_moment(D + w, 0.0)
+    share: RealArray = deep / heights.tail_moment(D, 1.0)
+    return share
+
+
+def plastic_area_share_beyond(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
+    """F_1(D + w)/F_1(D), the share if only the depth beyond δ_p counts; a definition that is also in use."""
+    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
+    share: RealArray = heights.tail_moment(D + w, 1.0) / heights.tail_moment(D, 1.0)
+    return share
+
+
+def plastic_number_share(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
+    """F_0(D + w)/F_0(D), the share of the contacts that flow."""
+    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
+    share: RealArray = heights.tail_moment(D + w, 0.0) / heights.tail_moment(D, 0.0)
+    return share
+
+
+def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond: bool = False) -> float:
+    """D below which the plastic share of the area exceeds ``share``, for Gaussian heights.
+
+    Parameters
+    ----------
+    psi
+        Plasticity index.
+    share
+        Share of the area, between 0 and 1.
+    beyond
+        Whether the share is that of ``plastic_area_share_beyond``.
+
+    Raises
+    ------
+    NoSolutionError
+        If the share is exceeded, or not reached, at every separation between -35 and 35 standard deviations.
+    """
+    from scipy.optimize import brentq
+
+    require.between(share, 0.0, 1.0, "plastic share of the area")
+    law = plastic_area_share_beyond if beyond else plastic_area_share
+
+    def excess(D: float) -> float:
+        found = float(law(D, psi))
+        return math.log(found) - math.log(share) if found > 0.0 else -math.inf
+
+    if excess(_LOWEST) < 0.0 or excess(_HIGHEST) > 0.0:
+        raise NoSolutionError(
+            f"plastic share {share:g} must be crossed between D = {_LOWEST:g} and {_HIGHEST:g}, but psi = {psi:g} has "
+            f"{float(law(_LOWEST, psi)):.3g} and {float(law(_HIGHEST, psi)):.3g} there."
+        )
+    return float(brentq(excess, _LOWEST, _HIGHEST, xtol=1e-14, rtol=1e-14))
+
+
+# Greenwood & Tripp (1970): two rough surfaces whose summits meet on their shoulders.
+
+
+@dataclass(frozen=True)
+class GreenwoodTripp:
+    """Two surfaces, each with paraboloidal summits of the same radius and density, at random relative positions.
+
+    With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged over the misalignment
+    of a pair,
+
+        n = 4π η² β σ_s F_1,  A_r/A_a = π² (η β σ_s)² F_2,
+        p = (16√2 π/15) (η β σ_s)² E* (σ_s/β)^(1/2) F_(5/2).
+
+    The second power of the density stands for pairs: doubling the summits of both surfaces quadruples the contacts.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus in Pa.
+    density
+        Summits per area η of each surface in 1/m².
+    radius
+        Radius β of the summits of each surface in m.
+    height_deviation
+        Standard deviation σ_s of the sum of a summit height of either surface in m.
+    mean_height
+        Mean z̄_s of that sum above the sum of the mean planes in m.
+    heights
+        Distribution of the standardised sum.
+
+    Raises
+    ------
+    InputError
+        If a parameter is not positive (the mean height may have any sign).
+    """
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float = 0.0
+    heights: SummitHeights = GaussianHeights()
+    name: ClassVar[str] = "greenwood-tripp"
+    title: ClassVar[str] = "Greenwood-Tripp, two rough surfaces"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Greenwood1970", "McCool1986")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("density", "1/m^2", "summits per area of each surface"),
+        Input("radius", "m", "radius of the summits of each surface"),
+        Input("height_deviation", "m", "standard deviation of the sum of two summit heights"),
+        Input("mean_height", "m", "mean of that sum above the mean planes", default=0.0),
+        Input("heights", "", "distribution of the sum", default=GaussianHeights(), choices=NAMED_HEIGHTS),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.density, "density of summits (1/m^2)")
+        require.positive(self.radius, "radius of summits (m)")
+        require.positive(self.height_deviation, "standard deviation of the sum of summit heights (m)")
+        require.finite(self.mean_height, "mean sum of summit heights (m)")
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
+        """Theory for two independent surfaces, each with half of the moments m0, m2, m4 of ``roughness``.
+
+        Such a pair has the same gap as one surface of ``roughness`` against a plane; summits are those of McCool.
+        """
+        half = NayakSummits(0.5 * roughness.m0, 0.5 * roughness.m2, 0.5 * roughness.m4)
+        deviation = math.sqrt(2.0) * half.height_deviation
+        return cls(E_star, half.density, half.radius, deviation, 2.0 * half.mean_height)
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m of the two mean planes."""
+        h = curve(separation, "separations (m)")
+        D = self._standardised(h)
+        pressure, stiffness = self._law(h)
+        return prediction(
+            pressure,
+            area_fraction=(math.pi * self._crowding) ** 2 * self.heights.tail_moment(D, 2.0),
+            contact_density=4.0 * math.pi * self.density * self._crowding * self.heights.tail_moment(D, 1.0),
+            separation=h,
+            stiffness=stiffness,
+        )
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or larger than at 40 standard deviations below the mean.
+        """
+        wanted = curve(pressure, "pressures (Pa)", positive=True)
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts that do not feel each other, on blunt summits."""
+        return (area_limit(prediction), blunt_summits(prediction, self.height_deviation / self.radius))
+
+    @property
+    def _crowding(self) -> float:
+        """η β σ_s."""
+        return self.density * self.radius * self.height_deviation
+
+    def _standardised(self, h: RealArray) -> RealArray:
+        D: RealArray = (h - self.mean_height) / self.height_deviation + self.heights.mean
+        return D
+
+    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D = self._standardised(h)
+        unit = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self._crowding**2 * self.E_star
+        unit *= math.sqrt(self.height_deviation / self.radius)
+        slope = 2.5 * unit / self.height_deviation * self.heights.tail_moment(D, 1.5)
+        return unit * self.heights.tail_moment(D, 2.5), slope

@@ -1,0 +1,539 @@
+"""Greenwood & Williamson on the summits of a map, sinusoidal and pressing each other down."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import BoolArray, RealArray
+from ...core.errors import ConvergenceError, InputError
+from ..limits import area_limit
+from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..single.waves import TWO_TERMS, two_term_approach, two_term_load, two_terms
+from ..statistics.roughness import Roughness
+from .discrete_summits import DiscreteSummits
+
+# Sinusoidal crests that press each other down: the equations, as a complementarity problem and as least squares.
+#
+# With w_i = a_i² of the contact radii and the far-field approach δ_i = δ - (z_M - z_i) of each crest,
+#
+# r_i(w) = ω_i(w_i) + Σ_j≠i F_j(w_j)/(π E* r_ij) - δ_i,   w_i >= 0,  r_i >= 0,  w_i r_i = 0:
+#
+# a crest touches, or the others have pressed it below the plane. Displacements between crests are those of point forces.
+
+
+_STEPS = 200
+_TOLERANCE = 1e-13  # of the residual over the approach
+_LIFTED = 1e-9  # share of the approach above which a residual is not rounding of the optimiser
+_SELF_TERM = math.pi  # F_i/(π E* a_i)
+
+_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25  # ratios to the value before from which steps settle where crests crowd
+_FIRST_SHARE = 0.03  # of a load or an approach with so few contacts that the steps settle from any start
+
+
+@dataclass(frozen=True, eq=False)
+class CrestSystem:
+    """The crests that may touch, the highest first.
+
+    Parameters
+    ----------
+    A1, A2
+        (n,) coefficients of the crests in 1/m and 1/m³.
+    largest
+        (n,) largest a² in m² for which the two terms hold, infinite for paraboloids (A_2 = 0).
+    coupling
+        (n, n) displacement at i per F_j/E* at j in 1/m, zero on the diagonal.
+    self_term
+        Whether F_i/(π E* a_i) is added to ω_i, as in the printed formulation. The approach of a punch already is the
+        displacement of its centre against the far field, so that this counts it twice.
+    """
+
+    A1: RealArray
+    A2: RealArray
+    largest: RealArray
+    coupling: RealArray
+    self_term: bool = False
+
+    def residual(self, w: RealArray, delta: RealArray) -> RealArray:
+        """r_i in m."""
+        own = two_term_approach(np.sqrt(w), self.A1, self.A2)
+        if self.self_term:
+            own = own + (8.0 / 3.0 * self.A1 + 64.0 / 15.0 * self.A2 * w) * w / _SELF_TERM
+        values: RealArray = own + self.coupling @ self.loads(w) - delta
+        return values
+
+    def loads(self, w: RealArray) -> RealArray:
+        """F_i/E* in m²."""
+        return two_term_load(np.sqrt(w), 1.0, self.A1, self.A2)
+
+    def load_slope(self, w: RealArray) -> RealArray:
+        """d(F_i/E*)/dw_i."""
+        values: RealArray = (4.0 * self.A1 + 32.0 / 3.0 * self.A2 * w) * np.sqrt(w)
+        return values
+
+    def jacobian(self, w: RealArray, among: BoolArray) -> RealArray:
+        """dr_i/dw_j of the crests ``among``."""
+        own = 2.0 * self.A1 + 16.0 / 3.0 * self.A2 * w
+        if self.self_term:
+            own = own + (8.0 / 3.0 * self.A1 + 128.0 / 15.0 * self.A2 * w) / _SELF_TERM
+        matrix: RealArray = self.coupling[np.ix_(among, among)] * self.load_slope(w)[among]
+        matrix[np.diag_indices_from(matrix)] += own[among]
+        return matrix
+
+    def isolated(self, delta: RealArray) -> RealArray:
+        """w_i of crests that do not feel each other, at most the largest; the self term is left out."""
+        omega = np.maximum(delta, 0.0)
+        discriminant = self.A1**2 + 8.0 / 3.0 * self.A2 * omega  # negative beyond the largest approach, 9h/8
+        alone = omega / (self.A1 + np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan)))
+        return np.where(np.isnan(alone), self.largest, np.minimum(alone, self.largest))
+
+    @property
+    def count(self) -> int:
+        """Number of crests."""
+        return int(self.A1.size)
+
+    def nearness(self, w: RealArray) -> RealArray:
+        """1/distance in 1/m of each crest to the next one that touches; 0 without interaction."""
+        values: RealArray = math.pi * np.max(self.coupling * (w > 0.0), axis=1, initial=0.0)
+        return values
+
+    def leading(self, count: int) -> CrestSystem:
+        """The ``count`` highest crests."""
+        part = slice(0, count)
+        return CrestSystem(self.A1[part], self.A2[part], self.largest[part], self.coupling[part, part], self.self_term)
+
+
+def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
+    """w (n,) by Newton steps on the touching crests, which crests leave and enter as the conditions say.
+
+    Raises
+    ------
+    InputError
+        If a crest is pressed beyond the range of its two terms.
+    ConvergenceError
+        If the steps do not settle.
+    """
+    w, scale = start.copy(), float(delta.max())
+    for _ in range(_STEPS):
+        r = system.residual(w, delta)
+        touching = (w > 0.0) | (r < 0.0)
+        if np.all(np.abs(r[touching]) <= _TOLERANCE * scale):
+            return w
+        w[touching] -= np.linalg.solve(system.jacobian(w, touching), r[touching])
+        np.clip(w, 0.0, 0.999 * system.largest, out=w)
+    raise _not_solved(system, w)
+
+
+def solve_load(
+    system: CrestSystem, depth: RealArray, total: float, *, delta: float, start: RealArray
+) -> tuple[float, RealArray]:
+    """Approach δ in m, and w (n,), at which the loads F_i/E* of the crests sum to ``total`` in m².
+
+    Newton steps in δ and all w at once; crests lie ``depth`` (n,) in m below the highest, and ``delta`` and ``start`` are first
+    values of δ and w.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As for ``solve_complementarity``.
+    """
+    w = start.copy()
+    for _ in range(_STEPS):
+        r = system.residual(w, delta - depth)
+        touching = (w > 0.0) | (r < 0.0)
+        excess = system.loads(w).sum() - total
+        if np.all(np.abs(r[touching]) <= _TOLERANCE * delta) and abs(excess) <= _TOLERANCE * total:
+            return delta, w
+        sides = np.stack([r[touching], np.ones(int(touching.sum()))], axis=1)
+        fall, rise = np.linalg.solve(system.jacobian(w, touching), sides).T
+        slope = system.load_slope(w)[touching]
+        step = np.clip((slope @ fall - excess) / (slope @ rise), -0.5 * delta, delta)
+        w[touching] += step * rise - fall
+        delta += float(step)
+        np.clip(w, 0.0, 0.999 * system.largest, out=w)
+    raise _not_solved(system, w)
+
+
+def solve_least_squares(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
+    """w (n,) by minimising |r|²/2 over the contact radii a >= 0 of the touching crests, with scipy's optimiser.
+
+    A crest that ends with a positive residual is pressed below the plane and leaves; one with a negative residual enters.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As for ``solve_complementarity``.
+    """
+    w, scale = start.copy(), float(delta.max())
+    unit = np.sqrt(np.where(np.isinf(system.largest), system.isolated(delta) + scale / system.A1, system.largest))
+    touching = w > 0.0
+    for _ in range(_STEPS):
+        w = _least_squares(system, delta, w, touching, unit=unit)
+        r = system.residual(w, delta)
+        # a crest that cannot reach the plane holds a positive residual, and the others a negative one
+        pressed, missed = touching & (r > _LIFTED * scale), ~touching & (r < 0.0)
+        if not pressed.any() and not missed.any():
+            return w
+        w[pressed] = 0.0
+        touching = (touching & ~pressed) | missed
+    raise _not_solved(system, w)
+
+
+def _least_squares(
+    system: CrestSystem, delta: RealArray, start: RealArray, among: BoolArray, *, unit: RealArray
+) -> RealArray:
+    """w of the crests ``among`` with the least sum of squared residuals, the others zero; unknowns are a over ``unit``."""
+    from scipy.optimize import least_squares
+
+    def squares(x: RealArray) -> RealArray:
+        w = np.zeros_like(delta)
+        w[among] = np.square(x * unit[among])
+        return w
+
+    def residual(x: RealArray) -> RealArray:
+        values: RealArray = system.residual(squares(x), delta)[among] / scale
+        return values
+
+    def jacobian(x: RealArray) -> RealArray:
+        values: RealArray = system.jacobian(squares(x), among) * (2.0 * x * unit[among] ** 2) / scale
+        return values
+
+    scale = float(delta.max())
+    found = least_squares(
+        residual,
+        np.clip(np.sqrt(start[among]) / unit[among], 1e-6, 0.999),
+        jacobian,
+        bounds=(0.0, 1.0),  # of paraboloids as well: interaction makes contacts smaller
+        xtol=_TOLERANCE,
+        ftol=_TOLERANCE,
+        gtol=_TOLERANCE,
+    )
+    return squares(found.x)
+
+
+def _not_solved(system: CrestSystem, w: RealArray) -> InputError | ConvergenceError:
+    if np.any(w >= 0.99 * system.largest):
+        return InputError(
+            f"contact radii must stay below {TWO_TERMS:.3f} wavelengths, where the two terms of the sine end, but a crest "
+            "is pressed deeper. Lower the pressure or the approach."
+        )
+    return ConvergenceError(f"interacting crests did not settle in {_STEPS} steps; the crests may be too close.")
+
+
+def settled(
+    solve: Callable[[CrestSystem, RealArray, RealArray], RealArray],
+    system: CrestSystem,
+    delta: RealArray,
+    start: RealArray,
+) -> RealArray:
+    """w (n,) by ``solve`` from ``start``, or where its steps swing, from a small approach upwards.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As for ``solve_complementarity``.
+    """
+    try:
+        return solve(system, delta, start)
+    except ConvergenceError:
+        w, top = np.zeros_like(start), float(delta.max())
+        for approach in _graded(np.array([_FIRST_SHARE * top, top]), _APPROACH_STEP):
+            w = solve(system, approach - (top - delta), w)
+        return w
+
+
+def graded_loads(loads: RealArray) -> RealArray:
+    """The ``loads`` (n,) as they rise, with lighter ones to begin with and others between those that are too far apart."""
+    return _graded(np.append(loads, _FIRST_SHARE * loads.min()), _LOAD_STEP)
+
+
+def graded_approaches(approaches: RealArray) -> RealArray:
+    """The ``approaches`` (n,) as they rise, with others between those that are too far apart."""
+    return _graded(approaches, _APPROACH_STEP)
+
+
+def _graded(values: RealArray, ratio: float) -> RealArray:
+    rising = np.unique(values)
+    parts = [rising[:1]]
+    for low, high in itertools.pairwise(rising):
+        count = math.ceil(math.log(high / low) / math.log(ratio)) if low > 0.0 else 1
+        parts.append(np.append(low * (high / low) ** (np.arange(1, count) / count), high))
+    return np.concatenate(parts)
+
+
+INTERACTIONS = ("far field", "off", "printed")
+METHODS = ("complementarity", "least squares")
+SHAPES = ("sine", "paraboloid")
+SHALLOW = 0.15
+"""Contact radius over wavelength up to which two terms of the sine are good to 0.5 %."""
+
+APART = 0.5
+"""Contact radius over distance up to which a point force stands for a contact to 2.7 %."""
+
+State: TypeAlias = tuple[CrestSystem, RealArray]
+"""The crests that may touch, the highest first, and the squares of their contact radii in m²."""
+
+
+@dataclass(frozen=True, eq=False)
+class InteractingCrests:
+    """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on the others.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus in Pa.
+    x, y
+        (n,) positions in m; the surface is not repeated.
+    height
+        (n,) heights of the crests above the mean plane of the surface in m.
+    depth, wavelength
+        (n,) crest-to-trough heights and wavelengths in m; the radius of a crest is λ²/(2π² h).
+    area
+        Nominal area in m².
+    interaction
+        ``"far field"``: displacements of point forces between crests; ``"off"``: none; ``"printed"``: the published
+        system, which adds the displacement of each crest by its own force once more and loses two fifths of the load.
+    method
+        ``"complementarity"``: Newton steps on the touching crests; ``"least squares"``: the published form, by a library
+        optimiser. Both solve the same equations.
+    shape
+        ``"sine"``: two terms of the sine, for approaches up to about the depth; ``"paraboloid"``: spheres of the same
+        radius, for any approach.
+
+    Raises
+    ------
+    InputError
+        If the arrays differ in length, a size is not positive, two crests lie at one place, or a choice is unknown.
+    """
+
+    E_star: float
+    x: ArrayLike = field(repr=False)
+    y: ArrayLike = field(repr=False)
+    height: ArrayLike = field(repr=False)
+    depth: ArrayLike = field(repr=False)
+    wavelength: ArrayLike = field(repr=False)
+    area: float
+    interaction: str = "far field"
+    method: str = "complementarity"
+    shape: str = "sine"
+    name: ClassVar[str] = "interacting-crests"
+    title: ClassVar[str] = "Greenwood-Williamson with interacting sinusoidal crests"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Johnson1985")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("x", "m", "positions of the crests", many=True),
+        Input("y", "m", "positions of the crests", many=True),
+        Input("height", "m", "heights of the crests above the mean plane", many=True),
+        Input("depth", "m", "crest-to-trough heights", many=True),
+        Input("wavelength", "m", "wavelengths", many=True),
+        Input("area", "m^2", "nominal area"),
+        Input(
+            "interaction", "", "how crests feel each other", "choice", "far field", tuple((i, i) for i in INTERACTIONS)
+        ),
+        Input(
+            "method", "", "how the equations are solved", "choice", "complementarity", tuple((m, m) for m in METHODS)
+        ),
+        Input("shape", "", "shape of the crests", "choice", "sine", tuple((s, s) for s in SHAPES)),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.area, "nominal area (m^2)")
+        require.one_of(self.interaction, INTERACTIONS, "interaction of crests")
+        require.one_of(self.method, METHODS, "method for interacting crests")
+        require.one_of(self.shape, SHAPES, "shape of crests")
+        columns = {name: curve(getattr(self, name), f"{name} of crests (m)") for name in ("x", "y", "height")}
+        for name in ("depth", "wavelength"):
+            columns[name] = curve(getattr(self, name), f"{name} of crests (m)", positive=True)
+        if len({column.size for column in columns.values()}) != 1:
+            sizes = ", ".join(f"{name} {column.size}" for name, column in columns.items())
+            raise InputError(f"arrays of crests must have the same length, but have {sizes}.")
+        order = np.argsort(-columns["height"], kind="stable")
+        for name, column in columns.items():
+            object.__setattr__(self, name, column[order])
+
+    @classmethod
+    def from_roughness(
+        cls,
+        roughness: Roughness,
+        E_star: float,
+        *,
+        interaction: str = "far field",
+        method: str = "complementarity",
+        shape: str = "paraboloid",
+    ) -> Self:
+        """Theory for the summits of a map.
+
+        A map gives the curvatures of crests, not their depth: paraboloids need no more. Sines all take the depth
+        2 sqrt(2) m2/sqrt(m4) of a wave with the mean square slope and curvature of the profiles.
+        """
+        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        depth = np.full(summits.count, math.sqrt(8.0 / roughness.m4) * roughness.m2)
+        wavelength = math.pi * np.sqrt(2.0 * summits.radius * depth)
+        places = (summits.x, summits.y, summits.height)
+        return cls(E_star, *places, depth, wavelength, summits.area, interaction, method, shape)
+
+    @property
+    def highest(self) -> float:
+        """Height of the highest crest in m, where contact begins."""
+        return float(np.asarray(self.height)[0])
+
+    def squared_radii(self, approach: float) -> RealArray:
+        """Squares of the contact radii in m² of the crests that may touch, the highest first; 0 for those lifted off.
+
+        Parameters
+        ----------
+        approach
+            Far-field approach δ > 0 in m from first touch.
+
+        Raises
+        ------
+        InputError
+            If a crest is pressed beyond the range of its two terms.
+        ConvergenceError
+            If the crests do not settle.
+        """
+        (_, squares), *_ = self._states(np.array([require.positive(approach, "approach (m)")]))
+        return squares
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane: the far-field approach is ``highest`` less them."""
+        h = curve(separation, "separations (m)")
+        return self._predicted(h, self._states(self.highest - h))
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa; the time is that of solving for all touching crests at each.
+
+        Two hundred points take 0.2 s with 240 contacts at the highest pressure, 5 s with 960.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not positive, or presses a crest beyond the range of its two terms.
+        ConvergenceError
+            If the crests do not settle.
+        """
+        wanted = curve(pressure, "pressures (Pa)", positive=True)
+        approaches, states = self._loaded(wanted)
+        return self._predicted(self.highest - approaches, states)
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Few contacts, small against their wavelength and against their distance."""
+        states = self._states(self.highest - prediction.separation)
+        wavelength = np.asarray(self.wavelength)
+        slender = [math.sqrt(float(np.max(w / wavelength[: w.size] ** 2, initial=0.0))) for _, w in states]
+        near = [math.sqrt(float(np.max(w * system.nearness(w) ** 2, initial=0.0))) for system, w in states]
+        return (
+            area_limit(prediction),
+            Limit(
+                "contact radius over wavelength",
+                np.array(slender),
+                0.0,
+                SHALLOW,
+                citation="Johnson1985",
+                message="Two terms of the sine err by more than 0.5 % (at 0.34 they end), paraboloids by more than 2 %.",
+            ),
+            Limit(
+                "contact radius over distance to the next contact",
+                np.array(near),
+                0.0,
+                APART,
+                citation="Johnson1985",
+                message="The displacement by a near contact is more than 3 % larger than that of a point force.",
+            ),
+        )
+
+    def _loaded(self, pressure: RealArray) -> tuple[RealArray, list[State]]:
+        """Approaches δ in m at which the crests carry ``pressure`` (n,) in Pa, and the crests there.
+
+        Spheres without interaction carry it at a smaller approach; what is lacking grows slowly with the load, so that
+        the last one starts the next. With the method of least squares the radii are solved for once more.
+        """
+        path = graded_loads(pressure)
+        depths = self.highest - np.asarray(self.height)
+        spheres = DiscreteSummits(
+            self.E_star, self.height, np.asarray(self.wavelength) ** 2 / self._twice_depth, self.area
+        )
+        alone = self.highest - spheres.at_pressure(path).separation
+        loads, approaches, more = path * self.area / self.E_star, np.empty_like(path), 1.0
+        system = self._system(0)
+        w = self._system(depths.size, alone=True).isolated(float(alone[0]) - depths)
+        states: list[State] = [(system, w)] * path.size
+        for n, load in enumerate(loads):
+            delta, solved = more * float(alone[n]), 0
+            # crests that the approach uncovers take part in the next round
+            while solved < (count := int(np.searchsorted(depths, delta, side="left"))):
+                if count > system.count:
+                    system = self._system(min(count + count // 4 + 16, depths.size))
+                part, solved = system.leading(count), count
+                delta, w[:count] = solve_load(part, depths[:count], float(load), delta=delta, start=w[:count])
+                states[n] = part, w[:count].copy()
+            approaches[n], more = delta, delta / float(alone[n])
+        found = np.searchsorted(path, pressure)
+        wanted = approaches[found]
+        return wanted, self._states(wanted) if self.method == "least squares" else [states[n] for n in found]
+
+    @property
+    def _twice_depth(self) -> RealArray:
+        """2π² h in m, the square of the wavelength over the radius."""
+        values: RealArray = 2.0 * math.pi**2 * np.asarray(self.depth)
+        return values
+
+    def _states(self, deltas: RealArray) -> list[State]:
+        """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one before."""
+        z, path = np.asarray(self.height), graded_approaches(deltas)
+        counts = np.searchsorted(-z, path - z[0], side="left")
+        system = self._system(int(counts.max()))
+        solve = solve_complementarity if self.method == "complementarity" else solve_least_squares
+        states: list[State] = []
+        last: RealArray = np.empty(0)
+        for delta, count in zip(path, counts, strict=True):
+            own, part = delta - (z[0] - z[:count]), system.leading(int(count))
+            start = part.isolated(own)
+            start[: last.size] = last
+            last = settled(solve, part, own, start) if count else start
+            states.append((part, last))
+        return [states[n] for n in np.searchsorted(path, deltas)]
+
+    def _system(self, count: int, *, alone: bool = False) -> CrestSystem:
+        """Equations of the ``count`` highest crests, ``alone`` without what they do to each other."""
+        x, y, depth, wavelength = (
+            np.asarray(column)[:count] for column in (self.x, self.y, self.depth, self.wavelength)
+        )
+        if alone or self.interaction == "off":
+            coupling = np.zeros((count, count))
+        else:
+            distance = np.hypot(np.subtract.outer(x, x), np.subtract.outer(y, y))
+            distance[np.diag_indices(count)] = np.inf
+            if not np.all(distance > 0.0):
+                raise InputError("crests must lie at different places, but two of them coincide.")
+            coupling = np.divide(1.0 / math.pi, distance, out=distance)  # in place: these arrays are the largest
+        A1, A2 = np.array([two_terms(h, wave) for h, wave in zip(depth, wavelength, strict=True)]).reshape(-1, 2).T
+        largest = np.square(TWO_TERMS * wavelength)
+        if self.shape == "paraboloid":
+            A2, largest = np.zeros_like(A2), np.full_like(largest, np.inf)
+        return CrestSystem(A1, A2, largest, coupling, self_term=self.interaction == "printed")
+
+    def _predicted(self, h: RealArray, states: list[State]) -> Prediction:
+        """Prediction from the touching crests at separations ``h`` (n,) in m."""
+        sums = np.zeros((2, h.size))
+        for n, (system, w) in enumerate(states):
+            touching = w > 0.0
+            if touching.any():
+                rates = np.linalg.solve(system.jacobian(w, touching), np.ones(int(touching.sum())))
+                sums[:, n] = system.loads(w).sum(), system.load_slope(w)[touching] @ rates
+        sums *= self.E_star / self.area
+        return prediction(
+            sums[0],
+            area_fraction=math.pi * np.array([w.sum() for _, w in states]) / self.area,
+            contact_density=np.array([np.count_nonzero(w) for _, w in states]) / self.area,
+            separation=h,
+            stiffness=sums[1],
+        )

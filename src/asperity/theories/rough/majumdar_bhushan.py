@@ -1,0 +1,244 @@
+"""Fractal elastic-plastic contact of a Weierstrass-Mandelbrot surface (Majumdar & Bhushan 1991)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError, NoSolutionError
+from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..statistics.roughness import Roughness
+
+# Sizes of the contact spots of a fractal surface: Korcak's law of islands (Mandelbrot 1982; Majumdar & Bhushan 1991).
+
+
+@dataclass(frozen=True)
+class SpotSizes:
+    """N(A > a) = (a_l/a)^(D/2) spots larger than a, none larger than a_l; without bound towards small ones.
+
+    Parameters
+    ----------
+    dimension
+        Fractal dimension D of the profile, 1 < D < 2.
+
+    Raises
+    ------
+    InputError
+        If the dimension is out of its range.
+    """
+
+    dimension: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Majumdar1991",)
+
+    def __post_init__(self) -> None:
+        require.between(self.dimension, 1.0, 2.0, "fractal dimension of a profile")
+
+    def larger_than(self, spot: ArrayLike, largest: ArrayLike) -> RealArray:
+        """Number of spots with more than the area ``spot`` in m² (any shape), ``largest`` a_l in m²."""
+        a, limit = spot_areas(spot), spot_areas(largest)
+        return np.asarray(np.where(a <= limit, (limit / a) ** (0.5 * self.dimension), 0.0))
+
+    def density(self, spot: ArrayLike, largest: ArrayLike) -> RealArray:
+        """Number n(a) of spots per area in 1/m² of the area ``spot``: (D/2) a_l^(D/2)/a^(D/2+1)."""
+        return np.asarray(0.5 * self.dimension * self.larger_than(spot, largest) / spot_areas(spot))
+
+    def share_below(self, spot: ArrayLike, largest: ArrayLike) -> RealArray:
+        """Share of the real area in spots smaller than ``spot`` in m²: (a/a_l)^(1-D/2)."""
+        return np.asarray(np.minimum(1.0, spot_areas(spot) / spot_areas(largest)) ** (1.0 - 0.5 * self.dimension))
+
+    def area(self, largest: ArrayLike) -> RealArray:
+        """Area in m² of all spots when the largest has ``largest`` m²: D a_l/(2-D)."""
+        return np.asarray(self.dimension / (2.0 - self.dimension) * spot_areas(largest))
+
+    def largest(self, area: ArrayLike) -> RealArray:
+        """Area a_l in m² of the largest spot when all together have ``area`` m²."""
+        return np.asarray((2.0 - self.dimension) / self.dimension * spot_areas(area))
+
+
+def spot_areas(value: ArrayLike) -> RealArray:
+    """Return ``value`` in m² as an array, any shape, if all are positive and finite.
+
+    Raises
+    ------
+    InputError
+        If they are not.
+    """
+    areas = np.asarray(value, dtype=float)
+    if not (np.isfinite(areas).all() and (areas > 0.0).all()):
+        raise InputError(
+            f"area of a contact spot (m^2) must be positive and finite, but its least value is {areas.min():g}."
+        )
+    return areas
+
+
+ATOM = 1e-19
+"""Area of an atom in m²."""
+
+_LARGEST = 700.0  # logarithm of the largest area that a float holds
+
+
+@dataclass(frozen=True)
+class MajumdarBhushan:
+    """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
+
+    A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a). Spots obey Korcak's
+    law, N(A > a) = (a_l/a)^(D/2). Spots smaller than the critical area are plastic and carry the hardness, larger ones
+    are elastic: the reverse of a single asperity that is pressed harder and harder.
+
+    Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by
+    powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
+    (1e-19 m²), which says that every real spot is elastic.
+
+    Parameters
+    ----------
+    dimension
+        Fractal dimension D of the profile, 1 < D < 2; that of the surface is D + 1.
+    roughness
+        Fractal roughness G in m, > 0 (see ``asperity.roughness.fractal_parameters``).
+    E_star
+        Contact modulus E* in Pa, > 0.
+    hardness
+        Hardness H of the softer solid in Pa, > 0.
+    nominal_area
+        Nominal area of contact in m², > 0: the largest spot, unlike a summit, depends on it.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of its range.
+    """
+
+    dimension: float
+    roughness: float
+    E_star: float
+    hardness: float
+    nominal_area: float
+    name: ClassVar[str] = "majumdar-bhushan"
+    title: ClassVar[str] = "Majumdar-Bhushan (fractal)"
+    citation_keys: ClassVar[tuple[str, ...]] = ("BhushanMajumdar1992", "Majumdar1991")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("dimension", "", "fractal dimension of the profile, between 1 and 2"),
+        Input("roughness", "m", "fractal roughness G"),
+        E_STAR,
+        Input("hardness", "Pa", "hardness of the softer solid", of="bodies"),
+        Input("nominal_area", "m^2", "nominal area of contact"),
+    )
+
+    def __post_init__(self) -> None:
+        require.between(self.dimension, 1.0, 2.0, "fractal dimension of a profile")
+        require.positive(self.roughness, "fractal roughness G (m)")
+        require.positive(self.E_star, "contact modulus E* (Pa)")
+        require.positive(self.hardness, "hardness (Pa)")
+        require.positive(self.nominal_area, "nominal area (m^2)")
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:
+        """Theory for ``roughness``, which must be self-affine, and the ``hardness`` in Pa of the softer solid."""
+        found = roughness.known(roughness.fractal, "fractal dimension and roughness of self-affine profiles", cls.name)
+        return cls(found.dimension, found.roughness, E_star, hardness, roughness.area)
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Area and mean real pressure at ``pressure`` (n,) in Pa, > 0; the number of spots has no limit.
+
+        Raises
+        ------
+        NoSolutionError
+            If even full contact carries less.
+        """
+        p = curve(pressure, "pressures (Pa)", positive=True)
+        spots = np.array([self.largest_spot_under(load) for load in p * self.nominal_area])
+        return prediction(p, area_fraction=self.sizes.area(spots) / self.nominal_area)
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Spots that are larger than an atom where the theory sees a change, and a largest spot inside the area."""
+        spot = self.sizes.largest(prediction.area_fraction * self.nominal_area)
+        critical = np.full_like(spot, self.critical_area)
+        atom = "The critical spot is smaller than an atom: every real spot is elastic."
+        whole = "The largest spot is as large as the nominal area."
+        return (
+            Limit("critical area (m^2)", critical, ATOM, math.inf, "Bhushan1998", atom),
+            Limit("largest spot / nominal area", spot / self.nominal_area, 0.0, 1.0, "Majumdar1991", whole),
+        )
+
+    @property
+    def sizes(self) -> SpotSizes:
+        """Law of the sizes of the spots."""
+        return SpotSizes(self.dimension)
+
+    @property
+    def critical_area(self) -> float:
+        """a_c = G²/(H/2E*)^(2/(D-1)) in m²: smaller spots are plastic. Infinite or zero where floats end."""
+        return math.inf if self._log_critical > _LARGEST else math.exp(self._log_critical)
+
+    def radius(self, spot: ArrayLike) -> RealArray:
+        """Radius of curvature in m of the asperity under a spot of area ``spot`` in m²: a^(D/2)/(π² G^(D-1))."""
+        a = spot_areas(spot)
+        return np.asarray(a ** (0.5 * self.dimension) / (math.pi**2 * self.roughness ** (self.dimension - 1.0)))
+
+    def interference(self, spot: ArrayLike) -> RealArray:
+        """Height in m by which that asperity is compressed: G^(D-1) a^((2-D)/2)."""
+        return np.asarray(self.roughness ** (self.dimension - 1.0) * spot_areas(spot) ** (1.0 - 0.5 * self.dimension))
+
+    def elastic_area(self, largest: ArrayLike) -> RealArray:
+        """Real area in m² in elastic spots, zero up to a_l = a_c."""
+        return np.asarray(self.sizes.area(largest) * -np.expm1(-(1.0 - 0.5 * self.dimension) * self._excess(largest)))
+
+    def elastic_load(self, largest: ArrayLike) -> RealArray:
+        """Load in N on elastic spots: ∫ (4√π/3) E* G^(D-1) a^((3-D)/2) n(a) da from a_c to a_l."""
+        from scipy.special import exprel
+
+        d, excess, a = self.dimension, self._excess(largest), spot_areas(largest)
+        # (a_l^e - a_c^e)/2e with e = (3 - 2D)/2, which at D = 3/2 is half the logarithm
+        e = 1.5 - d
+        bracket = a**e * 0.5 * excess * exprel(-e * excess)
+        front = 4.0 * math.sqrt(math.pi) / 3.0 * self.E_star * self.roughness ** (d - 1.0) * d
+        return np.asarray(front * a ** (0.5 * d) * bracket)
+
+    def plastic_load(self, largest: ArrayLike) -> RealArray:
+        """Load in N on plastic spots: the hardness times their area."""
+        return np.asarray(self.hardness * (self.sizes.area(largest) - self.elastic_area(largest)))
+
+    def load(self, largest: ArrayLike) -> RealArray:
+        """Load in N when the largest spot has ``largest`` m² (any shape)."""
+        return np.asarray(self.elastic_load(largest) + self.plastic_load(largest))
+
+    def largest_spot_under(self, load: float) -> float:
+        """Area a_l in m² of the largest spot under ``load`` in N on the nominal area.
+
+        Raises
+        ------
+        NoSolutionError
+            If even full contact carries less than the load.
+        """
+        from scipy.optimize import brentq
+
+        wanted = require.positive(load, "load (N)")
+        full = float(self.sizes.largest(self.nominal_area))
+        most = float(self.load(full))
+        if wanted > most:
+            raise NoSolutionError(
+                f"load (N) must be at most the {most:.4g} N that full contact of {self.nominal_area:g} m^2 "
+                f"carries in this theory, but is {wanted:g}."
+            )
+        log_full = math.log(full)
+        low = log_full - 1.0
+        while float(self.load(math.exp(low))) > wanted:
+            low -= 2.0 * (log_full - low)
+        found = brentq(lambda log_a: math.log(float(self.load(math.exp(log_a))) / wanted), low, log_full, xtol=1e-13)
+        return math.exp(found)
+
+    @property
+    def _log_critical(self) -> float:
+        """ln a_c: for D near 1 a_c itself is beyond every float."""
+        ratio = self.hardness / (2.0 * self.E_star)
+        return 2.0 * math.log(self.roughness) - 2.0 / (self.dimension - 1.0) * math.log(ratio)
+
+    def _excess(self, largest: ArrayLike) -> RealArray:
+        """ln(a_l/a_c), zero if all is plastic."""
+        return np.asarray(np.maximum(0.0, np.log(spot_areas(largest)) - self._log_critical))

@@ -1,0 +1,323 @@
+"""Hertz contacts of spheres, cylinders and ellipsoids."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ..ask import LINE_LOAD, Way
+from ..protocol import E_STAR, ContactAnswer, Input, Limit, bisected, checked, small_slope
+
+# Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
+
+
+@dataclass(frozen=True)
+class HertzPoint:
+    """Frictionless elastic contact of a sphere of relative radius R: a³ = 3PR/4E*, δ = a²/R, p = p0 sqrt(1 - r²/a²).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2, > 0.
+    radius
+        Relative radius of curvature R in m, 1/R = 1/R1 + 1/R2, > 0.
+
+    Examples
+    --------
+    >>> ball = HertzPoint(E_star=115e9, radius=5e-3)
+    >>> answer = ball.at_load(10.0)
+    >>> f"{answer.radius * 1e6:.1f} µm, {answer.max_pressure / 1e9:.3f} GPa, {answer.approach * 1e9:.0f} nm"
+    '68.8 µm, 1.008 GPa, 948 nm'
+    """
+
+    E_star: float
+    radius: float
+    name: ClassVar[str] = "hertz"
+    title: ClassVar[str] = "Hertz, point contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.radius, "radius of curvature (m)")
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, >= 0, of any shape."""
+        P = checked(load, "load (N)")
+        return self.at_radius(np.cbrt(0.75 * P * self.radius / self.E_star))
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at the ``approach`` δ in m, >= 0, of any shape: P = (4/3) E* sqrt(R) δ^(3/2)."""
+        return self.at_radius(np.sqrt(self.radius * checked(approach, "approach (m)")))
+
+    def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
+        """The contact of the ``contact_radius`` a in m, >= 0, of any shape."""
+        a = checked(contact_radius, "contact radius (m)")
+        return ContactAnswer(
+            load=4.0 / 3.0 * self.E_star * a**3 / self.radius,
+            approach=a**2 / self.radius,
+            radius=a,
+            area=np.pi * a**2,
+            max_pressure=2.0 / np.pi * self.E_star * a / self.radius,
+            stiffness=2.0 * self.E_star * a,
+        )
+
+    def at_peak(self, pressure: ArrayLike) -> ContactAnswer:
+        """The contact whose largest pressure p0 in Pa is ``pressure``, >= 0, of any shape."""
+        p0 = checked(pressure, "largest pressure (Pa)")
+        return self.at_radius(0.5 * np.pi * p0 * self.radius / self.E_star)
+
+    def pressure(self, r: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0."""
+        answer = self.at_load(require.positive(load, "load (N)"))
+        return hertz_profile(np.asarray(r, dtype=float), answer)
+
+    def displacement(self, r: ArrayLike, load: float) -> RealArray:
+        """Sum of the normal displacements of both surfaces in m at the distance ``r`` in m (any shape).
+
+        Inside p0 π (2a² - r²)/(4aE*), which is δ - r²/2R; outside
+        p0/(2E*a) [(2a² - r²) arcsin(a/r) + r a sqrt(1 - a²/r²)].
+        """
+        answer = self.at_load(require.positive(load, "load (N)"))
+        a, scale = answer.radius, answer.max_pressure / (2.0 * self.E_star * answer.radius)
+        distance = np.abs(np.asarray(r, dtype=float))
+        sine = a / np.maximum(distance, a)
+        outside = np.maximum(distance, a) * a * np.sqrt((1.0 - sine) * (1.0 + sine))
+        displacement: RealArray = scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside)
+        return displacement
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Slopes must be small: a/R <= 0.3."""
+        return (small_slope("contact radius over radius of curvature", answer.radius / self.radius),)
+
+
+def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
+    """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance ``r`` in m."""
+    profile: RealArray = answer.max_pressure * np.sqrt(np.maximum(1.0 - (r / answer.radius) ** 2, 0.0))
+    return profile
+
+
+# Hertz's line contact of two parallel cylinders in plane strain (Hertz 1882; Johnson 1985, sec. 4.2c).
+
+
+@dataclass(frozen=True)
+class HertzLine:
+    """Frictionless elastic contact of a cylinder of relative radius R: a² = 4PR/πE*, p0 = E*a/2R, p = p0 sqrt(1 - x²/a²).
+
+    The approach of distant points depends on how the bodies are held (it grows with the logarithm of their size), so
+    approach and stiffness are NaN.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    """
+
+    E_star: float
+    radius: float
+    name: ClassVar[str] = "hertz-line"
+    title: ClassVar[str] = "Hertz, line contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.radius, "radius of curvature (m)")
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N/m, >= 0, of any shape."""
+        P = checked(load, "load per length (N/m)")
+        return self.at_half_width(np.sqrt(4.0 * P * self.radius / (np.pi * self.E_star)))
+
+    def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
+        """The contact of the ``half_width`` a in m, >= 0, of any shape."""
+        a = checked(half_width, "half-width (m)")
+        unknown = np.full_like(a, np.nan)
+        return ContactAnswer(
+            load=0.25 * np.pi * self.E_star * a**2 / self.radius,
+            approach=unknown,
+            radius=a,
+            area=2.0 * a,
+            max_pressure=0.5 * self.E_star * a / self.radius,
+            stiffness=unknown,
+        )
+
+    def pressure(self, x: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0."""
+        answer = self.at_load(require.positive(load, "load per length (N/m)"))
+        return hertz_profile(np.asarray(x, dtype=float), answer)
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Slopes must be small: a/R <= 0.3."""
+        return (small_slope("contact radius over radius of curvature", answer.radius / self.radius),)
+
+
+# Hertz's contact with two different curvatures: an ellipse (Hertz 1882; Johnson 1985, sec. 4.2).
+
+
+def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
+    """Minor over major semi-axis of the contact ellipse for B/A = larger over smaller curvature, >= 1, of any shape.
+
+    B/A = [(a/b)² E - K]/(K - E) with complete elliptic integrals, written as a ratio of Carlson's symmetric integrals,
+    R_D(0, 1, b²/a²)/R_D(0, b²/a², 1), which loses no digits near the circle.
+    """
+    from scipy.special import elliprd
+
+    ratio = checked(curvature_ratio, "ratio of the curvatures", lowest=1.0)
+    target = np.log(ratio)
+
+    def excess(s: RealArray) -> RealArray:
+        n = np.exp(-2.0 * s)
+        rise: RealArray = np.log(elliprd(0.0, 1.0, n) / elliprd(0.0, n, 1.0)) - target
+        return rise
+
+    # -ln(b/a) is some 0.64 ln(B/A)
+    aspect: RealArray = np.exp(-bisected(excess, np.zeros_like(target), target))
+    return aspect
+
+
+@dataclass(frozen=True)
+class HertzEllipse:
+    """Frictionless elastic contact of bodies whose gap before loading is x²/2Rx + y²/2Ry.
+
+    p = p0 sqrt(1 - x²/a² - y²/b²) on an ellipse, p0 = 3P/2πab, δ = p0 b K(e)/E*, e² = 1 - b²/a² with a the larger
+    semi-axis, which lies along the axis of the larger radius.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius_x, radius_y
+        Principal relative radii of curvature Rx and Ry in m, > 0.
+    """
+
+    E_star: float
+    radius_x: float
+    radius_y: float
+    name: ClassVar[str] = "hertz-ellipse"
+    title: ClassVar[str] = "Hertz, elliptical contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius_x", "m", "relative radius of curvature along x"),
+        Input("radius_y", "m", "relative radius of curvature along y"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.radius_x, "radius of curvature along x (m)")
+        require.positive(self.radius_y, "radius of curvature along y (m)")
+
+    @property
+    def eccentricity(self) -> float:
+        """sqrt(1 - b²/a²) of the contact ellipse, the same at all loads."""
+        ratio = self._axis_ratio
+        return float(np.sqrt((1.0 - ratio) * (1.0 + ratio)))
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, >= 0, of any shape."""
+        from scipy.special import ellipkm1
+
+        P = checked(load, "load (N)")
+        a, b = self._major_and_minor(P)
+        area = np.pi * a * b
+        with np.errstate(invalid="ignore"):  # no load: no pressure
+            p0 = np.where(P > 0.0, 1.5 * P / area, 0.0)
+        approach = p0 * b * ellipkm1(self._axis_ratio**2) / self.E_star
+        with np.errstate(invalid="ignore"):
+            stiffness = np.where(P > 0.0, 1.5 * P / approach, 0.0)  # P rises like δ^(3/2)
+        return ContactAnswer(P, approach, np.sqrt(a * b), area, p0, stiffness)
+
+    def semi_axes(self, load: ArrayLike) -> tuple[RealArray, RealArray]:
+        """Semi-axes of the contact along x and y in m under ``load`` in N, >= 0, of any shape."""
+        major, minor = self._major_and_minor(checked(load, "load (N)"))
+        return (major, minor) if self.radius_x >= self.radius_y else (minor, major)
+
+    def pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the centre under ``load`` in N, > 0."""
+        along_x, along_y = self.semi_axes(require.positive(load, "load (N)"))
+        inside = 1.0 - (np.asarray(x) / along_x) ** 2 - (np.asarray(y) / along_y) ** 2
+        profile: RealArray = self.at_load(load).max_pressure * np.sqrt(np.maximum(inside, 0.0))
+        return profile
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Slopes must be small: semi-axis over radius along either axis <= 0.3."""
+        along_x, along_y = self.semi_axes(answer.load)
+        slopes = np.maximum(along_x / self.radius_x, along_y / self.radius_y)
+        return (small_slope("semi-axis over radius of curvature", slopes),)
+
+    @property
+    def _axis_ratio(self) -> float:
+        radii = sorted((self.radius_x, self.radius_y))
+        return float(axis_ratio(radii[1] / radii[0]))
+
+    def _major_and_minor(self, P: RealArray) -> tuple[RealArray, RealArray]:
+        """Semi-axes a >= b from 1/2R = (p0/E*)(b/a²)(K - E)/e², R the larger radius and (K - E)/e² = R_D(0, b²/a², 1)/3."""
+        from scipy.special import elliprd
+
+        ratio, flattest = self._axis_ratio, max(self.radius_x, self.radius_y)
+        a: RealArray = np.cbrt(P * flattest * elliprd(0.0, ratio**2, 1.0) / (np.pi * self.E_star))
+        return a, ratio * a
+
+
+# Hertz contact of a summit with two curvatures (Johnson 1985, eq. 4.26-4.30), without solving for the ellipse.
+#
+# Curvatures κ_m(1 ± r), 0 <= r < 1. With the approach δ, A = π δ/κ_m f_A and P = (4/3) E* δ^(3/2)/κ_m^(1/2) f_P. The axis
+# ratio k = b/a of the ellipse is the natural parameter: r and both factors are closed forms in it.
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipse:
+    """Contact ellipses of axis ratio ``k`` = b/a, 0 < k <= 1, any shape.
+
+    ``r`` relative difference of the curvatures; ``area`` f_A and ``load`` f_P, which are 1 for a sphere; ``slope`` is
+    dr/d(ln k), not positive.
+    """
+
+    k: RealArray
+    r: RealArray
+    area: RealArray
+    load: RealArray
+    slope: RealArray
+
+
+def ellipse(k: RealArray) -> Ellipse:
+    """Factors of ellipses with axis ratio ``k`` = b/a.
+
+    With complete elliptic integrals K, E of the parameter m = 1 - k² and D = (K - E)/m, B = K - D, which lose no digits
+    at small m: (1 + r)/(1 - r) = B/(k² D), f_A = (B + k² D)/(k K), f_P = (π/2K) sqrt[(B + k² D)/(k² K)].
+    """
+    from scipy.special import ellipkm1, elliprd
+
+    k2 = np.square(k)
+    K = ellipkm1(k2)
+    D = elliprd(0.0, k2, 1.0) / 3.0
+    B, both = K - D, K - D + k2 * D
+    r = (B - k2 * D) / both
+    # d ln(B/(k² D))/d(ln k) from the derivatives of K and E; the limit at the sphere is 3/4
+    m = np.where(k2 < 1.0, 1.0 - k2, 1.0)
+    D_slope = (B - k2 * D) / (2.0 * m * k2)
+    B_slope = B / (2.0 * k2) - D_slope
+    by_m = B_slope / B - D_slope / D + 1.0 / k2
+    slope = np.where(k2 < 1.0, -(1.0 - r * r) * k2 * by_m, -0.75)
+    return Ellipse(k, r, both / (k * K), math.pi / (2.0 * K) * np.sqrt(both / (k2 * K)), slope)
+
+
+def ellipse_of_curvatures(ratio: float) -> Ellipse:
+    """Ellipse of a summit whose curvatures have the ``ratio`` κ1/κ2 >= 1."""
+    return ellipse(axis_ratio(ratio))

@@ -1,0 +1,225 @@
+"""Tangential loading below the limit of friction: a stick zone and a slipping rim (Cattaneo 1938; Mindlin 1949).
+
+The normal force comes first, then Q <= μP. The shear traction is q = μ [p(P) - p(P*)] with P* = P - Q/μ, the contact of
+P* being the stick zone (Ciavarella 1998; Jäger 1998): exact for equal materials in plane strain, and for a point contact
+but for the small transverse traction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ..ask import Column, Way, asked
+from ..protocol import E_STAR, ContactAnswer, Input, Limit, checked
+from .hertz import HertzLine, HertzPoint
+
+
+def tangential_modulus(shear_0: float, nu_0: float, shear_1: float, nu_1: float) -> float:
+    """G* in Pa, 1/G* = (2 - ν0)/4G0 + (2 - ν1)/4G1, from shear moduli (Pa) and Poisson's ratios of both bodies."""
+    parts = [(shear_0, nu_0), (shear_1, nu_1)]
+    return 1.0 / sum((2.0 - nu) / (4.0 * require.positive(G, "shear modulus (Pa)")) for G, nu in parts)
+
+
+SLIP = (
+    Column("normal.radius", "m", "radius (half-width) of the contact"),
+    Column("stick_radius", "m", "radius (half-width) of the stick zone"),
+    Column("displacement", "m", "tangential displacement of distant points"),
+    Column("stiffness", "N/m", "derivative of the tangential force by it"),
+)
+"""What a contact under a tangential force answers; the first two in plane strain."""
+
+
+@dataclass(frozen=True, eq=False)
+class SlipAnswer:
+    """A contact under a tangential force: arrays of one shape.
+
+    Parameters
+    ----------
+    stick_radius
+        Radius (half-width) c of the stick zone in m.
+    displacement
+        Tangential displacement of distant points relative to each other in m; NaN in plane strain.
+    stiffness
+        Derivative of the tangential force by that displacement in N/m; NaN in plane strain.
+    normal
+        The contact under the load alone.
+    """
+
+    stick_radius: RealArray
+    displacement: RealArray
+    stiffness: RealArray
+    normal: ContactAnswer
+
+
+@dataclass(frozen=True)
+class MindlinPoint:
+    """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    G_star
+        Tangential modulus G* in Pa, see ``tangential_modulus``; > 0.
+    friction
+        Friction coefficient μ, > 0.
+    """
+
+    E_star: float
+    radius: float
+    G_star: float
+    friction: float
+    name: ClassVar[str] = "mindlin"
+    title: ClassVar[str] = "Cattaneo-Mindlin, point contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+        Input("G_star", "Pa", "tangential modulus G*", of="bodies"),
+        Input("friction", "", "friction coefficient"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(asked("tangential", "N", "tangential force"), "at_load", SLIP, (asked("load", "N", "normal force"),)),
+    )
+
+    def __post_init__(self) -> None:
+        self.normal  # noqa: B018 - checks modulus and radius
+        require.positive(self.G_star, "tangential modulus G_star (Pa)")
+        require.positive(self.friction, "friction coefficient")
+
+    @property
+    def normal(self) -> HertzPoint:
+        """The contact under the load alone."""
+        return HertzPoint(self.E_star, self.radius)
+
+    def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
+        """Under ``load`` P in N, > 0, and the ``tangential`` force Q in N, 0 <= Q <= μP, of any shape.
+
+        Raises
+        ------
+        InputError
+            If Q exceeds the limit of friction.
+        """
+        normal = self.normal.at_load(require.positive(load, "load (N)"))
+        a = float(normal.radius)
+        c = a * np.cbrt(_sticking(tangential, self.friction * load))
+        ratio = self.E_star / self.G_star
+        displacement = self.friction * ratio * (a - c) * (a + c) / self.radius
+        return SlipAnswer(c, displacement, 2.0 * self.G_star * c, normal)
+
+    def traction(self, r: ArrayLike, load: float, tangential: float) -> RealArray:
+        """Shear traction q in Pa at the distance ``r`` in m (any shape) from the axis."""
+        return _difference(self.normal, r, load, tangential, self.friction)
+
+    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
+        """Conditions of the normal contact."""
+        return self.normal.validity(answer.normal)
+
+
+@dataclass(frozen=True)
+class MindlinLine:
+    """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP).
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    radius
+        Relative radius of curvature R in m, > 0.
+    friction
+        Friction coefficient μ, > 0.
+    """
+
+    E_star: float
+    radius: float
+    friction: float
+    name: ClassVar[str] = "mindlin-line"
+    title: ClassVar[str] = "Cattaneo-Mindlin, line contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("radius", "m", "relative radius of curvature"),
+        Input("friction", "", "friction coefficient"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("tangential", "N/m", "tangential force per length"),
+            "at_load",
+            SLIP[:2],
+            (asked("load", "N/m", "normal force per length"),),
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        self.normal  # noqa: B018 - checks modulus and radius
+        require.positive(self.friction, "friction coefficient")
+
+    @property
+    def normal(self) -> HertzLine:
+        """The contact under the load alone."""
+        return HertzLine(self.E_star, self.radius)
+
+    def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
+        """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any shape."""
+        normal = self.normal.at_load(require.positive(load, "load per length (N/m)"))
+        a = float(normal.radius)
+        c = a * np.sqrt(_sticking(tangential, self.friction * load))
+        unknown = np.full_like(c, np.nan)
+        return SlipAnswer(c, unknown, unknown, normal)
+
+    def traction(self, x: ArrayLike, load: float, tangential: float) -> RealArray:
+        """Shear traction q in Pa at the distance ``x`` in m (any shape) from the middle."""
+        return _difference(self.normal, x, load, tangential, self.friction)
+
+    def stick_shift(self, load: float, tangential: float, bulk_stress: float) -> float:
+        """Shift e = aσ/(4μp0) in m of the stick zone by a tension σ = ``bulk_stress`` (Pa) in one of the bodies.
+
+        Raises
+        ------
+        InputError
+            If the stick zone would reach the edge of the contact, e + c > a, where the solution is another one.
+        """
+        answer = self.normal.at_load(require.positive(load, "load per length (N/m)"))
+        a, c = float(answer.radius), float(self.at_load(load, tangential).stick_radius)
+        shift = a * require.finite(bulk_stress, "bulk stress (Pa)") / (4.0 * self.friction * float(answer.max_pressure))
+        if abs(shift) + c > a * (1.0 + 1e-12):
+            raise InputError(
+                f"bulk stress must leave the stick zone inside of the contact, but {bulk_stress:g} Pa moves it by "
+                f"{shift / a:.3g} half-widths with a half-width of {c / a:.3g}. Less bulk stress or more friction does."
+            )
+        return shift
+
+    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
+        """Conditions of the normal contact."""
+        return self.normal.validity(answer.normal)
+
+
+def _sticking(tangential: ArrayLike, limit: float) -> RealArray:
+    """1 - Q/μP."""
+    Q = checked(tangential, "tangential force")
+    if np.any(limit * (1.0 + 1e-12) < Q):
+        raise InputError(
+            f"tangential force must be at most friction coefficient times load, {limit:.6g}, but is {float(Q.max()):.6g}. "
+            "Beyond it the contact slides."
+        )
+    share: RealArray = np.maximum(1.0 - Q / limit, 0.0)
+    return share
+
+
+def _difference(
+    normal: HertzPoint | HertzLine, r: ArrayLike, load: float, tangential: float, friction: float
+) -> RealArray:
+    sticking = float(_sticking(tangential, friction * load))
+    traction = normal.pressure(r, load)
+    if sticking > 0.0:
+        traction = traction - normal.pressure(r, load * sticking)
+    return friction * traction

@@ -1,0 +1,96 @@
+"""Hardness and modulus from an indentation curve (Oliver & Pharr 1992)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...core import require
+from ...core.errors import InputError
+from ..ask import Column
+from ..protocol import Input
+
+CONE, PARABOLOID, PUNCH = 0.72, 0.75, 1.0
+"""ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the paraboloid."""
+
+BERKOVICH = 24.5
+"""Area over depth squared of an ideal Berkovich pyramid."""
+
+
+@dataclass(frozen=True)
+class OliverPharr:
+    """What the start of unloading tells: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
+
+    Parameters
+    ----------
+    load
+        Peak load W_max in N, > 0.
+    depth
+        Depth h_max at peak load in m, > 0.
+    stiffness
+        Contact stiffness S = dW/dh at the start of unloading in N/m, > 0.
+    shape
+        ε, ``CONE``, ``PARABOLOID`` or ``PUNCH``.
+    area_factor
+        A/h_c² of the indenter.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive, or the indenter would rebound further than it went in.
+    """
+
+    load: float
+    depth: float
+    stiffness: float
+    shape: float = PARABOLOID
+    area_factor: float = BERKOVICH
+    name: ClassVar[str] = "oliver-pharr"
+    title: ClassVar[str] = "Oliver-Pharr, hardness and modulus from unloading"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Oliver1992",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("load", "N", "peak load", of="bodies"),
+        Input("depth", "m", "depth at peak load", of="bodies"),
+        Input("stiffness", "N/m", "slope of the unloading curve at its start", of="bodies"),
+        Input("shape", "", "ε: 0.72 cone, 0.75 paraboloid and Berkovich, 1 punch", of="bodies", default=PARABOLOID),
+        Input("area_factor", "", "area over contact depth squared", of="bodies", default=BERKOVICH),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("hardness", "Pa", "hardness"),
+        Column("contact_modulus", "Pa", "reduced modulus of indenter and body"),
+        Column("contact_depth", "m", "depth of the contact"),
+        Column("area", "m^2", "area of the contact"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.load, "peak load (N)")
+        require.positive(self.depth, "depth at peak load (m)")
+        require.positive(self.stiffness, "contact stiffness (N/m)")
+        require.at_most(self.shape, 1.0, "shape factor epsilon")
+        require.positive(self.area_factor, "area over depth squared")
+        if self.contact_depth <= 0.0:
+            raise InputError(
+                f"depth at peak load must exceed the elastic part {self.depth - self.contact_depth:.4g} m, "
+                f"but is {self.depth:.4g} m. Check the unit of the stiffness (N/m)."
+            )
+
+    @property
+    def contact_depth(self) -> float:
+        """h_c in m."""
+        return self.depth - self.shape * self.load / self.stiffness
+
+    @property
+    def area(self) -> float:
+        """A(h_c) in m²."""
+        return self.area_factor * self.contact_depth**2
+
+    @property
+    def hardness(self) -> float:
+        """H in Pa."""
+        return self.load / self.area
+
+    @property
+    def contact_modulus(self) -> float:
+        """E_r in Pa, 1/E_r = (1 - ν1²)/E1 + (1 - ν0²)/E0 with the indenter 0."""
+        return 0.5 * math.sqrt(math.pi / self.area) * self.stiffness

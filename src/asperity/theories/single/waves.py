@@ -1,0 +1,340 @@
+"""Wavy surfaces: one wave, crossed waves, and the crest of a wave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.quadrature import gauss
+from ..ask import Column
+from ..protocol import (
+    E_STAR,
+    ContactAnswer,
+    Input,
+    Limit,
+    Prediction,
+    bisected,
+    checked,
+    curve,
+    prediction,
+    small_slope,
+)
+from .hertz import HertzPoint
+
+# A sinusoid pressed flat: partial contact of a wavy line (Westergaard 1939; Johnson 1985, sec. 13.2).
+
+
+@dataclass(frozen=True)
+class Westergaard:
+    """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* = πE*Δ/λ just closes it everywhere.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    amplitude
+        Δ in m, > 0: half the height from trough to crest.
+    wavelength
+        λ in m, > 0.
+
+    Examples
+    --------
+    >>> wave = Westergaard(E_star=1e9, amplitude=1e-6, wavelength=1e-3)
+    >>> [round(float(part), 3) for part in wave.area_fraction([0.1e6, 1e6, 4e6])]
+    [0.114, 0.382, 1.0]
+    """
+
+    E_star: float
+    amplitude: float
+    wavelength: float
+    name: ClassVar[str] = "westergaard"
+    title: ClassVar[str] = "Westergaard, sinusoid"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Westergaard1939")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("amplitude", "m", "amplitude of the wave"),
+        Input("wavelength", "m", "wavelength"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.amplitude, "amplitude of the wave (m)")
+        require.positive(self.wavelength, "wavelength (m)")
+
+    @property
+    def full_contact_pressure(self) -> float:
+        """p* = πE*Δ/λ in Pa."""
+        return np.pi * self.E_star * self.amplitude / self.wavelength
+
+    def area_fraction(self, mean_pressure: ArrayLike) -> RealArray:
+        """2a/λ = (2/π) arcsin sqrt(p̄/p*), 1 from p* on; ``mean_pressure`` p̄ in Pa, >= 0, of any shape."""
+        fraction: RealArray = 2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(self._share(mean_pressure), 1.0)))
+        return fraction
+
+    def max_pressure(self, mean_pressure: ArrayLike) -> RealArray:
+        """Pressure at the crest in Pa: 2 sqrt(p̄ p*), from p* on p̄ + p*."""
+        share = self._share(mean_pressure)
+        crest: RealArray = self.full_contact_pressure * np.where(share < 1.0, 2.0 * np.sqrt(share), 1.0 + share)
+        return crest
+
+    def approach(self, mean_pressure: ArrayLike) -> RealArray:
+        """Approach δ of the mean planes since first touch in m: Δω(1 - ln ω), ω = p̄/p*; Δ from p* on."""
+        share = np.minimum(self._share(mean_pressure), 1.0)
+        approach: RealArray = self.amplitude * share * (1.0 - np.log(np.maximum(share, 1e-300)))
+        return approach
+
+    def mean_gap(self, mean_pressure: ArrayLike) -> RealArray:
+        """Mean gap Δ - δ in m."""
+        return self.amplitude - self.approach(mean_pressure)
+
+    def stiffness(self, mean_pressure: ArrayLike) -> RealArray:
+        """dp̄/dδ = p*/(-Δ ln ω) in Pa/m, infinite from p* on and zero without load."""
+        share = np.minimum(self._share(mean_pressure), 1.0)
+        with np.errstate(divide="ignore"):
+            slope: RealArray = self.full_contact_pressure / (self.amplitude * -np.log(share) + 0.0)
+        return slope
+
+    def pressure(self, x: ArrayLike, mean_pressure: float) -> RealArray:
+        """Pressure in Pa at ``x`` in m (any shape) from a crest.
+
+        (2p̄ cos ψ/sin²ψa) sqrt(sin²ψa - sin²ψ) with ψ = πx/λ, ψa = πa/λ; from p* on p̄ + p* cos 2ψ.
+        """
+        p, full = require.positive(mean_pressure, "mean pressure (Pa)"), self.full_contact_pressure
+        psi = np.pi * np.asarray(x, dtype=float) / self.wavelength
+        if p >= full:
+            return np.asarray(p + full * np.cos(2.0 * psi))
+        open_ = np.maximum(p / full - np.sin(psi) ** 2, 0.0)
+        return np.asarray(2.0 * full * np.abs(np.cos(psi)) * np.sqrt(open_))
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of the mean planes."""
+        p = curve(pressure, "mean pressures (Pa)", positive=True)
+        gap = self.mean_gap(p)
+        return prediction(
+            p, area_fraction=self.area_fraction(p), separation=gap, mean_gap=gap, stiffness=self.stiffness(p)
+        )
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Slopes of the wave must be small: 2πΔ/λ <= 0.3."""
+        slope = 2.0 * np.pi * self.amplitude / self.wavelength
+        return (small_slope("largest slope of the wave", np.full(len(prediction), slope)),)
+
+    def _share(self, mean_pressure: ArrayLike) -> RealArray:
+        share: RealArray = checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
+        return share
+
+
+# Crossed waves pressed flat: both ends of the load (Johnson, Greenwood & Higginson 1985).
+#
+# Between the asymptotes there is no closed form; ``asp.solve`` on ``asp.generate.bisinusoid`` has the answer.
+
+
+LOW_LOAD, HIGH_LOAD = 0.02, 0.95
+"""p̄/p* up to which the area of Hertz is low by less than 5 %, and from which that of full contact is right to 0.05 %."""
+
+
+@dataclass(frozen=True)
+class CrossedWaves:
+    """Gap Δ(2 - cos 2πx/λ - cos 2πy/λ) before loading; p* = 2πE*Δ/λ closes it everywhere.
+
+    The product form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface turned by 45°, Δ = Δ'/2, λ = λ'/√2.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    amplitude
+        Δ of each wave in m, > 0.
+    wavelength
+        λ in m, > 0.
+    """
+
+    E_star: float
+    amplitude: float
+    wavelength: float
+    name: ClassVar[str] = "crossed-waves"
+    title: ClassVar[str] = "Johnson-Greenwood-Higginson, crossed waves"
+    citation_keys: ClassVar[tuple[str, ...]] = ("JohnsonGreenwood1985",)
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("amplitude", "m", "amplitude of the wave"),
+        Input("wavelength", "m", "wavelength"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.amplitude, "amplitude of the waves (m)")
+        require.positive(self.wavelength, "wavelength (m)")
+
+    @property
+    def full_contact_pressure(self) -> float:
+        """p* = 2πE*Δ/λ in Pa."""
+        return 2.0 * np.pi * self.E_star * self.amplitude / self.wavelength
+
+    @property
+    def crest(self) -> HertzPoint:
+        """One crest as a sphere of R = λ²/4π²Δ."""
+        return HertzPoint(self.E_star, self.wavelength**2 / (4.0 * np.pi**2 * self.amplitude))
+
+    def area_fraction_at_low_load(self, mean_pressure: ArrayLike) -> RealArray:
+        """Hertz at each crest, π (3p̄/8πp*)^(2/3); ``mean_pressure`` in Pa, >= 0, of any shape."""
+        P = checked(mean_pressure, "mean pressure (Pa)") * self.wavelength**2
+        return np.asarray(self.crest.at_load(P).area / self.wavelength**2)
+
+    def max_pressure_at_low_load(self, mean_pressure: ArrayLike) -> RealArray:
+        """Hertz's peak pressure at each crest in Pa."""
+        return self.crest.at_load(checked(mean_pressure, "mean pressure (Pa)") * self.wavelength**2).max_pressure
+
+    def area_fraction_at_high_load(self, mean_pressure: ArrayLike) -> RealArray:
+        """1 - (3/2π)(1 - p̄/p*): round gaps that the pressure around them just holds open; 1 from p* on."""
+        share = np.minimum(checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure, 1.0)
+        return np.asarray(1.0 - 1.5 / np.pi * (1.0 - share))
+
+    def full_contact(self, x: ArrayLike, y: ArrayLike, mean_pressure: float) -> RealArray:
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from a crest in full contact, p̄ >= p*."""
+        p = require.positive(mean_pressure, "mean pressure (Pa)")
+        full = self.full_contact_pressure
+        if p < full * (1.0 - 1e-12):
+            raise InputError(
+                f"mean pressure must be at least that of full contact, {full:.6g} Pa, but is {p:.6g} Pa. "
+                "Partial contact has no closed form: solve the contact."
+            )
+        q = 2.0 * np.pi / self.wavelength
+        return np.asarray(p + 0.5 * full * (np.cos(q * np.asarray(x)) + np.cos(q * np.asarray(y))))
+
+    def at_pressure(self, pressure: ArrayLike) -> Prediction:
+        """Prediction at nominal pressures (n,) in Pa, positive: the area, NaN where neither end of the load is near."""
+        p = curve(pressure, "mean pressures (Pa)", positive=True)
+        share = p / self.full_contact_pressure
+        between = np.where(share >= HIGH_LOAD, self.area_fraction_at_high_load(p), np.nan)
+        return prediction(p, area_fraction=np.where(share <= LOW_LOAD, self.area_fraction_at_low_load(p), between))
+
+    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
+        """Slopes small, and every load near one of the ends: p̄/p* <= 0.02 or >= 0.95."""
+        share = prediction.pressure / self.full_contact_pressure
+        inside = np.minimum(share - LOW_LOAD, HIGH_LOAD - share)
+        message = "There is no closed form between the asymptotes of low and of high load."
+        steepest = np.full(len(prediction), 2.0 * math.sqrt(2.0) * math.pi * self.amplitude / self.wavelength)
+        return (
+            small_slope("largest slope of the waves", steepest),
+            Limit("p/p* between 0.02 and 0.95, by", inside, -math.inf, 0.0, "JohnsonGreenwood1985", message),
+        )
+
+
+# Axisymmetric cosine cap pressed by a plane, exactly and to two terms of its profile (Sneddon 1965; Johnson 1985).
+
+
+TWO_TERMS = math.sqrt(9.0 / 8.0) / math.pi
+"""a/λ = 0.3376 at which load and approach of the two-term profile have their maximum: the end of its use."""
+
+_NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
+
+
+@dataclass(frozen=True)
+class SinusoidalAsperity:
+    """Cap that drops as (h/2)(1 - cos 2πr/λ) from its top, with radius of curvature λ²/2π²h.
+
+    δ = (π²ha/2λ) H0(2πa/λ) with Struve's function, P = (2πE*ha²/λ) ∫ sin²t sin((2πa/λ) sin t) dt over 0 < t < π/2.
+
+    Parameters
+    ----------
+    E_star
+        Contact modulus E* in Pa, > 0.
+    height
+        h from crest to trough in m, > 0.
+    wavelength
+        λ in m, > 0.
+    """
+
+    E_star: float
+    height: float
+    wavelength: float
+    name: ClassVar[str] = "sinusoidal-asperity"
+    title: ClassVar[str] = "Sinusoidal asperity"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        E_STAR,
+        Input("height", "m", "height from crest to trough"),
+        Input("wavelength", "m", "wavelength"),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        require.positive(self.height, "height of the asperity (m)")
+        require.positive(self.wavelength, "wavelength (m)")
+
+    @property
+    def radius(self) -> float:
+        """Radius of curvature of the crest in m."""
+        return self.wavelength**2 / (2.0 * math.pi**2 * self.height)
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, from 0 to that of a = 0.35 λ, of any shape.
+
+        Raises
+        ------
+        InputError
+            If a load needs a larger contact, in which the valley around the cap takes part.
+        """
+        P = checked(load, "load (N)")
+        widest = self.at_radius(0.35 * self.wavelength)
+        if np.any(widest.load < P):
+            raise InputError(
+                f"load of a cap must be at most that of a contact radius of 0.35 wavelengths, {float(widest.load):.6g} N, "
+                f"but is {float(P.max()):.6g} N. Beyond, the valley around the cap takes part: solve the contact."
+            )
+        a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest.radius))
+        return self.at_radius(a)
+
+    def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
+        """The contact of the ``contact_radius`` a in m, >= 0, of any shape; the largest pressure is not known (NaN)."""
+        from scipy.special import struve
+
+        a = checked(contact_radius, "contact radius (m)")
+        q = 2.0 * math.pi / self.wavelength
+        t, weight = gauss(np.array([0.0, 0.5 * math.pi]), _NODES)
+        integral = np.sum(weight * np.sin(t) ** 2 * np.sin(q * a[..., None] * np.sin(t)), axis=-1)
+        return ContactAnswer(
+            load=self.E_star * self.height * q * a**2 * integral,
+            approach=0.25 * math.pi * self.height * q * a * struve(0, q * a),
+            radius=a,
+            area=math.pi * a**2,
+            max_pressure=np.full_like(a, np.nan),
+            stiffness=2.0 * self.E_star * a,
+        )
+
+    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
+        """Small slopes at the edge."""
+        steepest = math.pi * self.height / self.wavelength * np.sin(2.0 * math.pi * answer.radius / self.wavelength)
+        return (small_slope("slope of the profile at the edge", np.asarray(steepest)),)
+
+
+def two_term_load(contact_radius: ArrayLike, E_star: float, A1: ArrayLike, A2: ArrayLike) -> RealArray:
+    """P in N for the profile A1 r² + A2 r⁴: (8/3) A1 E* a³ + (64/15) A2 E* a⁵; ``contact_radius`` a in m, any shape."""
+    a = np.asarray(contact_radius, dtype=float)
+    return np.asarray(E_star * a**3 * (8.0 / 3.0 * np.asarray(A1) + 64.0 / 15.0 * np.asarray(A2) * a**2))
+
+
+def two_term_approach(contact_radius: ArrayLike, A1: ArrayLike, A2: ArrayLike) -> RealArray:
+    """δ in m for the profile A1 r² + A2 r⁴: 2A1 a² + (8/3) A2 a⁴; ``contact_radius`` a in m, any shape."""
+    a = np.asarray(contact_radius, dtype=float)
+    return np.asarray(a**2 * (2.0 * np.asarray(A1) + 8.0 / 3.0 * np.asarray(A2) * a**2))
+
+
+def two_terms(height: float, wavelength: float) -> tuple[float, float]:
+    """A1 = π²h/λ² in 1/m and A2 = -π⁴h/3λ⁴ in 1/m³ of the cap."""
+    A1 = math.pi**2 * require.positive(height, "height (m)") / require.positive(wavelength, "wavelength (m)") ** 2
+    return A1, -A1 * math.pi**2 / (3.0 * wavelength**2)

@@ -1,0 +1,235 @@
+"""Summits of an isotropic Gaussian surface (Longuet-Higgins 1957; Nayak 1971; McCool 1986)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ..ask import Column, Way, asked
+from ..protocol import Input
+from .roughness import Roughness
+
+GEOMETRIC_CURVATURE = 1.35621131344399
+"""<sqrt(κ1 κ2)>/sqrt(m4) over all summits, by quadrature of (t² - u)^(3/2) e^(-u) φ(t)."""
+
+NARROWEST = 1.5
+"""α of a surface with a single wavelength, the least of all isotropic ones."""
+
+ROUNDING = 1e-9
+"""Share by which α of a computed narrow spectrum may lie below 1.5."""
+
+
+@dataclass(frozen=True, eq=False)
+class SummitsAt:
+    """Summits at heights (n,): ``probability`` density in 1/m, ``curvature`` the mean of κ in 1/m."""
+
+    probability: RealArray
+    curvature: RealArray
+
+
+@dataclass(frozen=True)
+class NayakSummits:
+    """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2, m4.
+
+    With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the joint
+    density p(ξ, t) = 2√3 (t² - 1 + e^(-t²)) φ₂(ξ, t; ρ), t > 0, ρ = sqrt(3/(2α)), α = m0 m4/m2².
+
+    Parameters
+    ----------
+    m0, m2, m4
+        Mean square height (m²), slope (dimensionless) and second derivative (1/m²) of a profile, all positive.
+        The moments of the continuous surface are meant, not those of finite differences.
+
+    Raises
+    ------
+    InputError
+        If a moment is not positive or α < 1.5, which no isotropic surface has.
+    """
+
+    m0: float
+    m2: float
+    m4: float
+    name: ClassVar[str] = "nayak"
+    title: ClassVar[str] = "Nayak, summits of a Gaussian surface"
+    citation_keys: ClassVar[tuple[str, ...]] = ("LonguetHiggins1957", "McCool1986", "Nayak1971")
+    inputs: ClassVar[tuple[Input, ...]] = (
+        Input("m0", "m^2", "mean square height"),
+        Input("m2", "", "mean square slope of a profile"),
+        Input("m4", "1/m^2", "mean square second derivative of a profile"),
+    )
+    numbers: ClassVar[tuple[Column, ...]] = (
+        Column("alpha", "", "bandwidth m0 m4/m2²"),
+        Column("density", "1/m^2", "summits per area"),
+        Column("mean_height", "m", "mean height of the summits above the mean plane"),
+        Column("height_deviation", "m", "standard deviation of the summit heights"),
+        Column("height_skewness", "", "skewness of the summit heights"),
+        Column("height_kurtosis", "", "kurtosis of the summit heights"),
+        Column("radius", "m", "1/<κ>, κ the mean curvature"),
+        Column("mean_curvature", "1/m", "mean of κ"),
+        Column("curvature_deviation", "1/m", "standard deviation of κ"),
+        Column("height_curvature_correlation", "", "correlation of height and κ"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("height", "m", "height above the mean plane"),
+            "at_height",
+            (
+                Column("probability", "1/m", "probability density of the summit heights"),
+                Column("curvature", "1/m", "mean of κ over the summits of this height"),
+            ),
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        require.positive(self.m0, "moment m0 (m^2)")
+        require.positive(self.m2, "moment m2")
+        require.positive(self.m4, "moment m4 (1/m^2)")
+        if self.alpha < NARROWEST * (1.0 - ROUNDING):
+            raise InputError(
+                f"moments of an isotropic surface must have m0 m4/m2^2 >= 1.5, but have {self.alpha:.6g}. "
+                "Finite differences on a coarse grid or an anisotropic surface can give less."
+            )
+
+    @classmethod
+    def of_roughness(cls, roughness: Roughness) -> Self:
+        """Summits of a Gaussian surface with the moments of ``roughness``."""
+        return cls(roughness.m0, roughness.m2, roughness.m4)
+
+    @property
+    def alpha(self) -> float:
+        """Nayak's bandwidth parameter m0 m4/m2²."""
+        return self.m0 * self.m4 / self.m2**2
+
+    @property
+    def correlation(self) -> float:
+        """ρ = sqrt(3/(2α)) of height and mean curvature over the whole surface."""
+        return min(1.0, math.sqrt(1.5 / self.alpha))
+
+    @property
+    def density(self) -> float:
+        """Summits per area in 1/m²: m4/(6π√3 m2)."""
+        return self.m4 / (6.0 * math.pi * math.sqrt(3.0) * self.m2)
+
+    @property
+    def mean_height(self) -> float:
+        """Mean height of the summits above the mean plane in m: 4 sqrt(m0/(πα))."""
+        return math.sqrt(self.m0) * self.correlation * _curvature_moment(1)
+
+    @property
+    def height_deviation(self) -> float:
+        """Standard deviation σ_s of the summit heights in m: sqrt[(1 - 0.8968/α) m0]."""
+        return math.sqrt(self.m0 * self._height_cumulants()[0])
+
+    @property
+    def height_skewness(self) -> float:
+        """Skewness of the summit heights."""
+        variance, third, _ = self._height_cumulants()
+        return float(third / variance**1.5)
+
+    @property
+    def height_kurtosis(self) -> float:
+        """Kurtosis of the summit heights, 3 for a Gaussian."""
+        variance, _, fourth = self._height_cumulants()
+        return 3.0 + fourth / variance**2
+
+    @property
+    def mean_curvature(self) -> float:
+        """Mean of κ over the summits in 1/m: (8/3) sqrt(m4/π)."""
+        return self._curvature_unit * _curvature_moment(1)
+
+    @property
+    def radius(self) -> float:
+        """R = 1/<κ> in m: (3/8) sqrt(π/m4)."""
+        return 1.0 / self.mean_curvature
+
+    @property
+    def curvature_deviation(self) -> float:
+        """Standard deviation of κ over the summits in 1/m: 0.5178 sqrt(m4)."""
+        return self._curvature_unit * math.sqrt(_curvature_cumulants()[0])
+
+    @property
+    def mean_geometric_curvature(self) -> float:
+        """<sqrt(κ1 κ2)> over the summits in 1/m: 1.3562 sqrt(m4)."""
+        return GEOMETRIC_CURVATURE * math.sqrt(self.m4)
+
+    @property
+    def height_curvature_correlation(self) -> float:
+        """Correlation of height and mean curvature over the summits."""
+        return self.correlation * math.sqrt(_curvature_cumulants()[0] / self._height_cumulants()[0])
+
+    def height_density(self, height: ArrayLike) -> RealArray:
+        """Probability density in 1/m of the summit heights at ``height`` in m (any shape)."""
+        xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
+        values: RealArray = self._partial_moment(xi, 0) / math.sqrt(self.m0)
+        return values
+
+    def mean_curvature_at(self, height: ArrayLike) -> RealArray:
+        """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are sharper."""
+        xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
+        values: RealArray = self._curvature_unit * self._partial_moment(xi, 1) / self._partial_moment(xi, 0)
+        return values
+
+    def at_height(self, height: ArrayLike) -> SummitsAt:
+        """Summits at ``height`` in m (any shape)."""
+        return SummitsAt(self.height_density(height), self.mean_curvature_at(height))
+
+    @property
+    def _curvature_unit(self) -> float:
+        return math.sqrt(2.0 * self.m4 / 3.0)
+
+    def _height_cumulants(self) -> tuple[float, float, float]:
+        """Second to fourth cumulant of ξ = ρ t + sqrt(1 - ρ²) n, n standard normal and independent of t."""
+        rho, (second, third, fourth) = self.correlation, _curvature_cumulants()
+        return rho**2 * second + 1.0 - rho**2, rho**3 * third, rho**4 * fourth
+
+    def _partial_moment(self, xi: RealArray, power: int) -> RealArray:
+        """∫₀^∞ t^power p(ξ, t) dt, power 0 or 1."""
+        rho = self.correlation
+        variance = 1.0 - rho**2
+        plain = np.exp(-0.5 * xi**2) / math.sqrt(2.0 * math.pi)
+        if variance < ROUNDING:  # a single wavelength: t = ξ
+            shape = xi**2 - 1.0 + np.exp(-(xi**2))
+            single: RealArray = 2.0 * math.sqrt(3.0) * np.where(xi > 0.0, xi**power * shape, 0.0) * plain
+            return single
+        squares = _half_moments(rho * xi, math.sqrt(variance), power)
+        # e^(-t²) times the normal of t given ξ is a narrower normal times its own weight
+        narrowed = variance / (1.0 + 2.0 * variance)
+        weight = np.exp(-((rho * xi) ** 2) / (1.0 + 2.0 * variance)) / math.sqrt(1.0 + 2.0 * variance)
+        damped = weight * _half_moments(rho * xi / (1.0 + 2.0 * variance), math.sqrt(narrowed), power)[0]
+        values: RealArray = 2.0 * math.sqrt(3.0) * plain * (squares[1] - squares[0] + damped)
+        return values
+
+
+def _half_moments(mean: RealArray, deviation: float, power: int) -> tuple[RealArray, RealArray]:
+    """∫₀^∞ t^power f dt and ∫₀^∞ t^(power + 2) f dt for a normal density f of ``mean`` and ``deviation``."""
+    from scipy.special import ndtr
+
+    edge = deviation * np.exp(-0.5 * (mean / deviation) ** 2) / math.sqrt(2.0 * math.pi)
+    moments = [np.asarray(ndtr(mean / deviation), dtype=float)]
+    moments.append(mean * moments[0] + edge)
+    for order in (2, 3):  # integration by parts
+        moments.append(mean * moments[order - 1] + (order - 1) * deviation**2 * moments[order - 2])
+    return moments[power], moments[power + 2]
+
+
+def _curvature_moment(power: int) -> float:
+    """<t^power> over the summits: 2√3 ∫₀^∞ t^power (t² - 1 + e^(-t²)) φ(t) dt."""
+    normal = [math.pow(2.0, 0.5 * n - 1.0) * math.gamma(0.5 * (n + 1)) / math.sqrt(math.pi) for n in (power, power + 2)]
+    damped = math.pow(2.0 / 3.0, 0.5 * (power + 1)) * math.gamma(0.5 * (power + 1)) / math.sqrt(8.0 * math.pi)
+    return 2.0 * math.sqrt(3.0) * (normal[1] - normal[0] + damped)
+
+
+def _curvature_cumulants() -> tuple[float, float, float]:
+    """Second to fourth cumulant of t over the summits."""
+    first, second, third, fourth = (_curvature_moment(n) for n in (1, 2, 3, 4))
+    variance = second - first**2
+    central_3 = third - 3.0 * first * second + 2.0 * first**3
+    central_4 = fourth - 4.0 * first * third + 6.0 * first**2 * second - 3.0 * first**4
+    return variance, central_3, central_4 - 3.0 * variance**2

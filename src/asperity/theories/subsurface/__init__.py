@@ -1,0 +1,1 @@
+"""Stresses below one contact."""

@@ -1,0 +1,1 @@
+"""Menisci of single asperities and of rough surfaces."""
