@@ -15,7 +15,7 @@ from pathlib import Path
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.surface_figures import SURFACE_PLOTS, render_surface_plot
+from asperity.plots.surface import SURFACE_PLOTS, render_surface_plot
 
 SHOWN = ("heights", "spectrum", "autocorrelation")
 """Pictures of each file on the page of all."""

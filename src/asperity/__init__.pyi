@@ -33,18 +33,14 @@ from .core.errors import (
 )
 from .core.grid import Grid
 from .core.status import Advice
-from .io.disk_surface import save_gaussian
 from .io.export import export_csv, export_vtk
 from .io.path_files import export_path_csv, save_path
 from .io.results import load, open_dataset, save
-from .io.stress_files import save_stress
-from .io.stress_vtk import export_stress_vtk
-from .io.surface_files import save_surface
-from .io.tiles import save_endless
+from .io.stress_files import export_stress_vtk, save_stress
+from .io.surface_files import save_endless, save_gaussian, save_surface
 from .io.wet_results import load_wet, save_wet
-from .plots.figures import save_plots, save_surface_plot
-from .plots.path_figures import save_path_plots
-from .plots.surface_figures import save_roughness_plots
+from .plots.contact import save_path_plots, save_plots, save_surface_plot
+from .plots.surface import save_roughness_plots
 from .report.comparison import write_comparison_report
 from .report.roughness import write_roughness_report
 from .report.write import write_report

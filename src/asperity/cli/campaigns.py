@@ -58,7 +58,7 @@ def run(
 
 def status(folder: Folder) -> None:
     """Say how far a campaign is, also while it runs."""
-    from ..report.study_tables import axis_rows, summary
+    from ..report.study import axis_rows, summary
     from ..studies.campaign import open_study
     from .show import console, say, table
 
@@ -78,8 +78,7 @@ def collect(folder: Folder) -> None:
 
 def _report(campaign: Campaign) -> int:
     """Write and print results; the exit code."""
-    from ..report.study_files import write_study_files
-    from ..report.study_tables import derived_table, summary
+    from ..report.study import derived_table, summary, write_study_files
     from .show import console, print_files, say, table
 
     written = write_study_files(campaign, campaign.folder)
@@ -94,7 +93,7 @@ def _report(campaign: Campaign) -> int:
 
 
 def _print_causes(campaign: Campaign) -> None:
-    from ..report.study_tables import failure_table
+    from ..report.study import failure_table
     from .show import console, table
 
     causes = failure_table(campaign)

@@ -144,7 +144,7 @@ def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> N
 
 def _print(comparison: Comparison, title: str) -> None:
     """Print setup, table, limits, what was left out, remarks and findings."""
-    from ..report.comparison_tables import comparison_sentence, left_out_rows, limit_rows, setup_rows, slope_table
+    from ..report.comparison import comparison_sentence, left_out_rows, limit_rows, setup_rows, slope_table
     from .show import console, print_advice, say, table
 
     out, found = console(), slope_table(comparison)

@@ -88,8 +88,7 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     from ..core.units import parse
     from ..io.build_generated import build_spectrum, table_grid
     from ..io.build_surface import build_file_surface
-    from ..io.disk_surface import save_gaussian
-    from ..io.tiles import save_endless
+    from ..io.surface_files import save_endless, save_gaussian
     from ..surfaces.generate import endless
     from .progress import stage
     from .show import say
@@ -124,7 +123,7 @@ def _require_streamable(table: Any) -> None:
 
 def _picture(surface: Surface, plot: Path | None, force: bool) -> None:
     if plot is not None:
-        from ..plots.figures import save_surface_plot
+        from ..plots.contact import save_surface_plot
 
         save_surface_plot(surface, plot, overwrite=force)
 

@@ -95,12 +95,12 @@ def _write(answer: AnswerOptions, level: str, flat: Surface, found: Characterisa
 
     written: list[Path] = []
     if answer.plot is not None:
-        from ..plots.figures import save_surface_plot
+        from ..plots.contact import save_surface_plot
 
         save_surface_plot(flat, answer.plot, overwrite=answer.force)
         written.append(answer.plot)
     if found is not None and answer.plots is not None:
-        from ..plots.surface_figures import save_roughness_plots
+        from ..plots.surface import save_roughness_plots
 
         written += save_roughness_plots(found, answer.plots, overwrite=answer.force)
     if found is not None and answer.report is not None:
@@ -136,7 +136,7 @@ def _record(
 ) -> dict[str, Any]:
     from dataclasses import asdict
 
-    from ..io.roughness import roughness_record
+    from ..io.records import roughness_record
 
     roughness = {key: value if value == value else None for key, (value, _, _) in _roughness(flat).items()}
     return {
@@ -184,7 +184,7 @@ def _print_roughness(flat: Surface, whole: Characterisation | None, level: str) 
         values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
         out.print(table(f"Roughness after {_levelling(level)}", values))
         return
-    from ..report.quantities import quantity_rows
+    from ..report.roughness import quantity_rows
 
     say(f"Roughness after {_levelling(level)}", "bold")
     for heading, rows in quantity_rows(whole):

@@ -68,7 +68,7 @@ def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> 
     from ..io.documents import dumps, save_document
     from ..io.export import export_csv
     from ..io.results import save
-    from ..plots.figures import save_plots
+    from ..plots.contact import save_plots
     from ..report import write_report
     from .stress_run import write_stress
     from .wet_run import write_wet
@@ -101,7 +101,7 @@ def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> 
 def _write_path(path: LoadPath, folder: Path, document: str) -> None:
     """Write steps, table and figures of ``path`` into ``folder``."""
     from ..io.path_files import export_path_csv, save_path
-    from ..plots.path_figures import save_path_plots
+    from ..plots.contact import save_path_plots
 
     save_path(path, folder / PATH_NAMES[0], document=document)
     export_path_csv(path, folder / PATH_NAMES[1])

@@ -29,7 +29,7 @@ def plot(
 ) -> None:
     """Draw the figures of a result as PNG files."""
     from ..core import require
-    from ..plots.figures import PLASTIC_PLOTS, PLOTS
+    from ..plots.contact import PLASTIC_PLOTS, PLOTS
     from .show import print_files
 
     require.one_of(kind, ("all", *(item.name for item in (*PLOTS, *PLASTIC_PLOTS)), MENISCI), "--kind")
@@ -41,7 +41,7 @@ def _figures(file: Path, kind: str, out: Path, *, force: bool) -> tuple[Path, ..
     from ..io.atomic import atomic_file
     from ..io.results import load
     from ..io.wet_results import is_wet
-    from ..plots.figures import PLASTIC_PLOTS, PLOTS, render, save_plots
+    from ..plots.contact import PLASTIC_PLOTS, PLOTS, render, save_plots
 
     result = load(file)
     if kind == "all":
@@ -57,7 +57,7 @@ def _figures(file: Path, kind: str, out: Path, *, force: bool) -> tuple[Path, ..
 def _menisci(file: Path, out: Path, *, force: bool) -> tuple[Path, ...]:
     """Draw the menisci of the wet contact in ``file`` into the folder ``out``."""
     from ..io.wet_results import load_wet
-    from ..plots.menisci import wet_figures
+    from ..plots.contact import wet_figures
     from ..plots.picture import save_pictures
 
     pictures = {figure.name: lambda picture=figure.picture: picture for figure in wet_figures(load_wet(file))}

@@ -125,7 +125,7 @@ def _write_folder(
     """Write everything into ``folder``; return the names."""
     from ..contact.advice import advise, review
     from ..io.documents import dumps, save_document
-    from ..plots.figures import save_plots
+    from ..plots.contact import save_plots
     from ..report import write_report
     from .stress_run import FOLDER, TABLE, write_stress
 

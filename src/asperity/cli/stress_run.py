@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..plots.figure import Figure
+    from ..plots.picture import Figure
     from ..report.stress import StressPart
     from ..stress.field import StressField
     from ..stress.survey import StressSurvey
@@ -21,9 +21,8 @@ FOLDER, TABLE = "stress", "stress.csv"
 
 def write_stress(survey: StressSurvey, folder: Path) -> StressPart:
     """Write table, fields and figures of ``survey`` into the ``folder`` of a run; what its report is to show."""
-    from ..io.stress_files import save_stress
-    from ..io.stress_table import export_stress_csv
-    from ..plots.stress_figures import line_figures
+    from ..io.stress_files import export_stress_csv, save_stress
+    from ..plots.stress import line_figures
     from ..report.stress import StressPart
 
     export_stress_csv(survey, folder / TABLE)
@@ -43,8 +42,7 @@ def write_stress(survey: StressSurvey, folder: Path) -> StressPart:
 
 def write_volume(survey: StressSurvey, output: OutputOptions) -> None:
     """Write all planes of ``survey`` to the files that are asked for."""
-    from ..io.stress_files import save_stress
-    from ..io.stress_vtk import export_stress_vtk
+    from ..io.stress_files import export_stress_vtk, save_stress
 
     if output.stress_nc is not None:
         save_stress(survey.planes(survey.depths), output.stress_nc, overwrite=output.force)
@@ -86,7 +84,7 @@ def _once(cells: tuple[tuple[str, ...], ...]) -> list[tuple[str, ...]]:
 
 def _drawn(planes: Iterator[StressField], figures: list[Figure]) -> Iterator[StressField]:
     """The same ``planes``, each drawn as it passes."""
-    from ..plots.stress_figures import map_figure
+    from ..plots.stress import map_figure
 
     for number, plane in enumerate(planes, start=1):
         figures.append(map_figure(plane, number))

@@ -124,7 +124,7 @@ def command(kind: type[Described]) -> Any:
 
 def _run(kind: type[Described], texts: dict[str, str], groups: Mapping[str, Any]) -> None:
     from ..io.atomic import require_new_file
-    from ..io.theory_tables import save_table
+    from ..io.records import save_table
     from .show import print_files
     from .theory_show import print_answer
 

@@ -25,7 +25,7 @@ LEFT = "!"
 
 def print_list(*, as_json: bool) -> None:
     """Print all theories with their inputs and sources."""
-    from ..io.theory_tables import catalogue_record
+    from ..io.records import catalogue_record
     from ..theories.catalogue import FAMILIES, THEORIES
 
     if as_json:
@@ -60,7 +60,7 @@ def _print_kind(kind: type[Described]) -> None:
 def print_answer(found: Evaluation, *, as_json: bool) -> None:
     """Print what a theory says, where it leaves its validity, and its sources."""
     if as_json:
-        from ..io.theory_tables import answer_record
+        from ..io.records import answer_record
 
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def write_wet(result: WetContactResult, theory: WetTheory | str, folder: Path, document: str) -> WetPart:
     """Write result file and figures of ``result`` into the ``folder`` of a run; what its report is to show."""
     from ..io.wet_results import save_wet
-    from ..plots.menisci import wet_figures
+    from ..plots.contact import wet_figures
     from ..report.wet import WetPart
 
     save_wet(result, folder / "result.nc", document=document)

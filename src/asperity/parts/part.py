@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..contact.solvers.protocol import Solver
     from ..core.quantity import Quantity
     from ..core.status import Advice, Status
-    from ..plots.figure import Figure
+    from ..plots.picture import Figure
 
 Stage: TypeAlias = Callable[[str], AbstractContextManager[Progress]]
 """Gives the progress of a stage of the work, whose name it is told."""

@@ -8,18 +8,40 @@ from .campaign import (
     plot_sensitivities,
     plot_transitions,
 )
-from .figures import PLASTIC_PLOTS, PLOTS, Plot, render, save_plots, save_surface_plot
-from .histogram import plot_gap_histogram, plot_pressure_histogram
+from .contact import (
+    PATH_PLOTS,
+    PLASTIC_PLOTS,
+    PLOTS,
+    PathPlot,
+    Plot,
+    plot_area_loop,
+    plot_energies,
+    plot_gap_histogram,
+    plot_load_loop,
+    plot_pressure_histogram,
+    plot_section,
+    render,
+    render_path_plot,
+    save_path_plots,
+    save_plots,
+    save_surface_plot,
+)
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
-from .path_curves import plot_area_loop, plot_energies, plot_load_loop
-from .path_figures import PATH_PLOTS, PathPlot, render_path_plot, save_path_plots
-from .section import plot_section
-from .spectrum import plot_scale_dependence, plot_spectrum
+from .picture import style
 from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
-from .style import style
-from .surface_curves import plot_autocorrelation, plot_height_distribution, plot_material_ratio
-from .surface_figures import SURFACE_PLOTS, SurfacePlot, render_surface_plot, save_roughness_plots
-from .surface_view import plot_summits, plot_surface_view
+from .surface import (
+    SURFACE_PLOTS,
+    SurfacePlot,
+    plot_autocorrelation,
+    plot_height_distribution,
+    plot_material_ratio,
+    plot_scale_dependence,
+    plot_spectrum,
+    plot_summits,
+    plot_surface_view,
+    render_surface_plot,
+    save_roughness_plots,
+)
 
 __all__ = [
     "PATH_PLOTS",

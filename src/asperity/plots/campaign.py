@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.quantity import Quantity
-from .style import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
+from .picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.arrays import RealArray
-from .figure import Figure
-from .picture import CURVE_SIZE, png, save_pictures
-from .style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, scale
+from .picture import BLACK, BLUE, CURVE_SIZE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, Figure, png, save_pictures, scale
 
 if TYPE_CHECKING:
     import xarray

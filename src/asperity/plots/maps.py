@@ -12,7 +12,7 @@ from ..core.arrays import RealArray
 from ..core.grid import Grid
 from ..core.units import percent
 from ..surfaces.surface import Surface
-from .style import BLUE, GAP_MAP, HEIGHT_MAP, NO_CONTACT, PRESSURE_MAP, VERMILLION, Scale, scale
+from .picture import BLUE, GAP_MAP, HEIGHT_MAP, NO_CONTACT, PRESSURE_MAP, SLENDER, VERMILLION, Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 
 DECADES = 3.0
 """Range of the logarithmic pressure map below the maximum, in powers of ten."""
-
-SLENDER = 8.0
-"""Ratio of sides above which a map is stretched instead of drawn to scale."""
 
 WIDE = 2.0
 """Ratio of width to height above which the colour bar lies above the map instead of beside it."""

@@ -12,14 +12,11 @@ from ..core.grid import Grid
 from ..io.words import heading_and_rows
 from ..stress.field import StressField
 from ..surfaces.surface import Surface
-from .figures import PLASTIC_PLOTS, PLOTS
+from .contact import PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
-from .picture import CURVE_SIZE, map_size, png
-from .stress import QUANTITIES, plot_stress_map, plot_stress_profile, plot_stress_section
-from .stress_figures import SECTION_SIZE
-from .style import style
-from .surface_figures import VIEW_SIZE
-from .surface_view import plot_surface_view
+from .picture import CURVE_SIZE, map_size, png, style
+from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
+from .surface import VIEW_SIZE, plot_surface_view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

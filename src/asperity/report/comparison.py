@@ -3,18 +3,168 @@
 from __future__ import annotations
 
 import base64
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
+from ..core.arrays import RealArray
 from ..core.citations import REFERENCES
+from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
-from ..io.words import surface_rows
+from ..io.words import Rows, body_text, modulus_label, surface_rows
 from ..plots.comparison import comparison_figures
-from ..plots.figure import Figure
-from ..studies.comparison import Comparison
-from .comparison_tables import comparison_sentence, left_out_rows, limit_rows, setup_rows, slope_table
-from .page import rendered
+from ..plots.picture import Figure
+from ..studies.comparison import Comparison, TheoryCurve
+from .page import Table, rendered
+
+# A comparison of theories in words for tables.
+
+
+NONE = "–"
+"""What stands for no number."""
+
+
+def comparison_sentence(comparison: Comparison) -> str:
+    """One or two sentences on what was compared, and which theory comes nearest within its limits."""
+    p, count = comparison.pressures, len(comparison.curves)
+    text = f"{count} theories at {p.size} loads from {show(float(p[0]), 'Pa', 3)} to {show(float(p[-1]), 'Pa', 3)}"
+    if comparison.numerical is None:
+        return f"{text}, without the numerical solution."
+    text += (
+        f", beside the boundary-element solution ({comparison.numerical.solver}, {comparison.numerical.seconds:.2g} s)."
+    )
+    everywhere = [curve.name for curve in comparison.curves if np.isfinite(comparison.deviation(curve.name)).all()]
+    ranked = [(_root_mean_square(comparison.deviation(name)), name) for name in everywhere]
+    if not ranked:
+        return text
+    off, best = min(ranked)
+    return f"{text} Over all loads {best} comes nearest: its area is off by {percent(off, 2)} (rms)."
+
+
+def setup_rows(comparison: Comparison) -> Rows:
+    """Bodies, modulus, law and roughness that all curves share."""
+    problem, roughness = comparison.problem, comparison.roughness
+    rows = [
+        ("body", body_text(problem.body)),
+        ("counter body", body_text(problem.counter_body)),
+        (modulus_label(problem), show(comparison.E_star, "Pa")),
+        ("boundary, law of the numerical solution", f"{problem.boundary.name}, {problem.law.name}"),
+        ("rms height", show(roughness.rms_height, "m")),
+        ("rms gradient h'", f"{roughness.rms_gradient:.4g}"),
+        ("Nayak's parameter α", f"{roughness.alpha:.4g}"),
+        ("skewness, kurtosis of the heights", f"{roughness.skewness:.3g}, {roughness.kurtosis:.3g}"),
+    ]
+    if roughness.moments is not None:
+        steep, gentle = roughness.moments.principal_slopes
+        ratio = steep / gentle if gentle > 0.0 else math.inf
+        rows.append(("ratio of the principal mean square slopes", f"{ratio:.3g}"))
+    if roughness.summits is not None:
+        summits = roughness.summits
+        rows.append(("summits", f"{summits.count}, {show(summits.density, '1/m**2', 3)}"))
+        rows.append(("mean radius of the summits", show(1.0 / float(summits.curvature.mean()), "m", 3)))
+    return rows
+
+
+def slope_table(comparison: Comparison) -> Table:
+    """κ and deviation of the area of every theory at the lowest, a middle and the highest load, and where it holds.
+
+    The last columns are root mean squares over the loads at which the theory holds, the gap in rms heights σ.
+    """
+    at = sorted({0, comparison.pressures.size // 2, comparison.pressures.size - 1})
+    loads = [show(float(comparison.pressures[number]), "Pa", 3) for number in at]
+    headings = [
+        "Theory",
+        *(f"κ at {load}" for load in loads),
+        *(f"area (%) at {load}" for load in loads),
+        "area (%), rms",
+        "gap (σ), rms",
+        "holds",
+    ]
+    cells: list[tuple[str, ...]] = []
+    if comparison.numerical is not None:
+        area = comparison.numerical.area_fraction_corrected
+        shares = [_share(area[number]) for number in at]
+        kappas = [_number(comparison.kappa(area)[number]) for number in at]
+        cells.append(("numerical", *kappas, *shares, NONE, NONE, NONE))
+    cells += [_theory_cells(comparison, curve, at) for curve in comparison.curves]
+    return Table(tuple(headings), tuple(cells))
+
+
+def limit_rows(comparison: Comparison) -> Rows:
+    """Every note on a curve, under the name of its theory where it is the first."""
+    rows: Rows = []
+    for name, notes in _noted(comparison):
+        rows += [(name if number == 0 else "", note) for number, note in enumerate(notes)]
+    return rows
+
+
+def left_out_rows(comparison: Comparison) -> Rows:
+    """Theories without a curve, and why."""
+    return [(item.name, item.reason) for item in comparison.left_out]
+
+
+def _noted(comparison: Comparison) -> list[tuple[str, tuple[str, ...]]]:
+    solved = comparison.numerical
+    own = [] if solved is None or not solved.notes else [("numerical", solved.notes)]
+    return [*own, *((curve.name, curve.notes) for curve in comparison.curves if curve.notes)]
+
+
+def _theory_cells(comparison: Comparison, curve: TheoryCurve, at: list[int]) -> tuple[str, ...]:
+    kappas = comparison.kappa(curve.prediction.area_fraction)
+    deviations = comparison.deviation(curve.name)
+    solved = comparison.numerical is not None
+    shown = deviations if solved else curve.prediction.area_fraction
+    gap = _rms(comparison.deviation(curve.name, "gap"), curve)
+    return (
+        curve.name,
+        *(_number(kappas[number]) for number in at),
+        *(_share(shown[number], signed=solved) for number in at),
+        _share(_rms_where_valid(comparison, curve)),
+        NONE if math.isnan(gap) else f"{gap:.2g}",
+        _range(comparison, curve),
+    )
+
+
+def _range(comparison: Comparison, curve: TheoryCurve) -> str:
+    """At which of the loads all limits of the theory hold."""
+    inside = np.flatnonzero(curve.valid)
+    if inside.size == 0:
+        return "nowhere"
+    if inside.size == curve.valid.size:
+        return "everywhere"
+    low, high = (show(float(comparison.pressures[end]), "Pa", 3) for end in (inside[0], inside[-1]))
+    if inside[0] == 0:
+        return f"to {high}"
+    return f"from {low}" if inside[-1] == curve.valid.size - 1 else f"{low} to {high}"
+
+
+def _rms_where_valid(comparison: Comparison, curve: TheoryCurve) -> float:
+    return _rms(comparison.deviation(curve.name), curve)
+
+
+def _rms(deviations: RealArray, curve: TheoryCurve) -> float:
+    return _root_mean_square(deviations[curve.valid & np.isfinite(deviations)])
+
+
+def _root_mean_square(deviations: RealArray) -> float:
+    return float(np.sqrt(np.mean(deviations**2))) if deviations.size else math.nan
+
+
+def _number(value: float) -> str:
+    return f"{value:.2f}" if math.isfinite(value) else NONE
+
+
+def _share(value: float, *, signed: bool = False) -> str:
+    if not math.isfinite(value):
+        return NONE
+    return f"{100.0 * value:+.1f}" if signed else f"{100.0 * value:.3g}"
+
+
+# A self-contained HTML page on a comparison of theories with the numerical solution.
+
 
 TEMPLATE = "comparison.html"
 """Template in the folder ``templates``."""

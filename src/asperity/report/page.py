@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib import resources
 from typing import Any
+
+# HTML pages from the templates of this folder.
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -22,3 +25,14 @@ def rendered(template: str, **values: Any) -> str:
 
 def _source(name: str) -> str:
     return resources.files(__package__).joinpath("templates", name).read_text(encoding="utf-8")
+
+
+# Tables of text for the templates.
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings and cells of a table of text."""
+
+    headings: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...]

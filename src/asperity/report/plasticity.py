@@ -8,7 +8,7 @@ from ..contact.plastic_load import PlasticLoad
 from ..contact.result import PLASTIC_FRACTION, ContactResult
 from ..core.units import percent, show
 from ..io.words import Rows
-from .tables import Table
+from .page import Table
 
 
 def plastic_rows(result: ContactResult, found: PlasticLoad | None) -> Rows:

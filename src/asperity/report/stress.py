@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 
 from ..core.units import show
 from ..io.words import Rows
-from ..plots.figure import Figure
+from ..plots.picture import Figure
 from ..stress.criteria import TABOR
 from ..stress.field import Peak, RegionMaxima
 from ..stress.regions import Region
 from ..stress.survey import StressSurvey
 from ..stress.yielding import RegionYield
-from .tables import Table
+from .page import Table
 
 Part = TypeVar("Part", RegionMaxima, RegionYield)
 

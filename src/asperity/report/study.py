@@ -1,18 +1,349 @@
-"""A self-contained HTML page on a study."""
+"""A self-contained HTML page on a study, its figures, tables and files."""
 
 from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
 
 from ..core.citations import REFERENCES
+from ..core.quantity import Quantity
+from ..core.units import percent, show
 from ..io.atomic import atomic_file
-from ..studies.campaign import Campaign
+from ..io.words import Rows
+from ..plots.campaign import (
+    Curve,
+    Labelled,
+    Transition,
+    plot_convergence,
+    plot_curves,
+    plot_running_mean,
+    plot_samples,
+    plot_sensitivities,
+    plot_transitions,
+)
+from ..plots.picture import CURVE_SIZE, png, save_pictures
+from ..studies.campaign import Campaign, CampaignState
+from ..studies.monte_carlo import CONFIDENCE, estimate
 from .page import rendered
-from .study_figures import StudyFigure, study_figures
-from .study_tables import axis_rows, case_table, derived_table, failure_table, summary
+
+if TYPE_CHECKING:
+    import xarray
+
+
+# Which figures a study gets, and what they show.
+
+
+Draw: TypeAlias = "Callable[[Campaign, Any, Any, str], Iterator[StudyFigure]]"
+"""Draws the figures of one quantity from results and derived numbers."""
+
+MOST_CURVES = 7
+"""Curves in one figure."""
+
+
+@dataclass(frozen=True)
+class StudyFigure:
+    """One picture: ``name`` of its file, ``title``, ``caption``, and the PNG."""
+
+    name: str
+    title: str
+    caption: str
+    picture: bytes
+
+
+def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[StudyFigure]:
+    """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more for each quantity."""
+    draw: Draw = _DRAWN.get(campaign.study.document.kind, _sweep)
+    return [figure for name in campaign.study.document.quantities for figure in draw(campaign, data, derived, name)]
+
+
+def labelled(variable: xarray.DataArray) -> Labelled:
+    """Values, unit and label of ``variable``."""
+    attributes = variable.attrs
+    label = str(attributes.get("long_name", variable.name)).rpartition(".")[2].replace("_", " ")
+    quantity = Quantity(str(variable.name), str(attributes.get("units", "1")), label)
+    return Labelled(quantity, np.asarray(variable, dtype=float))
+
+
+def point_text(coordinate: xarray.DataArray) -> str:
+    """Name and value of one point of an axis."""
+    text = coordinate_text(coordinate.item(), str(coordinate.attrs.get("units", "1")))
+    return f"{str(coordinate.name).replace('_', ' ')} {text}"
+
+
+def coordinate_text(value: float | str, unit: str) -> str:
+    """Where a point lies on its axis; only thicknesses are infinite, and mean that the layer never ends."""
+    if isinstance(value, str):
+        return value
+    return "endless" if math.isinf(value) else show(float(value), unit)
+
+
+def curves_axis(data: xarray.DataArray) -> str | None:
+    """The axis of numbers with the most points, of which there must be two; None without."""
+    numeric = {str(dim): size for dim, size in data.sizes.items() if size > 1 and data[dim].dtype.kind == "f"}
+    return max(numeric, key=lambda dim: numeric[dim]) if numeric else None
+
+
+def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    array = data[name]
+    along = curves_axis(array)
+    if along is None:
+        return
+    rows, more = _rows(array, along)
+    y = labelled(array)
+    x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
+    picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
+    yield StudyFigure(name, y.quantity.title, f"{y.quantity.label} against {x.quantity.label}{more}.", picture)
+
+
+def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    array, y = data[name], labelled(data[name])
+    means = derived[f"{name}_mean"]
+    along = curves_axis(means)
+    first, more = _first(array, "sample")
+    if along is not None:
+        rows, where = _rows(means, along)
+        bands, _ = _rows(derived[f"{name}_deviation"], along)
+        curves = [
+            Curve(text, np.asarray(row), np.asarray(band)) for (text, row), (_, band) in zip(rows, bands, strict=True)
+        ]
+        picture = _picture(lambda ax: plot_curves(labelled(data[along]), y, curves, ax))
+        caption = (
+            f"Mean of {y.quantity.label} over the samples; the band is one standard deviation on either side{where}."
+        )
+        yield StudyFigure(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption, picture)
+    table = campaign.study.document.monte_carlo
+    confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
+    whole = estimate(np.asarray(first), confidence)
+    samples = Labelled(y.quantity, np.asarray(first, dtype=float))
+    picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
+    yield StudyFigure(
+        f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.", picture
+    )
+    done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
+    running = [estimate(samples.values[: n + 1], confidence) for n in range(done)]
+    halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
+    picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
+    caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
+    yield StudyFigure(f"{name}_running", f"{y.quantity.title}, running mean", caption, picture)
+
+
+def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    table = campaign.study.document.convergence
+    assert table is not None
+    array, more = _first(data[name], "level")
+    limit, _ = _first(derived[f"{name}_extrapolated"], "")
+    label = {"grid": "points along x", "domain": "factor on the size"}.get(table.of, "tolerance")
+    levels = Labelled(Quantity("level", "1", label), np.asarray(data["level"], dtype=float))
+    y = labelled(array)
+    picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
+    caption = f"{y.quantity.label} from coarse to fine, and its Richardson extrapolation{more}."
+    yield StudyFigure(name, y.quantity.title, caption, picture)
+
+
+def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    rows, more = _rows(data[name], "thickness")
+    found = {key: _rows(derived[f"{name}_{key}"], "")[0] for key in ("at_zero", "at_infinity", "floor", "ceiling")}
+    transitions = [
+        Transition(text, np.asarray(row)[1:-1], **{key: float(found[key][number][1]) for key in found})
+        for number, (text, row) in enumerate(rows)
+    ]
+    y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
+    picture = _picture(lambda ax: plot_transitions(thickness, y, transitions, ax))
+    caption = (
+        f"{y.quantity.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
+        f"layer does not matter, above the ceiling what lies under it does not{more}."
+    )
+    yield StudyFigure(name, y.quantity.title, caption, picture)
+
+
+def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+    low, more = _first(derived[f"{name}_low"], "scalar")
+    high, _ = _first(derived[f"{name}_high"], "scalar")
+    base, _ = _first(data[name].isel(parameter=0), "")
+    names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
+    size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
+    picture = png(lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size)
+    yield StudyFigure(
+        name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.", picture
+    )
+
+
+_DRAWN: dict[str, Draw] = {
+    "monte_carlo": _monte_carlo,
+    "convergence": _convergence,
+    "critical_thickness": _critical,
+    "sensitivity": _sensitivity,
+}
+"""What draws the figures of each kind of study."""
+
+
+def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.DataArray]], str]:
+    """Rows of ``array`` along one axis with the points of the longest other axis as text; and where the rest stands."""
+    others = sorted((str(dim) for dim in array.dims if dim != along), key=lambda dim: -array.sizes[dim])
+    fixed, more = _first(array, along, *others[:1])
+    if not others:
+        return [("", fixed)], more
+    points = _spread(array.sizes[others[0]])
+    rows = [(point_text(array[others[0]][number]), fixed.isel({others[0]: number})) for number in points]
+    return rows, more
+
+
+def _first(array: xarray.DataArray, *kept: str) -> tuple[xarray.DataArray, str]:
+    """``array`` at the first point of all axes that are not ``kept``, and the words that say so."""
+    dims = [str(dim) for dim in array.dims if dim not in kept]
+    texts = [point_text(array[dim][0]) for dim in dims]
+    return array.isel(dict.fromkeys(dims, 0)), f", at {', '.join(texts)}" if texts else ""
+
+
+def _spread(count: int) -> Sequence[int]:
+    """Numbers of at most ``MOST_CURVES`` of ``count`` points, first and last among them."""
+    if count <= MOST_CURVES:
+        return range(count)
+    return [int(number) for number in np.linspace(0, count - 1, MOST_CURVES).round()]
+
+
+def _picture(draw: Callable[[Any], Any]) -> bytes:
+    return png(draw, CURVE_SIZE)
+
+
+# The numbers of a study in words for tables.
+
+
+KINDS = {
+    "sweep": "Sweep",
+    "monte_carlo": "Monte-Carlo study",
+    "convergence": "Convergence study",
+    "critical_thickness": "Study of critical thickness",
+    "sensitivity": "Study of sensitivity",
+}
+"""Names of the kinds of study."""
+
+COLUMNS = {
+    "monte_carlo": (
+        ("mean", "mean"),
+        ("deviation", "standard deviation"),
+        ("half_width", "± (confidence)"),
+        ("count", "samples"),
+    ),
+    "convergence": (
+        ("order", "observed order"),
+        ("extrapolated", "extrapolated"),
+        ("error", "error of the finest level"),
+    ),
+    "critical_thickness": (
+        ("floor", "floor"),
+        ("ceiling", "ceiling"),
+        ("at_zero", "without the layer"),
+        ("at_infinity", "endless layer"),
+    ),
+    "sensitivity": (("low", "at the low value"), ("high", "at the high value"), ("elasticity", "% per %")),
+}
+"""Derived numbers of each kind of study, and their headings."""
+
+MOST_ROWS = 60
+"""Rows of the table of cases in a report; the files hold all."""
+
+
+@dataclass(frozen=True)
+class StudyTable:
+    """A table of text."""
+
+    headings: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...]
+
+
+def summary(campaign: Campaign, state: CampaignState) -> str:
+    """One or two sentences on the study and how far it is."""
+    kind = KINDS[campaign.study.document.kind]
+    total = state.done + state.failed + state.missing
+    counts = {axis.name: len(axis) for axis in campaign.plan.axes}
+    if state.samples is not None:
+        counts["sample"] = state.samples
+    axes = " × ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items())
+    text = f"{kind}: {total} cases ({axes}). {state.done} done, {state.failed} failed, {state.missing} missing."
+    if state.samples is not None:
+        text += f" The mean was known well enough after {state.samples} samples."
+    return text
+
+
+def axis_rows(campaign: Campaign) -> Rows:
+    """What is varied, and from where to where."""
+    rows: Rows = []
+    for axis in campaign.plan.axes:
+        ends = [axis.points[number].coordinate for number in (0, len(axis) - 1)]
+        texts = [coordinate_text(end, axis.unit) for end in ends]
+        where = f" ({axis.path})" if axis.path else ""
+        rows.append((f"{axis.name.replace('_', ' ')}{where}", f"{len(axis)} points, {texts[0]} to {texts[1]}"))
+    for table in () if campaign.study.document.monte_carlo is None else campaign.study.document.monte_carlo.random:
+        values = {key: getattr(table, key) for key in ("mean", "deviation", "low", "high")}
+        given = ", ".join(f"{key} {value}" for key, value in values.items() if value is not None)
+        rows.append((f"random: {table.path}", f"{table.distribution}{', ' if given else ''}{given}"))
+    return rows
+
+
+def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset) -> StudyTable:
+    """Derived numbers of every quantity at every point of the other axes."""
+    columns = COLUMNS[campaign.study.document.kind]
+    cells: list[tuple[str, ...]] = []
+    for name in campaign.study.document.quantities:
+        label = str(data[name].attrs["long_name"])
+        shape = derived[f"{name}_{columns[0][0]}"]
+        for at in np.ndindex(shape.shape):
+            place = dict(zip(map(str, shape.dims), at, strict=True))
+            where = ", ".join(point_text(derived[dim][number]) for dim, number in place.items())
+            texts = []
+            for key, _ in columns:
+                variable = derived[f"{name}_{key}"].isel(place)
+                texts.append(_text(variable.item(), str(variable.attrs["units"]), share=key == "error"))
+            cells.append((label, where, *texts))
+    return StudyTable(("Quantity", "At", *(heading for _, heading in columns)), tuple(cells))
+
+
+def case_table(campaign: Campaign, data: xarray.Dataset) -> StudyTable:
+    """The first cases with their coordinates and quantities."""
+    names = campaign.study.document.quantities
+    dims = [str(dim) for dim in data["outcome"].dims]
+    headings = (*(dim.replace("_", " ") for dim in dims), *(str(data[name].attrs["long_name"]) for name in names))
+    cells: list[tuple[str, ...]] = []
+    for at in np.ndindex(data["outcome"].shape):
+        if len(cells) == MOST_ROWS:
+            break
+        place = dict(zip(dims, at, strict=True))
+        row = [point_text(data[dim][number]).removeprefix(f"{dim.replace('_', ' ')} ") for dim, number in place.items()]
+        row += [_text(float(data[name].isel(place)), str(data[name].attrs["units"])) for name in names]
+        cells.append(tuple(row))
+    return StudyTable(headings, tuple(cells))
+
+
+def failure_table(campaign: Campaign) -> StudyTable:
+    """Causes of failures with their number and first case."""
+    cells = []
+    for cause in campaign.causes():
+        at = ", ".join(
+            f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
+            for name, value in cause.first.at.items()
+        )
+        cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", at))
+    return StudyTable(("Cases", "Cause", "First at"), tuple(cells))
+
+
+def _text(value: float | str, unit: str, *, share: bool = False) -> str:
+    if isinstance(value, str):
+        return value
+    if math.isnan(value):
+        return "–"
+    return percent(value) if share else show(value, unit)
+
+
+# A self-contained HTML page on a study.
+
 
 TEMPLATE = "study.html"
 """Template in the folder ``templates``."""
@@ -68,3 +399,43 @@ def _html(campaign: Campaign, figures: Sequence[StudyFigure] | None) -> str:
         references=[(key, REFERENCES.get(key, "unknown reference")) for key in data.attrs["citation_keys"].split()],
         document=data.attrs["study"],
     )
+
+
+# Everything that a study leaves for people and programs, in its folder.
+
+
+RESULTS, CASES, FINDINGS, REPORT, PLOTS = "results.nc", "cases.csv", "findings.csv", "report.html", "plots"
+"""Names in the folder."""
+
+
+def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
+    """Write dataset, tables, figures and page of ``campaign`` into ``folder``, over those of an earlier time.
+
+    Raises
+    ------
+    OutputError
+        If one of them cannot be written.
+    """
+    data, derived = campaign.dataset(), campaign.analysis()
+    _save(data, folder / RESULTS)
+    _table(data, folder / CASES)
+    written = [folder / RESULTS, folder / CASES]
+    if derived is not None:
+        _table(derived, folder / FINDINGS)
+        written.append(folder / FINDINGS)
+    figures = study_figures(campaign, data, derived)
+    save_pictures({figure.name: lambda f=figure: f.picture for figure in figures}, folder / PLOTS, overwrite=True)  # type: ignore[misc]
+    write_study_report(campaign, folder / REPORT, figures=figures, overwrite=True)
+    return (*written, folder / PLOTS, folder / REPORT)
+
+
+def _save(data: xarray.Dataset, path: Path) -> None:
+    with atomic_file(path, overwrite=True) as partial:
+        data.to_netcdf(partial, engine="h5netcdf")
+
+
+def _table(data: xarray.Dataset, path: Path) -> None:
+    """All variables of ``data`` by case, SI, exact."""
+    with atomic_file(path, overwrite=True) as partial:
+        frame = data.to_dataframe() if data.sizes else data.expand_dims("all").to_dataframe()
+        frame.to_csv(partial, index=bool(data.sizes))

@@ -10,7 +10,7 @@ from ..contact.wet_theory import HAMAKER, WetTheory, wet_theory
 from ..core.errors import InputError
 from ..core.units import percent, show
 from ..io.words import Rows, value_text
-from ..plots.figure import Figure
+from ..plots.picture import Figure
 
 REGIMES = {
     "dry": "no liquid bridges the gap",

@@ -26,8 +26,7 @@ from ..io.words import (
     summary,
     surface_rows,
 )
-from ..plots.figures import PLASTIC_PLOTS, PLOTS, render
-from ..plots.path_figures import PATH_PLOTS, render_path_plot
+from ..plots.contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, render, render_path_plot
 from .page import rendered
 from .plasticity import energy_table, path_sentence, plastic_rows, turn_table
 from .stress import StressPart, interface_table, maxima_table, remarks, strength_table, yield_sentence, yield_table

@@ -9,7 +9,7 @@ import pytest
 
 from asperity.core.errors import InputError, OutputError
 from asperity.core.grid import Grid
-from asperity.io.disk_surface import BYTES_PER_MODE, save_gaussian
+from asperity.io.surface_files import BYTES_PER_MODE, save_gaussian
 from asperity.surfaces.generate import (
     ExponentialAutocorrelation,
     PlateauPSD,

@@ -9,7 +9,7 @@ import pytest
 from contact_cases import TIGHT, rough
 
 import asperity as asp
-from asperity.io.stress_table import HEADINGS, export_stress_csv
+from asperity.io.stress_files import HEADINGS, export_stress_csv
 from asperity.stress.survey import Strengths, StressRequest, survey
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.io.tiles import BYTES_PER_NODE, save_endless
+from asperity.io.surface_files import BYTES_PER_NODE, save_endless
 from asperity.surfaces.surface import Origin
 
 g = asp.generate

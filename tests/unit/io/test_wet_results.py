@@ -9,7 +9,7 @@ import pytest
 
 import asperity as asp
 from asperity.contact.wet_result import WET_SCALARS
-from asperity.plots.menisci import KINDS, plot_menisci
+from asperity.plots.contact import KINDS, plot_menisci
 
 
 @pytest.fixture(scope="module")

@@ -21,8 +21,7 @@ from asperity.plots.campaign import (
     plot_sensitivities,
     plot_transitions,
 )
-from asperity.plots.picture import CURVE_SIZE, png
-from asperity.plots.style import scale
+from asperity.plots.picture import CURVE_SIZE, png, scale
 
 X = Labelled(Quantity("q", "Pa", "mean pressure"), np.array([5e6, 1e6, 2e6]))
 Y = Labelled(Quantity("q", "m", "approach"), np.array([3e-9, 1e-9, 2e-9]))

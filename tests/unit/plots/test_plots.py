@@ -18,7 +18,7 @@ from PIL import Image
 import asperity as asp
 from asperity import plots
 from asperity.core.errors import OutputError
-from asperity.plots.style import scale
+from asperity.plots.picture import scale
 
 NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram", "gap_histogram")
 

@@ -8,7 +8,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.stress_figures import CLOSE_UP, close_up, line_figures, map_figure
+from asperity.plots.stress import CLOSE_UP, close_up, line_figures, map_figure
 from asperity.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
 
 BODY = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.25, name="film"), 1e-6)], asp.Elastic(1e9, 0.3, name="base"))

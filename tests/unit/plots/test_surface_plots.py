@@ -177,7 +177,7 @@ def test_view_shows_the_heights_the_right_way_round(monkeypatch):
 
 
 def test_thinned_views_keep_the_mean_of_blocks():
-    from asperity.plots.surface_view import _thinned
+    from asperity.plots.surface import _thinned
 
     surface = asp.Surface(np.arange(400.0 * 200.0).reshape(400, 200), 1e-9, 2e-9)
     heights, grid = _thinned(surface)

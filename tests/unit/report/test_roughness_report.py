@@ -11,9 +11,16 @@ import pytest
 
 import asperity as asp
 from asperity.core.errors import OutputError
-from asperity.report.gaussian import peak_comparison, summit_comparison
-from asperity.report.quantities import NOT_DEFINED, headline_values, quantity_rows, quantity_text
-from asperity.report.roughness import summary, write_roughness_report
+from asperity.report.roughness import (
+    NOT_DEFINED,
+    headline_values,
+    peak_comparison,
+    quantity_rows,
+    quantity_text,
+    summary,
+    summit_comparison,
+    write_roughness_report,
+)
 from asperity.surfaces.roughness import QUANTITIES
 
 BY_PATH = {quantity.name: quantity for quantity in QUANTITIES}
@@ -124,7 +131,7 @@ def test_comparison_where_there_is_nothing_to_compare():
 
 
 def test_public_functions(found, tmp_path: Path, monkeypatch):
-    for module in ("report.roughness", "plots.surface_figures"):
+    for module in ("report.roughness", "plots.surface"):
         monkeypatch.setattr(f"asperity.{module}.render_surface_plot", lambda plot, found: b"")
     asp.write_roughness_report(found, tmp_path / "page.html")
     assert len(asp.save_roughness_plots(found, tmp_path / "pictures")) == 8

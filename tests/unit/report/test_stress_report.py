@@ -11,7 +11,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.stress_figures import line_figures
+from asperity.plots.stress import line_figures
 from asperity.report import write_report
 from asperity.report.stress import (
     StressPart,

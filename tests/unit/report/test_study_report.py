@@ -10,7 +10,7 @@ import pytest
 import tomli_w
 from study_cases import LOADS, PROBLEM, SEEDS, InProcess, study
 
-from asperity.report.study_files import write_study_files
+from asperity.report.study import write_study_files
 from asperity.studies.campaign import Campaign, prepare_study
 from asperity.studies.run import carry_out
 
@@ -104,9 +104,7 @@ def test_a_study_under_way_says_what_is_missing(tmp_path):
 def test_the_running_mean_of_an_unfinished_study_ends_with_its_samples(tmp_path, monkeypatch):
     """Samples still to be computed are no samples: a flat line would say that the mean does not change any more."""
     drawn = []
-    monkeypatch.setattr(
-        "asperity.report.study_figures.plot_running_mean", lambda y, halves, means, ax: drawn.append(means)
-    )
+    monkeypatch.setattr("asperity.report.study.plot_running_mean", lambda y, halves, means, ax: drawn.append(means))
     campaign = made(tmp_path, "histogram")
     lines = campaign.records.read_bytes().splitlines(keepends=True)
     campaign.records.write_bytes(b"".join(lines[:-2]))

@@ -1,0 +1,431 @@
+"""Figures of a contact: the standard set, sections, distributions, menisci, and the curves of a load path."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from ..contact.energy import energy_balance
+from ..contact.laws import LimitByDepth
+from ..contact.measure import distribution
+from ..contact.path import LoadPath
+from ..contact.result import ContactResult
+from ..contact.wet_result import WetContactResult
+from ..core.arrays import RealArray
+from ..core.units import show
+from ..io.atomic import atomic_file
+from ..surfaces.surface import Surface
+from .maps import plot_classes, plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
+from .picture import (
+    BLACK,
+    BLUE,
+    CURVE_SIZE,
+    GREEN,
+    NO_CONTACT,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    YELLOW,
+    Figure,
+    Scale,
+    map_size,
+    png,
+    save_pictures,
+    scale,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+# A cut through the contact: the deformed surfaces above, the pressure between them below.
+
+
+SHARE = 0.36
+"""Share of the height of the axes that the pressure takes, at the bottom."""
+
+
+def plot_section(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the cut of ``result`` along x through the highest pressure on ``ax``; pressure on a second y axis.
+
+    The composite rough surface carries all deformation of both bodies, so the counter surface is drawn flat.
+    Without contact the cut goes through the smallest gap.
+    """
+    row = _row(result)
+    grid = result.problem.grid
+    length = scale(grid.size[0], "m")
+    x = length((np.arange(grid.shape[0]) + 0.5) * grid.spacing[0])
+    counter = np.full(x.shape, result.offset)
+    rough = result.offset - result.gap[:, row]
+    middle = float(np.mean(rough))
+    rough, counter = rough - middle, counter - middle
+    height = scale(np.concatenate([rough, counter]), "m")
+    _draw_surfaces(x, height(rough), height(counter), ax)
+    ax.set(
+        xlabel=f"x ({length.symbol})"
+        + (f", at y = {show((row + 0.5) * grid.spacing[1], 'm')}" if grid.shape[1] > 1 else ""),
+        ylabel=f"height ({height.symbol})",
+        xlim=(0.0, float(length(grid.size[0]))),
+    )
+    _draw_pressure(x, result.pressure[:, row], ax)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
+def _row(result: ContactResult) -> int:
+    if result.contact.any():
+        return int(np.argmax((result.pressure == result.pressure.max()).sum(axis=0)))  # plastic: many are highest
+    return int(np.unravel_index(np.argmin(result.gap), result.gap.shape)[1])
+
+
+def _draw_surfaces(x: RealArray, rough: RealArray, counter: RealArray, ax: Axes) -> None:
+    low, high = float(min(rough.min(), counter.min())), float(max(rough.max(), counter.max()))
+    span = (high - low) or 1.0
+    bottom, top = low - span * (SHARE + 0.06) / (1.0 - SHARE - 0.16), high + span * 0.10 / (1.0 - SHARE - 0.16)
+    ax.fill_between(x, rough, low - 0.04 * span, color="0.80", linewidth=0.0)
+    ax.fill_between(x, counter, top, color="0.90", linewidth=0.0)
+    ax.plot(x, counter, color=BLACK, linewidth=1.0, label="counter surface")
+    ax.plot(x, rough, color=BLUE, linewidth=1.0, label="deformed rough surface")
+    ax.set_ylim(bottom, top)
+    ax.set_yticks([tick for tick in ax.get_yticks() if low - 0.02 * span <= tick <= top])
+
+
+def _draw_pressure(x: RealArray, pressure: RealArray, ax: Axes) -> None:
+    from matplotlib.ticker import MaxNLocator
+
+    in_unit = scale(pressure, "Pa")
+    drawn = in_unit(pressure)
+    largest = float(drawn.max()) or 1.0
+    twin = ax.twinx()
+    twin.fill_between(x, drawn, color=VERMILLION, alpha=0.25, linewidth=0.0)
+    twin.plot(x, drawn, color=VERMILLION, linewidth=1.0)
+    ax.plot([], [], color=VERMILLION, label="pressure")
+    twin.set_ylim(0.0, 1.12 * largest / SHARE)
+    ticks = [float(tick) for tick in MaxNLocator(3).tick_values(0.0, largest) if tick <= 1.12 * largest]
+    twin.set_yticks(ticks)
+    twin.set_ylabel(f"pressure ({in_unit.symbol})", color=VERMILLION, y=SHARE / 2.0)
+    twin.tick_params(axis="y", colors=VERMILLION)
+
+
+# How pressure and gap are distributed over the area.
+
+
+def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the probability density of the pressure over the real contact area of ``result`` on ``ax``.
+
+    Marked are the mean real pressure and, if it is one number, the hardness where it is reached.
+    """
+    pressure = result.pressure[result.contact]
+    in_unit = scale(pressure, "Pa")
+    if not _histogram(pressure, in_unit, ax, "contact pressure", "no contact"):
+        return ax
+    _mark(ax, float(in_unit(result.mean_real_pressure)), f"mean {{:.3g}} {in_unit.symbol}", BLACK, "--")
+    cap = result.problem.law.pressure_cap()
+    if result.plastic.any() and not isinstance(cap, np.ndarray) and not isinstance(result.problem.law, LimitByDepth):
+        _mark(ax, float(in_unit(cap)), f"hardness {{:.3g}} {in_unit.symbol}", VERMILLION, ":")
+    return _with_legend(ax)
+
+
+def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
+    """Draw the probability density of the gap over the open area of ``result`` on ``ax``, with the mean gap marked."""
+    gap = result.gap[~result.contact]
+    in_unit = scale(gap, "m")
+    if not _histogram(gap, in_unit, ax, "gap", "full contact"):
+        return ax
+    _mark(ax, float(in_unit(result.mean_gap)), f"mean over the whole area {{:.3g}} {in_unit.symbol}", BLACK, "--")
+    return _with_legend(ax)
+
+
+def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: str) -> bool:
+    """Bars of the density of ``values``; False, and the words ``if_none``, where there are none."""
+    ax.set(xlabel=f"{name} ({in_unit.symbol})", ylabel=f"probability density (1/{in_unit.symbol})")
+    if values.size == 0:
+        ax.text(0.5, 0.5, if_none, transform=ax.transAxes, ha="center", va="center")
+        return False
+    bins = int(np.clip(2.0 * values.size ** (1.0 / 3.0), 5, 60))  # Rice's rule
+    bars = distribution(np.asarray(in_unit(values)), bins)
+    ax.stairs(bars.density, bars.edges, fill=True, color=SKY, edgecolor="white", linewidth=0.4)
+    ax.set_xlim(0.0, 1.04 * float(bars.edges[-1]))
+    return True
+
+
+def _mark(ax: Axes, at: float, label: str, color: str, linestyle: str) -> None:
+    ax.axvline(at, color=color, linestyle=linestyle, label=label.format(at))
+
+
+def _with_legend(ax: Axes) -> Axes:
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
+# Map of the menisci of a wet contact.
+
+
+KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus", SKY), ("contact", VERMILLION))
+"""Name and colour of each kind of point, in the order of their numbers."""
+
+
+def plot_menisci(result: WetContactResult, ax: Axes) -> Axes:
+    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry."""
+    found = result.wetting
+    kinds = np.where(found.cut, 1.0, 0.0)
+    kinds[found.menisci] = 2.0
+    kinds[result.contact.contact] = 3.0
+    return plot_classes(kinds, result.problem.grid, ax, KINDS)
+
+
+def wet_figures(result: WetContactResult) -> tuple[Figure, ...]:
+    """Figures of the menisci of ``result``."""
+    caption = (
+        "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
+        "reaches stay dry."
+    )
+    picture = png(partial(plot_menisci, result), map_size(result.problem.grid))
+    return (Figure("menisci", "Menisci", caption, picture),)
+
+
+# Whole figures as PNG: the standard set of a result, and the picture of one surface.
+
+
+Draw: TypeAlias = "Callable[[ContactResult, Axes], Axes]"
+"""Draws a result on axes."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """One figure of the standard set: ``name`` of its file, ``title``, ``caption``, how to draw it, map or curve."""
+
+    name: str
+    title: str
+    caption: str
+    draw: Draw
+    is_map: bool = True
+
+
+def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
+    return plot_heights(result.problem.surface, ax)
+
+
+PLOTS = (
+    Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface),
+    Plot("pressure", "Pressure", "Contact pressure; grey where the bodies do not touch.", plot_pressure),
+    Plot(
+        "pressure_log",
+        "Pressure, logarithmic",
+        "Contact pressure on a logarithmic scale of three decades below the maximum.",
+        partial(plot_pressure, log=True),
+    ),
+    Plot("contact", "Contact", "Where the bodies touch, elastically or at the hardness.", plot_contact),
+    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap),
+    Plot(
+        "section",
+        "Section",
+        "Cut along x through the highest pressure: deformed composite surface against the counter surface, "
+        "and the pressure below. Heights are exaggerated.",
+        plot_section,
+        is_map=False,
+    ),
+    Plot(
+        "histogram",
+        "Distribution of pressure",
+        "Probability density of the pressure over the real contact area.",
+        plot_pressure_histogram,
+        is_map=False,
+    ),
+    Plot(
+        "gap_histogram",
+        "Distribution of the gap",
+        "Probability density of the gap over the area out of contact.",
+        plot_gap_histogram,
+        is_map=False,
+    ),
+)
+"""The standard figures of a result in the order of a report."""
+
+PLASTIC_PLOTS = (
+    Plot(
+        "indentation",
+        "Plastic zone",
+        "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
+        plot_indentation,
+    ),
+    Plot(
+        "residual",
+        "Residual surface",
+        "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
+        plot_residual,
+    ),
+)
+"""The figures of a result that is permanently indented."""
+
+
+def plots_of(result: ContactResult) -> tuple[Plot, ...]:
+    """Figures that say something of ``result``: the standard ones, and those of its plastic zone if it has any."""
+    return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
+
+
+def render(plot: Plot, result: ContactResult) -> bytes:
+    """PNG of ``plot`` for ``result``."""
+    size = map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
+    return png(lambda ax: plot.draw(result, ax), size)
+
+
+def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+    """Write the standard figures of ``result`` as PNG into ``folder`` (made if missing) and return their paths.
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    return save_pictures(
+        {plot.name: partial(render, plot, result) for plot in plots_of(result)}, folder, overwrite=overwrite
+    )
+
+
+def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write the map of heights of ``surface`` as PNG to ``path``.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    with atomic_file(path, overwrite=overwrite) as file:
+        file.write_bytes(png(lambda ax: plot_heights(surface, ax), map_size(surface.grid)))
+
+
+# Curves of a load path: load against approach, area against load, and where the work goes.
+
+
+LOADING = (BLUE, SKY, GREEN)
+"""Colours of the first, the second and every further loading."""
+
+UNLOADING = (VERMILLION, ORANGE, PURPLE)
+"""Colours of the first, the second and every further unloading."""
+
+
+def plot_load_loop(path: LoadPath, ax: Axes) -> Axes:
+    """Draw the mean pressure of every step of ``path`` against its approach on ``ax``, each direction in its colour."""
+    load, approach = (_from_touch(path, values) for values in (path.mean_pressure, path.approach))
+    in_m, in_pa = scale(approach, "m"), scale(load, "Pa")
+    _draw_legs(in_m(approach), in_pa(load), path, ax)
+    ax.set(xlabel=f"approach from first touch ({in_m.symbol})", ylabel=f"mean pressure ({in_pa.symbol})")
+    return ax
+
+
+def plot_area_loop(path: LoadPath, ax: Axes) -> Axes:
+    """Draw the real area of every step of ``path``, in percent of the nominal area, against the mean pressure on ``ax``."""
+    load, area = (_from_touch(path, values) for values in (path.mean_pressure, path.area_fraction_corrected))
+    in_pa = scale(load, "Pa")
+    _draw_legs(in_pa(load), 100.0 * area, path, ax)
+    ax.set(xlabel=f"mean pressure ({in_pa.symbol})", ylabel="real contact area (% of nominal)")
+    return ax
+
+
+def plot_energies(path: LoadPath, ax: Axes) -> Axes:
+    """Draw external work, elastic energy and plastic work after every step of ``path`` on ``ax``."""
+    balance = energy_balance(path)
+    in_j = scale(np.concatenate([balance.external_work, balance.elastic_energy, balance.plastic_work]), "J")
+    step = np.arange(1, len(path.results) + 1)
+    kinds = {
+        "external work ∫F dδ": (balance.external_work, BLACK, "-"),
+        "elastic energy": (balance.elastic_energy, BLUE, "-"),
+        "plastic work": (balance.plastic_work, VERMILLION, "-"),
+        "elastic + plastic": (balance.elastic_energy + balance.plastic_work, ORANGE, ":"),
+    }
+    for label, (energy, colour, line) in kinds.items():
+        ax.plot(step, in_j(energy), color=colour, linestyle=line, marker=".", markersize=3.0, label=label)
+    ax.set(xlabel="step", ylabel=f"energy ({in_j.symbol})", xlim=(0.5, step[-1] + 0.5))
+    ax.locator_params(axis="x", integer=True)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
+def _from_touch(path: LoadPath, values: RealArray) -> RealArray:
+    """``values`` of every step; a path of virgin surfaces begins at first touch, where all of them are zero."""
+    return np.concatenate([[0.0], values]) if path.start is None else values
+
+
+def _draw_legs(x: RealArray, y: RealArray, path: LoadPath, ax: Axes) -> None:
+    """Curve of the points ``x``, ``y``, each direction of the load in its colour; a part starts where the last one ended."""
+    before = len(x) - len(path.results)
+    load = _from_touch(path, path.mean_pressure)
+    counts = {True: 0, False: 0}
+    for first, last in itertools.pairwise((0, *(turn + before for turn in path.turns))):
+        rising = bool(load[last] > load[first])
+        number = counts[rising]
+        counts[rising] += 1
+        colour = (LOADING if rising else UNLOADING)[min(number, len(LOADING) - 1)]
+        name = ("loading" if rising else "unloading") + (f" {number + 1}" if number else "")
+        part, line = slice(first, last + 1), "-" if rising else "--"
+        ax.plot(x[part], y[part], color=colour, marker=".", markersize=3.5, label=name, linestyle=line)
+    ax.set_xlim(left=min(0.0, float(np.min(x))))
+    ax.set_ylim(bottom=0.0)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.3, borderpad=0.2)
+
+
+# The figures of a load path.
+
+
+DrawPath: TypeAlias = "Callable[[LoadPath, Axes], Axes]"
+"""Draws a load path on axes."""
+
+
+@dataclass(frozen=True)
+class PathPlot:
+    """One figure of a load path: ``name`` of its file, ``title``, ``caption``, how to draw it."""
+
+    name: str
+    title: str
+    caption: str
+    draw: DrawPath
+
+
+PATH_PLOTS = (
+    PathPlot(
+        "load_loop",
+        "Load against approach",
+        "Mean pressure against approach from first touch of the virgin surfaces. The area within a loop is the plastic work "
+        "per nominal area.",
+        plot_load_loop,
+    ),
+    PathPlot(
+        "area_loop",
+        "Area against load",
+        "Real contact area against mean pressure. After yielding, the same load has more area than before.",
+        plot_area_loop,
+    ),
+    PathPlot(
+        "energies",
+        "Where the work goes",
+        "External work, elastic energy and plastic work after each step. The dotted line lies on the black one but for the "
+        "error of the steps.",
+        plot_energies,
+    ),
+)
+"""The figures of a load path in the order of a report."""
+
+
+def render_path_plot(plot: PathPlot, path: LoadPath) -> bytes:
+    """PNG of ``plot`` for ``path``."""
+    return png(partial(plot.draw, path), CURVE_SIZE)
+
+
+def save_path_plots(path: LoadPath, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+    """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their paths.
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    pictures = {plot.name: partial(render_path_plot, plot, path) for plot in PATH_PLOTS}
+    return save_pictures(pictures, folder, overwrite=overwrite)

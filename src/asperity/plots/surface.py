@@ -1,0 +1,413 @@
+"""Figures of a surface: distribution, material ratio, correlation, spectrum, summits, view in space."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.grid import Grid
+from ..core.units import percent, show
+from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
+from ..surfaces.characterise.material_ratio import core
+from ..surfaces.characterise.spectral_fit import SpectralFit
+from ..surfaces.characterise.summary import Characterisation
+from ..surfaces.surface import Surface
+from .maps import plot_heights
+from .picture import (
+    BLACK,
+    BLUE,
+    CURVE_SIZE,
+    GREEN,
+    HEIGHT_MAP,
+    ORANGE,
+    SKY,
+    VERMILLION,
+    Scale,
+    map_size,
+    png,
+    save_pictures,
+    scale,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+# Curves of a surface: how heights are distributed, how much material lies above a height, how heights correlate.
+
+
+_CURVE_POINTS = 800  # of a material ratio curve, whose heights may be millions
+
+
+def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
+    """Draw the probability density of the heights and the normal density of the same deviation on ``ax``."""
+    distribution = found.curves.distribution
+    in_unit = scale(distribution.edges, "m")
+    edges = np.asarray(in_unit(distribution.edges))
+    ax.set(xlabel=f"height ({in_unit.symbol})", ylabel=f"probability density (1/{in_unit.symbol})")
+    ax.stairs(distribution.density * in_unit.factor, edges, fill=True, color=SKY, label="measured")
+    if distribution.deviation > 0.0:
+        heights = np.linspace(distribution.edges[0], distribution.edges[-1], 400)
+        normal = distribution.normal(heights) * in_unit.factor
+        ax.plot(in_unit(heights), normal, color=BLACK, label="normal, same Sq")
+        ax.set_title(f"Ssk {found.heights.Ssk:z.2f}   Sku {found.heights.Sku:.2f}", loc="right")
+    ax.set_xlim(edges[0], edges[-1])
+    return _with_legend(ax)
+
+
+def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
+    """Draw the material ratio (Abbott) curve with the line and the bounds of its core on ``ax``."""
+    curve = found.curves.material_ratio
+    in_unit = scale(curve.heights, "m")
+    ratios = np.linspace(0.0, 1.0, _CURVE_POINTS)
+    ax.set(xlabel="material ratio (%)", ylabel=f"height ({in_unit.symbol})", xlim=(0.0, 100.0))
+    ax.plot(100.0 * ratios, in_unit(curve.height(ratios)), color=BLUE, label="measured")
+    try:
+        line = core(curve)
+    except InputError:  # flat
+        return ax
+    top, bottom = float(in_unit(line.top)), float(in_unit(line.bottom))
+    ax.plot([0.0, 100.0], [top, bottom], color=VERMILLION, linestyle="--", label="core line")
+    ax.hlines([top, bottom], 0.0, 100.0, color="0.6", linewidth=0.7)
+    for ratio, name in ((line.ratio_1, "Smr1"), (line.ratio_2, "Smr2")):
+        ax.axvline(100.0 * ratio, color="0.6", linewidth=0.7, linestyle=":", label=f"{name} {percent(ratio)}")
+    _fill_reduced(ax, line.ratio_1, (top, float(in_unit(line.reduced_peak))), at_left=True)
+    _fill_reduced(ax, 1.0 - line.ratio_2, (bottom, -float(in_unit(line.reduced_valley))), at_left=False)
+    ax.set_title(
+        f"Sk {top - bottom:.3g}   Spk {float(in_unit(line.reduced_peak)):.3g}   Svk "
+        f"{float(in_unit(line.reduced_valley)):.3g} {in_unit.symbol}",
+        loc="right",
+    )
+    ax.legend(loc="lower left", frameon=True, edgecolor="none", framealpha=0.9)
+    return ax
+
+
+def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
+    """Draw R/R(0) along x and y on ``ax`` with the levels 1/e and 0.1 that define correlation lengths."""
+    covariance = found.curves.autocovariance
+    longest = max(covariance.size)
+    reach = _reach(found)
+    in_unit = scale(reach, "m")
+    ax.set(xlabel=f"lag ({in_unit.symbol})", ylabel="R/R(0)", xlim=(0.0, float(in_unit(reach))))
+    ax.axhline(0.0, color="0.7", linewidth=0.7)
+    for level, name in ((DROP_1E, "1/e"), (DROP_TENTH, "0.1")):
+        ax.axhline(level, color="0.5", linewidth=0.7, linestyle=":")
+        ax.annotate(
+            name,
+            (1.0, level),
+            xycoords=("axes fraction", "data"),
+            xytext=(3, 0),
+            textcoords="offset points",
+            va="center",
+        )
+    if covariance.mean_square > 0.0:
+        for axis, colour in (("x", BLUE), ("y", ORANGE)):
+            lags, values = covariance.along(axis)
+            part = lags <= min(reach, longest)
+            label = f"along {axis}{_length_text(found, axis, in_unit)}"
+            ax.plot(in_unit(lags[part]), values[part] / covariance.mean_square, color=colour, label=label)
+        ax.legend(loc="upper right")
+    return ax
+
+
+def _reach(found: Characterisation) -> float:
+    """Longest lag to show: six correlation lengths, half the map at most."""
+    half = 0.5 * max(found.surface.size)
+    lengths = np.array([found.spatial.beta_e_x, found.spatial.beta_e_y])
+    known: RealArray = lengths[np.isfinite(lengths) & (lengths > 0.0)]
+    return min(half, 6.0 * float(known.max())) if known.size else half
+
+
+def _length_text(found: Characterisation, axis: str, in_unit: Scale) -> str:
+    length = getattr(found.spatial, f"beta_e_{axis}")
+    return f", $\\beta_e$ {float(in_unit(length)):.3g} {in_unit.symbol}" if length == length else ""
+
+
+def _fill_reduced(ax: Axes, width: float, heights: tuple[float, float], *, at_left: bool) -> None:
+    """Triangle of the area of peaks or valleys, from the level ``heights[0]`` by ``heights[1]``."""
+    base, rise = heights
+    corners = [(0.0, base), (0.0, base + rise), (100.0 * width, base)]
+    if not at_left:
+        corners = [(100.0 - x, y) for x, y in corners]
+    ax.fill(*zip(*corners, strict=True), color=SKY, alpha=0.5, linewidth=0.0)
+
+
+def _with_legend(ax: Axes) -> Axes:
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
+# A surface seen from the side in space, and its summits seen from above.
+
+
+_FACES = 180  # along the longer side of a view; more do not show at its size
+_TALLEST = 0.18  # height of the box over its longer side
+_LIGHT = {"azdeg": 315.0, "altdeg": 35.0}
+
+
+def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
+    """Draw ``surface`` in space, lit from the upper left, on the three-dimensional axes ``ax``.
+
+    Heights are exaggerated to a fifth of the longer side; large maps are thinned to 180 points along it by block
+    averages. Missing points are gaps. A profile has no view.
+    """
+    view: Any = ax  # of the class Axes3D
+    heights, grid = _thinned(surface)
+    if 1 in grid.shape:
+        view.text2D(0.5, 0.5, "a profile has no view", transform=view.transAxes, ha="center", va="center")
+        return ax
+    length, height = scale(max(grid.size), "m"), scale(heights, "m")
+    z = np.asarray(height(heights))
+    x, y = np.broadcast_arrays(*(length(c) for c in grid.coordinates()))
+    view.plot_surface(
+        x,
+        y,
+        np.nan_to_num(z, nan=float(np.nanmin(z))),
+        facecolors=_shaded(z, tuple(float(length(d)) / float(length(max(grid.size))) for d in grid.spacing)),
+        rstride=1,
+        cstride=1,
+        linewidth=0.0,
+        antialiased=False,
+        shade=False,
+    )
+    view.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})", zlabel=f"height ({height.symbol})")
+    _box(view, grid)
+    return ax
+
+
+def _shaded(z: RealArray, spacing: tuple[float, ...]) -> RealArray:
+    """Colours (nx, ny, 4) of the heights ``z``, lit; transparent where missing. Spacing over the longer side."""
+    from matplotlib import colormaps
+    from matplotlib.colors import LightSource, Normalize
+
+    low, spread = float(np.nanmin(z)), float(np.nanmax(z) - np.nanmin(z)) or 1.0
+    # the slopes of the picture, not those of the surface, make the shading
+    dx, dy = (d * spread / _TALLEST for d in spacing)
+    light, norm = LightSource(**_LIGHT), Normalize(low, low + spread)
+    filled = np.nan_to_num(z, nan=low)
+    colours: RealArray = light.shade(filled, colormaps[HEIGHT_MAP], norm=norm, blend_mode="soft", dx=dy, dy=dx)
+    colours[np.isnan(z), 3] = 0.0
+    return colours
+
+
+def _box(view: Any, grid: Grid) -> None:
+    """Shape, direction and faint grid of the box around the view."""
+    width, depth = (max(side / max(grid.size), 0.15) for side in grid.size)
+    view.set_box_aspect((width, depth, _TALLEST), zoom=1.1)
+    view.view_init(elev=40.0, azim=-55.0)
+    for axis in (view.xaxis, view.yaxis, view.zaxis):
+        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
+        axis._axinfo["grid"].update(color="0.88", linewidth=0.5)
+    view.locator_params(nbins=5)
+    view.locator_params(axis="z", nbins=3)
+
+
+def plot_summits(found: Characterisation, ax: Axes) -> Axes:
+    """Draw the heights of ``found`` and its summits (above 8 neighbours), larger dots for blunter ones, on ``ax``."""
+    surface, summits = found.surface, found.curves.summits
+    plot_heights(surface, ax)
+    if 1 in surface.shape or summits.count == 0:
+        return ax
+    length = scale(max(surface.size), "m")
+    radius = 1.0 / summits.curvature
+    # area of a dot as the radius, about the mean; a map of a hundred thousand summits gets small dots
+    mean = min(12.0, 4000.0 / summits.count)
+    area = np.clip(mean * radius / radius.mean(), 0.15 * mean, 6.0 * mean)
+    x, y = (summits.i + 0.5) * surface.dx, (summits.j + 0.5) * surface.dy
+    ax.scatter(length(x), length(y), s=area, color=VERMILLION, linewidths=0.0, alpha=0.85)
+    ax.set_title(f"{summits.count} summits", loc="left")
+    return ax
+
+
+def _thinned(surface: Surface) -> tuple[RealArray, Grid]:
+    """Heights about their mean, averaged over blocks so that the longer side has at most ``_FACES`` points."""
+    step = max(1, min(int(np.ceil(max(surface.shape) / _FACES)), min(surface.shape) // 2))
+    count = tuple(n // step for n in surface.shape)
+    part = surface.heights[: count[0] * step, : count[1] * step] - np.nanmean(surface.heights, dtype=np.float64)
+    blocks = part.reshape(count[0], step, count[1], step).mean(axis=(1, 3))
+    return blocks, Grid((count[0], count[1]), (step * surface.dx, step * surface.dy))
+
+
+# The power spectrum of a surface with its fitted model, and slopes and curvatures against the scale.
+
+
+def plot_spectrum(found: Characterisation, ax: Axes) -> Axes:
+    """Draw the radial mean of the power spectrum of ``found`` and the fitted model on ``ax``, logarithmically.
+
+    The range that was fitted is shaded; wavelengths stand above. Convention: <h²> = (1/4π²) ∫ C d²q.
+    """
+    surface = found.surface
+    unit = scale(math.sqrt(min(surface.grid.spacing) * max(surface.size)), "m")
+    ax.set(xlabel=f"wavenumber q (rad/{unit.symbol})", ylabel=f"C ({unit.symbol}$^4$)")
+    rings = found.spectra.radial
+    if rings is None or not np.any(rings.psd > 0.0):
+        ax.text(0.5, 0.5, "no spectrum", transform=ax.transAxes, ha="center", va="center")
+        return ax
+    ax.set(xscale="log", yscale="log")
+    shown = rings.psd > 0.0
+    q, psd = rings.q[shown] * unit.factor, rings.psd[shown] / unit.factor**4
+    ax.plot(q, psd, color=BLUE, marker=".", markersize=3.5, linewidth=0.8, label="measured")
+    if found.spectra.fit is not None:
+        _draw_fit(found.spectra.fit, unit, ax)
+    _wavelengths(unit, ax)
+    ax.legend(loc="lower left")
+    return ax
+
+
+def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
+    """Draw rms slopes (left) and curvatures (right) of profiles against the length of the stencil on ``ax``."""
+    lengths = [curve.slope_length for curve in found.curves.scale if curve is not None]
+    unit = scale(max((length[-1] for length in lengths), default=1.0), "m")
+    ax.set(xlabel=f"length of the stencil ({unit.symbol})", ylabel="rms slope")
+    ax.set(xscale="log", yscale="log")
+    twin = ax.twinx()
+    twin.set(yscale="log", ylabel=f"rms curvature (1/{unit.symbol})")
+    for curve, style in zip(found.curves.scale, ("-", "--"), strict=True):
+        if curve is not None and curve.slope.max() > 0.0:
+            ax.plot(
+                unit(curve.slope_length), curve.slope, color=BLUE, linestyle=style, label=f"slope along {curve.axis}"
+            )
+            curvature = curve.curvature * unit.factor
+            twin.plot(unit(curve.curvature_length), curvature, color=ORANGE, linestyle=style)
+            ax.plot([], [], color=ORANGE, linestyle=style, label=f"curvature along {curve.axis}")
+    cutoff = found.sampling.tip_cutoff
+    if math.isfinite(cutoff) and cutoff > 0.0:
+        ax.axvline(float(unit(cutoff)), color=VERMILLION, linewidth=0.8, label=f"tip cut-off {show(cutoff, 'm', 3)}")
+    if ax.lines:
+        ax.legend(loc="lower left")
+    return ax
+
+
+def _draw_fit(fit: SpectralFit, unit: Scale, ax: Axes) -> None:
+    q = np.geomspace(fit.first, fit.last, 400)
+    ax.plot(q * unit.factor, fit.model.psd(q) / unit.factor**4, color=VERMILLION, label=_fit_text(fit))
+    ax.axvspan(fit.first * unit.factor, fit.last * unit.factor, color=SKY, alpha=0.13, linewidth=0.0)
+    bends = [(fit.model.rolloff_wavelength, r"$\lambda_r$", BLACK)] if fit.has_rolloff else []
+    if len(fit.model.exponents) == 2:
+        bends.append((fit.model.crossover_wavelength, r"$\lambda_c$", GREEN))
+    for wavelength, name, colour in bends:
+        label = f"{name} {show(wavelength, 'm', 3)}"
+        ax.axvline(2.0 * math.pi / wavelength * unit.factor, color=colour, linewidth=0.8, linestyle=":", label=label)
+
+
+def _fit_text(fit: SpectralFit) -> str:
+    laws = ", ".join(f"$q^{{{-exponent:.2f}}}$" for exponent in fit.model.exponents)
+    hurst = fit.model.hurst[0]
+    return f"{laws}, H = {hurst:.2f} ± {fit.hurst_error:.2f}" if 0.0 < hurst <= 1.0 else laws
+
+
+def _wavelengths(unit: Scale, ax: Axes) -> None:
+    """Axis above the spectrum with wavelengths 2π/q."""
+
+    def turned(values: RealArray) -> RealArray:
+        with np.errstate(divide="ignore"):
+            turned_: RealArray = 2.0 * np.pi / np.asarray(values, dtype=float)
+        return turned_
+
+    both_ways: Any = (turned, turned)
+    above = ax.secondary_xaxis("top", functions=both_ways)
+    above.set_xlabel(f"wavelength ({unit.symbol})")
+
+
+# The standard figures of a surface, as PNG.
+
+
+Draw: TypeAlias = "Callable[[Characterisation, Axes], Axes]"
+"""Draws a characterisation on axes."""
+
+VIEW_SIZE = (5.6, 4.2)
+"""Width and height in inches of a view in space."""
+
+
+@dataclass(frozen=True)
+class SurfacePlot:
+    """One figure: ``name`` of its file, ``title``, ``caption``, how to draw it; ``kind`` map, curve or view in space."""
+
+    name: str
+    title: str
+    caption: str
+    draw: Draw
+    kind: str = "curve"
+
+
+def _heights(found: Characterisation, ax: Axes) -> Axes:
+    return plot_heights(found.surface, ax)
+
+
+def _view(found: Characterisation, ax: Axes) -> Axes:
+    return plot_surface_view(found.surface, ax)
+
+
+SURFACE_PLOTS = (
+    SurfacePlot("heights", "Heights", "Heights relative to their mean; missing points are grey.", _heights, "map"),
+    SurfacePlot("view", "View", "The surface in space; heights are exaggerated.", _view, "view"),
+    SurfacePlot(
+        "distribution",
+        "Distribution of heights",
+        "Probability density of the heights, and the normal density of the same deviation.",
+        plot_height_distribution,
+    ),
+    SurfacePlot(
+        "material_ratio",
+        "Material ratio",
+        "Material ratio (Abbott) curve with the equivalent line of the core; triangles for peaks and valleys.",
+        plot_material_ratio,
+    ),
+    SurfacePlot(
+        "spectrum",
+        "Power spectrum",
+        "Radial mean of the power spectrum and the fitted model; the range of the fit is shaded.",
+        plot_spectrum,
+    ),
+    SurfacePlot(
+        "autocorrelation",
+        "Autocorrelation",
+        "Autocorrelation along x and y; its falls to 1/e and to 0.1 define correlation lengths.",
+        plot_autocorrelation,
+    ),
+    SurfacePlot(
+        "scale_dependence",
+        "Slope and curvature by scale",
+        "Rms slope and curvature of profiles against the length of the stencil.",
+        plot_scale_dependence,
+    ),
+    SurfacePlot(
+        "summits",
+        "Summits",
+        "Points above all eight neighbours; the area of a dot grows with the radius of the summit.",
+        plot_summits,
+        "map",
+    ),
+)
+"""The standard figures of a surface in the order of a report."""
+
+
+def render_surface_plot(plot: SurfacePlot, found: Characterisation) -> bytes:
+    """PNG of ``plot`` for ``found``."""
+    projection = "3d" if plot.kind == "view" else None
+    return png(lambda ax: plot.draw(found, ax), _size(plot.kind, found.surface.grid), projection=projection)
+
+
+def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+    """Write the standard figures of a characterised surface as PNG into ``folder`` (made if missing).
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    """
+    return save_pictures(
+        {plot.name: partial(render_surface_plot, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite
+    )
+
+
+def _size(kind: str, grid: Grid) -> tuple[float, float]:
+    return map_size(grid) if kind == "map" else VIEW_SIZE if kind == "view" else CURVE_SIZE
