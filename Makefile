@@ -1,18 +1,27 @@
 # Every target makes its own environment in .venv; all it needs is Python 3.11 or newer with venv, and the network once.
 #
-#   make demo       the main job on built-in input; the report is demo-run/report.html
-#   make test       the test suite (with CI=true: all of it, else without the tests marked slow)
-#   make test-all   all of the test suite
-#   make lint       style and types
-#   make bench      speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
-#   make validate   every page of validation/ anew, one process at a time, and pictures in PICTURES=validation-pictures
-#   make clean      remove the environment and everything that was built
+#   make demo         the main job on built-in input; the report is demo-run/report.html
+#   make test         the test suite (with CI=true: all of it, else without the tests marked slow)
+#   make test-all     all of the test suite
+#   make test-lowest  the tests without the slow ones, with the lowest supported version of every dependency (Python 3.11)
+#   make test-plain   the tests without the slow ones, without the fast transforms
+#   make coverage     which lines the tests without the slow ones run; pages in htmlcov/
+#   make lint         style and types; `make style`, `make layout` and `make types` one by one
+#   make fix          mends what ruff can mend
+#   make hooks        checks style and types before every commit (pre-commit)
+#   make package      wheel and source archive in dist/, installed in empty environments, where the demo runs
+#   make bench        speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
+#   make validate     every page of validation/ anew, one process at a time, and pictures in PICTURES=validation-pictures
+#   make clean        remove the environments and everything that was built
 #
-# PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes.
+# PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes,
+# EXTRAS=[fast,dask] the extras, GROUP=test less than all the tools of a developer.
 
 VENV    ?= .venv
 WORKERS ?= 2
 PYTHON  ?=
+EXTRAS  ?= [fast]
+GROUP   ?= dev
 
 BIN     := $(VENV)/bin
 USER_OK := $(VENV)/.installed
@@ -25,7 +34,7 @@ PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS)
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all lint bench validate clean
+.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -39,10 +48,48 @@ test: $(DEV_OK)
 test-all: $(DEV_OK)
 	$(PYTEST)
 
-lint: $(DEV_OK)
+# Libraries of that age warn of what they use themselves, so warnings are no errors here.
+test-lowest:
+	PIP_CONSTRAINT="$(CURDIR)/.ci/lowest.txt" $(MAKE) VENV=.venv-lowest EXTRAS="[fast,dask]" GROUP=test .venv-lowest/.installed-dev
+	$(ONE_THREAD) .venv-lowest/bin/python -m pytest -n $(WORKERS) -m "not slow" -o filterwarnings=ignore
+
+test-plain:
+	$(MAKE) VENV=.venv-plain EXTRAS= GROUP=test .venv-plain/.installed-dev
+	$(ONE_THREAD) .venv-plain/bin/python -m pytest -n $(WORKERS) -m "not slow"
+
+coverage: $(DEV_OK)
+	$(PYTEST) -m "not slow" --cov --cov-report= && $(BIN)/coverage html --quiet && $(BIN)/coverage report --format=total
+
+lint: style layout types
+
+style: $(DEV_OK)
 	$(BIN)/ruff check $(SOURCES)
+
+layout: $(DEV_OK)
 	$(BIN)/ruff format --check $(SOURCES)
+
+types: $(DEV_OK)
 	$(BIN)/mypy
+
+fix: $(DEV_OK)
+	$(BIN)/ruff check --fix $(SOURCES)
+	$(BIN)/ruff format $(SOURCES)
+
+hooks: $(DEV_OK)
+	$(BIN)/pre-commit install
+
+# No index of packages but the one that pip knows; nothing of this folder but the two archives.
+package: $(DEV_OK)
+	rm -rf dist
+	$(BIN)/python -m build --quiet
+	@set -e; for archive in dist/*.whl dist/*.tar.gz; do \
+	  room=$$(mktemp -d); \
+	  $(BIN)/python -m venv "$$room/venv"; \
+	  "$$room/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$$archive"; \
+	  (cd "$$room" && venv/bin/asperity demo --out demo-run >/dev/null && test -s demo-run/report.html); \
+	  rm -rf "$$room"; \
+	  echo "$$archive installs in an empty environment and runs the demo"; \
+	done
 
 bench: $(DEV_OK)
 	$(BIN)/python benchmarks/run.py $(BENCH)
@@ -56,7 +103,8 @@ validate: $(DEV_OK)
 	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
 
 clean:
-	rm -rf $(VENV) build dist demo-run validation-pictures .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks .coverage
+	rm -rf $(VENV) .venv-lowest .venv-plain build dist demo-run validation-pictures htmlcov
+	rm -rf .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks .coverage .coverage.*
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The first interpreter that runs, is new enough and can make environments; names on the PATH may be dead shims.
@@ -75,9 +123,9 @@ $(USER_OK): pyproject.toml
 	echo "environment $(VENV): $$("$$python" --version)"; \
 	"$$python" -m venv "$(VENV)"
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	$(BIN)/python -m pip install --quiet --editable ".[fast]"
+	$(BIN)/python -m pip install --quiet --editable ".$(EXTRAS)"
 	@touch $@
 
 $(DEV_OK): $(USER_OK)
-	$(BIN)/python -m pip install --quiet --group dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group $(GROUP)
 	@touch $@

@@ -27,8 +27,8 @@ def shared_data() -> Path:
     if folder.is_dir():
         return folder
     message = f"the measured topographies are not at {folder}"
-    if IN_CI:
-        pytest.fail(f"{message}; CI must provide them")
+    if IN_CI and not os.environ.get("ASPERITY_WITHOUT_SCANS"):
+        pytest.fail(f"{message}; CI must provide them, or say ASPERITY_WITHOUT_SCANS=1")
     pytest.skip(message)
 
 

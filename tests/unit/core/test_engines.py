@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import math
 from dataclasses import dataclass, fields
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import array_api_strict
@@ -639,10 +639,11 @@ def test_libraries_without_transforms_or_writable_arrays_are_refused() -> None:
         def __setitem__(self, key: object, value: object) -> None:
             raise TypeError
 
-    bare = SimpleNamespace(__name__="bare", zeros=lambda n: Frozen())
+    bare: Any = ModuleType("bare")
+    bare.zeros = lambda n: Frozen()
     with pytest.raises(asp.InputError, match="Fourier transforms, but is bare"):
         asp.ArrayEngine(bare)
-    bare.fft = SimpleNamespace()
+    bare.fft = ModuleType("fft")
     with pytest.raises(asp.InputError, match="writable arrays, but is bare"):
         asp.ArrayEngine(bare)
 

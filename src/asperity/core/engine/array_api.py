@@ -52,7 +52,8 @@ class Library:
             return np.asarray(values)
         if adapters.is_cupy_array(values) or adapters.is_torch_array(values):
             return np.asarray(adapters.to_device(values, "cpu"))
-        return cast(RealArray, np.from_dlpack(values, device="cpu"))
+        host = cast(RealArray, np.from_dlpack(values, device="cpu"))
+        return host if host.flags.writeable else host.copy()  # numpy 2.1 hands out what it cannot write
 
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
         """Field of zeros."""
