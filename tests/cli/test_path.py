@@ -28,7 +28,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     assert {"load_loop", "area_loop", "energies", "indentation", "residual"} <= plots
     document = load_document(out / "problem.toml")
     assert document.control.path is not None
-    assert document.control.path.mean_pressure == ("30MPa", "0", "40MPa", "0")
+    assert document.control.path.mean_pressure == (30e6, "0", 40e6, "0")
     assert document.control.path.steps == 3
 
     data = asp.open_dataset(out / "path.nc")

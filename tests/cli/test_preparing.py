@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -105,7 +106,7 @@ def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: P
     assert result.exit_code == 0, result.stderr
     placed = load_document(tmp_path / "a.toml").counter_surface.place  # type: ignore[union-attr]
     assert placed is not None
-    assert (placed.shift, placed.angle) == (("1um", "0um"), "90deg")
+    assert (placed.shift, placed.angle) == ((1e-6, 0.0), pytest.approx(math.pi / 2))
     wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--shift", "1um")
     assert "--shift must be" in wrong.stderr
 
@@ -120,7 +121,7 @@ def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: 
     assert result.problem.surface.size == pytest.approx((6e-6, 1.0))
     assert result.force == pytest.approx(0.5)
     assert "sliced: line at x = 3.125 µm (24 points)" in found.stdout
-    assert load_document(tmp_path / "run" / "problem.toml").surface.prepare[-1].x == "3um"
+    assert load_document(tmp_path / "run" / "problem.toml").surface.prepare[-1].x == pytest.approx(3e-6)
     refused = run("contact", matrix, *SCALE, *BODY, *line)
     assert refused.exit_code == 2
     assert "--line y=middle" in refused.stderr

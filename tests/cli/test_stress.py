@@ -141,7 +141,7 @@ def test_options_over_a_document(run: Runner, matrix: Path, tmp_path: Path) -> N
     assert second.exit_code == 0, second.stderr
     stress = load_document(changed).stress
     assert stress is not None
-    assert (stress.friction, stress.depths) == (0.1, ("5nm",))
+    assert (stress.friction, stress.depths) == (0.1, (5e-9,))
 
 
 def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 
 import numpy as np
@@ -112,7 +113,8 @@ def test_every_option_of_the_film_reaches_the_document(run: Runner, scan: Path, 
     film = load_document(document).film
     assert film is not None
     assert Path(film.liquids_file).name == "own.toml"
-    assert (film.thickness, film.meniscus_height, film.contact_angle, film.friction) == ("1nm", "2nm", ("10deg",), 0.2)
+    assert (film.thickness, film.meniscus_height, film.friction) == (1e-9, 2e-9, 0.2)
+    assert film.contact_angle == pytest.approx((math.radians(10.0),))
     assert run("contact", "--from", document).exit_code == 0
 
 

@@ -133,7 +133,7 @@ def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> N
     from ..report.comparison import write_comparison_report
     from ..studies.comparison_files import export_comparison_csv, save_comparison
 
-    highest = ControlTable(mean_pressure=f"{float(comparison.pressures[-1])!r} Pa")
+    highest = ControlTable.model_validate({"mean_pressure": f"{float(comparison.pressures[-1])!r} Pa"})
     save_document(document.model_copy(update={"control": highest}), folder / "problem.toml")
     save_comparison(comparison, folder / "comparison.nc")
     export_comparison_csv(comparison, folder / "comparison.csv")

@@ -11,15 +11,15 @@ import typer
 from pydantic.fields import FieldInfo
 
 from ..core.errors import InputError
+from ..core.settings import Settings
 from ..io.quantities import quantity
 from ..io.schemas.base import FileSurface
 from ..io.schemas.random_surfaces import RandomSurface
 from ..io.schemas.shapes import Shape
-from ..io.schemas.values import Table
 from .generator_help import HELP
 from .preparing import PreparationOptions, points, steps
 
-KINDS: MappingProxyType[str, type[Table]] = MappingProxyType(
+KINDS: MappingProxyType[str, type[Settings]] = MappingProxyType(
     {
         get_args(model.model_fields["kind"].annotation)[0]: model
         for model in (*get_args(RandomSurface), *get_args(Shape))
@@ -61,7 +61,7 @@ class Key:
         return self.option[2:].replace("-", "_")
 
 
-def keys(model: type[Table]) -> list[Key]:
+def keys(model: type[Settings]) -> list[Key]:
     """All options of a kind, those of its own first."""
     own, nested = [], []
     for name, field in model.model_fields.items():
@@ -73,7 +73,7 @@ def keys(model: type[Table]) -> list[Key]:
     return own + nested
 
 
-def _part_keys(name: str, members: tuple[type[Table], ...]) -> list[Key]:
+def _part_keys(name: str, members: tuple[type[Settings], ...]) -> list[Key]:
     """Keys of a table within the table, of whatever kind it may be; its members share options of the same name."""
     found: dict[str, Key] = {}
     for member in members:
@@ -87,19 +87,19 @@ def _part_keys(name: str, members: tuple[type[Table], ...]) -> list[Key]:
     return list(found.values())
 
 
-def _members(annotation: Any) -> tuple[type[Table], ...]:
+def _members(annotation: Any) -> tuple[type[Settings], ...]:
     """Models of a union of tables, empty for any other type."""
     parts = get_args(annotation) or (annotation,)
     if parts and get_origin(annotation) is Annotated:
         parts = get_args(parts[0])
-    tables = tuple(part for part in parts if isinstance(part, type) and issubclass(part, Table))
+    tables = tuple(part for part in parts if isinstance(part, type) and issubclass(part, Settings))
     return tables if len(tables) == len(parts) else ()
 
 
 def parameter(key: Key) -> inspect.Parameter:
     """Parameter of the command for ``key``, annotated with its option."""
     names = [key.option, "--rms"] if key.option == "--rms-height" else [key.option]
-    annotation = _simple(key.field.annotation)
+    annotation = _simple(key.field.annotation) if quantity(key.field) is None else str
     default: Any = inspect.Parameter.empty if key.required else None
     if annotation is bool:
         default = bool(key.field.default)
@@ -182,7 +182,7 @@ def table_of(kind: str, options: list[Key], values: dict[str, Any]) -> dict[str,
             continue
         if key.path[-1] == "points":
             value = points(value, key.option)
-        elif tuple in _flat(key.field.annotation) and key.path[-1] != "points":
+        elif tuple in _flat(key.field.annotation) and key.path[-1] not in ("points", "size"):
             value = _listed(value, key)
         inner = table
         for part in key.path[:-1]:

@@ -45,7 +45,7 @@ class Settings(BaseModel):
 
     def given(self, *leave: str) -> dict[str, Any]:
         """Values by key in SI, without those that are None and without the keys to ``leave``."""
-        values = {key: getattr(self, key) for key in type(self).model_fields if key not in leave}
+        values = {key: _plain(getattr(self, key)) for key in type(self).model_fields if key not in leave}
         return {key: value for key, value in values.items() if value is not None}
 
 
@@ -159,6 +159,13 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
         shown = _called(key, names)
         found[_sentence(dict(detail), shown, allowed)] = None
     return list(found)
+
+
+def _plain(value: Any) -> Any:
+    """``value`` without the texts of its numbers."""
+    if isinstance(value, tuple):
+        return tuple(_plain(item) for item in value)
+    return float(value) if isinstance(value, float) else value
 
 
 def _called(key: str, names: Mapping[str, str]) -> str:

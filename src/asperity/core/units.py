@@ -73,7 +73,7 @@ def parse(text: str | float, kind: str, what: str) -> float:
         If number or unit is missing, unknown, or of another dimension.
     """
     if isinstance(text, float) and hasattr(text, "text"):
-        return text
+        return float(text)
     unit = DIMENSIONS[kind]
     number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
     return number * unit_factor(name, kind, what)
@@ -146,7 +146,7 @@ def parse_size(text: str | tuple[float, float], what: str = "size") -> tuple[flo
         If a length lacks a unit or the text has more than two parts.
     """
     if isinstance(text, tuple):
-        return text
+        return float(text[0]), float(text[1])
     parts = re.split(r"\s*[x×]\s*", text.strip())
     if len(parts) == 1:
         parts *= 2

@@ -245,7 +245,7 @@ class Whole(Values):
         return {"type": "integer", "minimum": self.least} | ({} if self.most is None else {"maximum": self.most})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Choice(Values):
     """One of a few ``words``, each with what it stands for."""
 
@@ -470,6 +470,7 @@ PoissonRatio: TypeAlias = Annotated[float, Number(above=-1.0, most=0.5)]
 Hurst: TypeAlias = Annotated[float, Number(above=0.0, most=1.0)]
 Count: TypeAlias = Annotated[int, Whole(1)]
 Seed: TypeAlias = Annotated[int, Whole(0)]
+NonEmpty: TypeAlias = Annotated[str, Text()]
 Size: TypeAlias = Annotated[tuple[float, float], Lengths()]
 Points: TypeAlias = Annotated[tuple[int, int], Numbers()]
 LengthRange: TypeAlias = Annotated[tuple[float, float], Interval()]

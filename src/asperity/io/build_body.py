@@ -8,13 +8,13 @@ from pydantic import ValidationError
 
 from ..core import units
 from ..core.errors import InputError
+from ..core.settings import problems
 from ..solids.elastic import Elastic, Rigid, Strength
 from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGrading, graded
 from ..solids.layers import Base, Body, Bonded, Frictionless, Interface, Layer, Layered, RigidBase
 from ..solids.library import material
 from .schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable
 from .schemas.body_text import body_from_text
-from .schemas.wording import problems
 
 
 def build_body(table: BodyTable, folder: Path) -> Body:
@@ -73,5 +73,5 @@ def _elastic(table: MaterialTable, library: Path | None) -> Elastic:
     )
 
 
-def _pressure(text: str | None) -> float:
-    return float("nan") if text is None else units.parse(text, "pressure", "pressure")
+def _pressure(value: float | str | None) -> float:
+    return float("nan") if value is None else float(value)

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from ..core.grid import Grid
+from ..core.settings import Settings
 from ..surfaces import generate
 from ..surfaces.surface import Surface
 from .quantities import si_values
 from .schemas import random_surfaces, shapes, spectra
 from .schemas.base import FileSurface
-from .schemas.values import Table
 
 Reader = Callable[[FileSurface, Path], Surface]
 """Reads and prepares the surface of a file, for spectra and heights that are measured."""
@@ -35,7 +35,7 @@ def build_generated(
     grid = table_grid(table)
     arguments = si_values(table, leave=_COMMON)
     for key, value in arguments.items():
-        if isinstance(value, Table):
+        if isinstance(value, Settings):
             arguments[key] = _part(value, folder, read)
     function: Callable[..., Surface] = getattr(generate, FUNCTIONS.get(table.kind, table.kind))
     return function(grid, **arguments, **more)
@@ -63,7 +63,7 @@ def build_spectrum(table: spectra.SpectrumTable, folder: Path, read: Reader) -> 
     return generate.spectrum_of(read(table.surface, folder), **values)
 
 
-def _part(table: Table, folder: Path, read: Reader) -> Any:
+def _part(table: Settings, folder: Path, read: Reader) -> Any:
     """Spectrum or distribution of heights that ``table`` describes."""
     if isinstance(table, spectra.MomentsHeights):
         return generate.HeightMoments(table.skewness, table.kurtosis, table.system)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ..contact.problem import ContactProblem
-from ..core import units
 from ..core.errors import InputError
 from ..solids.elastic import Rigid
 from ..stress.criteria import Tresca, VonMises
@@ -55,7 +54,7 @@ def check_stress(request: StressRequest, problem: ContactProblem) -> None:
     request.check(problem)
 
 
-def _place(text: str | None) -> Place:
-    if text is None or text == PLACES[0]:
+def _place(value: float | str | None) -> Place:
+    if value is None or value == PLACES[0]:
         return "max"
-    return "pressure" if text == PLACES[1] else units.parse(text, "length", "position")
+    return "pressure" if isinstance(value, str) else float(value)

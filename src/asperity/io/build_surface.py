@@ -123,5 +123,5 @@ def _interval(ends: tuple[str, str] | None) -> tuple[float, float] | None:
     return None if ends is None else (_length(ends[0]), _length(ends[1]))
 
 
-def _length(text: str) -> float:
-    return units.parse(text, "length", "length")
+def _length(value: float | str) -> float:
+    return units.parse(value, "length", "length")

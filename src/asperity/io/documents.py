@@ -10,16 +10,13 @@ import os
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-from pydantic import ValidationError
-
-from ..core.errors import FileFormatError, InputError
+from ..core.errors import FileFormatError
+from ..core.settings import Settings, validated
 from .atomic import atomic_file
 from .schemas.problem import ProblemDocument
 from .schemas.stress import StressDocument, StressTable
-from .schemas.values import Table
-from .schemas.wording import problems
 
 __all__ = [
     "ProblemDocument",
@@ -35,10 +32,6 @@ __all__ = [
     "tidy",
     "validated",
 ]
-
-
-Kind = TypeVar("Kind", bound=Table)
-"""Type of a document."""
 
 
 def load_document(path: str | os.PathLike[str]) -> ProblemDocument:
@@ -108,17 +101,6 @@ def checked_stress(table: Mapping[str, Any], where: str, names: Mapping[str, str
     return validated(StressDocument, table, where, names).stress
 
 
-def validated(model: type[Kind], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> Kind:
-    """The ``model`` made of ``table``; errors as of ``checked``."""
-    try:
-        return model.model_validate(dict(table))
-    except ValidationError as error:
-        lines = problems(error, model.model_json_schema(), names or {})
-    if len(lines) == 1:
-        raise InputError(f"{where}: {lines[0]}")
-    raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
-
-
 def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
     """Text of ``document`` as ``toml`` or ``json``; loading it gives an equal document."""
     table = tidy(document.model_dump(mode="json", exclude_none=True))
@@ -173,12 +155,12 @@ def tidy(table: dict[str, Any]) -> dict[str, Any]:
 
 def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
     """``table`` with the file names in it and in the tables within it replaced."""
-    if not isinstance(table, Table):
+    if not isinstance(table, Settings):
         return table
     changed: dict[str, Any] = {}
     for key in type(table).model_fields:
         value = getattr(table, key)
-        if isinstance(value, Table):
+        if isinstance(value, Settings):
             changed[key] = _with_paths(value, moved)
         elif value is not None and key in ("path", "materials_file", "liquids_file"):
             changed[key] = moved(value)

@@ -8,8 +8,8 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from ..core.errors import InputError
+from ..core.settings import problems
 from .schemas.surfaces import Generated, RandomSurface, Shape
-from .schemas.wording import problems
 
 
 def checked_surface(table: Mapping[str, Any], where: str, names: Mapping[str, str]) -> Shape | RandomSurface:

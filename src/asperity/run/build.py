@@ -202,5 +202,5 @@ def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:
     return solver_by_name(name, table.tolerance, table.max_iterations, precision=table.precision)
 
 
-def _pressure(text: str | None) -> float:
-    return float("nan") if text is None else units.parse(text, "pressure", "pressure")
+def _pressure(value: float | str | None) -> float:
+    return float("nan") if value is None else float(value)

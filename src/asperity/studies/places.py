@@ -13,10 +13,12 @@ from pydantic.fields import FieldInfo
 from ..core import units
 from ..core.arrays import file_digest
 from ..core.errors import InputError
+from ..core.settings import Settings
+from ..core.values import Written, WrittenPair
 from ..io.documents import tidy
 from ..io.quantities import quantity
 from ..io.schemas.problem import CONTROLS, ProblemDocument
-from ..io.schemas.values import NONE, Table
+from ..io.schemas.values import NONE
 
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
@@ -59,7 +61,7 @@ class Place:
             If it is none.
         """
         if self.quantity is not None and self.quantity != "size":
-            if not isinstance(value, str):
+            if not isinstance(value, str | Written):
                 raise InputError(f"{self.path} must be text with a number and a unit, but is {value!r}.")
             return 0.0 if value == NONE else units.parse(value, self.quantity, self.path)
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -132,10 +134,10 @@ def problem_table(document: ProblemDocument) -> dict[str, Any]:
 
 
 def _below(value: Any, field: FieldInfo, keys: tuple[Key, ...]) -> Iterator[Place]:
-    if isinstance(value, Table):
+    if isinstance(value, Settings):
         for key in type(value).model_fields:
             yield from _below(getattr(value, key), type(value).model_fields[key], (*keys, key))
-    elif isinstance(value, tuple):
+    elif isinstance(value, tuple) and not isinstance(value, WrittenPair):
         if keys[-1] == "points":
             yield _place(field, keys)
         for number, item in enumerate(value):
@@ -151,7 +153,7 @@ def _place(field: FieldInfo, keys: tuple[Key, ...]) -> Place:
 
 def _holds_tables(annotation: Any) -> bool:
     if isinstance(annotation, type):
-        return issubclass(annotation, Table)
+        return issubclass(annotation, Settings)
     return any(_holds_tables(part) for part in get_args(annotation))
 
 
@@ -171,7 +173,7 @@ def _kinds(annotation: Any) -> Iterator[Any]:
 def _content(value: Any, folder: Path) -> Any:
     if isinstance(value, tuple):
         return [_content(item, folder) for item in value]
-    if not isinstance(value, Table):
+    if not isinstance(value, Settings):
         return value
     found: dict[str, Any] = {}
     for key, field in type(value).model_fields.items():
@@ -194,6 +196,8 @@ def _file_content(key: Key, value: Any, folder: Path) -> Any:
 
 def _si(value: Any, kind: str, what: str) -> Any:
     """SI values of text or a tuple of texts; words such as "from body" as they are."""
+    if isinstance(value, WrittenPair):
+        return list(value)
     if isinstance(value, tuple | list):
         return [_si(item, kind, what) for item in value]
     if value == NONE:

@@ -163,8 +163,9 @@ def test_text_that_cannot_be_used_is_refused(values: Values, text: Any, words: s
 def test_a_number_that_was_written_keeps_its_text() -> None:
     made = Number("length").read("5 nm", "x")
     assert isinstance(made, Written)
-    for same in (made, copy.deepcopy(made), pickle.loads(pickle.dumps(made)), units.parse(made, "length", "x")):
+    for same in (made, copy.deepcopy(made), pickle.loads(pickle.dumps(made))):
         assert (same, same.text) == (5e-9, "5 nm")  # type: ignore[union-attr]
+    assert type(units.parse(made, "length", "x")) is float
     pair = pickle.loads(pickle.dumps(Lengths().read("2 um x 1 um", "x")))
     assert isinstance(pair, WrittenPair)
     assert (pair.text, units.parse_size(pair)) == ("2 um x 1 um", pair)

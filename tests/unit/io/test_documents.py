@@ -316,7 +316,7 @@ def test_file_round_trip(tmp_path: Path, name: str) -> None:
 
 def test_demo_document_is_valid() -> None:
     text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
-    assert loads(text).control.mean_pressure == "4 MPa"
+    assert loads(text).control.mean_pressure == 4e6
 
 
 def test_documents_do_not_change() -> None:
@@ -351,7 +351,7 @@ def test_documents_do_not_change() -> None:
         ({"control": {"path": {"force": []}}}, "control.path.force must hold at least one turning point"),
         (
             {"control": {"path": {"force": ["1 N", "-1 N"]}}},
-            "control.path.force[2] must be zero or greater, but is '-1 N'.",
+            "control.path.force[2] must be at least zero, but is '-1 N'.",
         ),
         ({"control": {"path": {"force": ["1 nm"]}}}, "control.path.force[1] must be a force"),
         (
@@ -395,9 +395,9 @@ def test_documents_do_not_change() -> None:
         ),
         ({"law": {"kind": "hardness", "hardness": "5"}}, "law.hardness must have a unit"),
         ({"solver": {"method": "magic"}}, "solver.method must be one of active_set, conjugate_gradient"),
-        ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than 0 and less than 1"),
+        ({"solver": {"tolerance": 0}}, "solver.tolerance must be greater than zero and less than 1"),
         ({"solver": {"tolerance": float("nan")}}, "solver.tolerance must be a finite number"),
-        ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number, but is 1.5."),
+        ({"solver": {"threads": 1.5}}, "solver.threads must be a whole number of at least 1, but is 1.5."),
         ({"boundary": {"kind": "open"}}, "boundary.kind must be 'periodic', 'free' or 'line', but is 'open'."),
         ({"boundary": {"kind": "free", "datum": "1 m"}}, "boundary.datum must be left out for the boundary free"),
         ({"body": "DLC:5/steel"}, "body.layers[1].thickness must have a unit, such as \"5 nm\", but is '5'"),
@@ -408,17 +408,17 @@ def test_documents_do_not_change() -> None:
             {"stress": {"friction": -0.3}},
             "stress.friction must be at least zero, but is -0.3. Turn the direction by 180 deg",
         ),
-        ({"stress": {"friction": "0.3"}}, "stress.friction must be a number, but is '0.3'."),
+        ({"stress": {"friction": "some"}}, "stress.friction must be a number, but is 'some'."),
         ({"stress": {"direction": "90"}}, "stress.direction must have a unit, such as \"10 deg\", but is '90'"),
         ({"stress": {"depths": ["1 nm", "5"]}}, "stress.depths[2] must have a unit"),
-        ({"stress": {"depths": ["-1 nm"]}}, "stress.depths[1] must be zero or greater, but is '-1 nm'."),
-        ({"stress": {"depths": "1 nm"}}, "stress.depths must be a list, but is '1 nm'."),
+        ({"stress": {"depths": ["-1 nm"]}}, "stress.depths[1] must be at least zero, but is '-1 nm'."),
+        ({"stress": {"depths": "1 nm, 2"}}, "stress.depths[2] must have a unit"),
         ({"stress": {"sections": [{}]}}, "stress.sections[1] must give exactly one of x and y"),
         ({"stress": {"sections": ["y=max", "x=1nm,y=max"]}}, "stress.sections[2] must give exactly one of x and y"),
         ({"stress": {"sections": ["z=max"]}}, 'stress.sections[1] must be a position such as "y=max"'),
         ({"stress": {"sections": [{"y": "top"}]}}, "stress.sections[1].y must be a number with a unit"),
         ({"stress": {"sections": 5}}, "stress.sections must be a list, but is 5."),
-        ({"stress": {"profiles": [{"x": "-1 nm"}]}}, "stress.profiles[1].x must be zero or greater"),
+        ({"stress": {"profiles": [{"x": "-1 nm"}]}}, "stress.profiles[1].x must be at least zero"),
         ({"stress": {"criterion": "hope"}}, "stress.criterion must be 'von_mises' or 'tresca', but is 'hope'."),
         ({"stress": {"inside": "middle"}}, "stress.inside must be 'body' or 'counter_body', but is 'middle'."),
         ({"body": {"layers": [COATING]}}, "body.base must be given together with layers"),
@@ -432,7 +432,7 @@ def test_documents_do_not_change() -> None:
         ({"body": {"layers": [{"material": "DLC"}], "base": "steel"}}, "body.layers[1].thickness must be given"),
         ({"body": {"layers": [{"thickness": "5 nm"}], "base": "steel"}}, "body.layers[1] must give a material, or"),
         ({"body": {"layers": [COATING | {"thickness": 5}], "base": "steel"}}, "body.layers[1].thickness must be text"),
-        ({"body": {"layers": [COATING | {"thickness": "-5 nm"}], "base": "steel"}}, "must be zero or greater, but is"),
+        ({"body": {"layers": [COATING | {"thickness": "-5 nm"}], "base": "steel"}}, "must be at least zero, but is"),
         (
             {"body": {"layers": [COATING, COATING | {"interface": "glued"}], "base": "steel"}},
             "body.layers[2].interface must be 'bonded' or 'frictionless', but is 'glued'.",

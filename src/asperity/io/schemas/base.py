@@ -2,31 +2,33 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
+from ...core.settings import Settings
+from ...core.values import Angle, Length, NonEmpty, Points, SignedLength, Size
 from .preparation import Step
-from .values import ORDERED, Angle, Channel, HeightUnit, Length, Lengths, Points, SignedLengths, Size, Table, Text
+from .values import Channel, HeightUnit
 
 
-class Place(Table):
+class Place(Settings):
     """Where a counter surface lies: ``shift`` of its middle from that of the surface, ``angle`` from +x towards +y.
 
     Both surfaces are resampled on one grid that covers their overlap, with the finer pixel or the given one.
     """
 
-    shift: SignedLengths | None = None
+    shift: tuple[SignedLength, SignedLength] | None = None
     angle: Angle | None = None
-    pixel: Lengths | None = None
+    pixel: tuple[Length, Length] | None = None
 
 
-class AnySurface(Table):
+class AnySurface(Settings):
     """What all surfaces have: preparation steps, and for a counter surface how it is turned over and where it lies.
 
     ``mirror`` is ``"x"`` or ``"y"`` for a map measured facing its own body, and ``"none"`` for one that is already
     in the lateral frame of the other surface. With ``place`` the two need not have the same grid.
     """
 
-    prepare: Annotated[tuple[Step, ...], ORDERED] = ()
+    prepare: tuple[Step, ...] = ()
     mirror: Literal["x", "y", "none"] | None = None
     place: Place | None = None
 
@@ -42,7 +44,7 @@ class FileSurface(AnySurface):
     """Heights from a file; a relative ``path`` starts at the folder of the document."""
 
     kind: Literal["file"]
-    path: Text
+    path: NonEmpty
     channel: Channel | None = None
     size: Size | None = None
     height_unit: HeightUnit | None = None

@@ -7,8 +7,9 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
 from ...core.errors import InputError
+from ...core.settings import Settings
+from ...core.values import Count, Length, NonEmpty, NonNegativeLength, PoissonRatio, Positive, Pressure
 from .body_text import base_from_text, body_from_text, material_from_text
-from .values import Count, Length, NonNegativeLength, Number, PoissonRatio, Pressure, Table, Text
 
 CONSTANTS = ("youngs_modulus", "poisson_ratio")
 """Keys of the elastic constants, which go together."""
@@ -24,7 +25,7 @@ def _text_too(schema: dict[str, Any]) -> None:
     schema.update({"title": table["title"], "anyOf": [{"type": "string"}, table]})
 
 
-class MaterialTable(Table):
+class MaterialTable(Settings):
     """One material: a name of the library, or elastic constants with what is known of the strength.
 
     It may be text, such as ``"steel"`` or ``"E=140GPa,nu=0.25"``.
@@ -32,12 +33,12 @@ class MaterialTable(Table):
 
     model_config = ConfigDict(json_schema_extra=_text_too)
 
-    material: Text | None = None
+    material: NonEmpty | None = None
     youngs_modulus: Pressure | None = None
     poisson_ratio: PoissonRatio | None = None
     hardness: Pressure | None = None
     yield_stress: Pressure | None = None
-    name: Text | None = None
+    name: NonEmpty | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -75,7 +76,7 @@ class LayerTable(MaterialTable):
     interface: Literal["bonded", "frictionless"] = "bonded"
 
 
-class GradedTable(Table):
+class GradedTable(Settings):
     """Coating whose Young's modulus changes from that of ``top`` to that of ``bottom``, as thin homogeneous layers.
 
     ``kind`` says how it changes with depth: ``"linear"``, ``"exponential"``, or ``"power"`` with its ``exponent``.
@@ -85,7 +86,7 @@ class GradedTable(Table):
     top: MaterialTable
     bottom: MaterialTable
     thickness: Length
-    exponent: Number | None = None
+    exponent: Positive | None = None
     sublayers: Count = 32
     interface: Literal["bonded", "frictionless"] = "bonded"
 
@@ -132,7 +133,7 @@ class BodyTable(BaseTable):
     the named materials of all its parts; a relative path starts at the folder of the document.
     """
 
-    materials_file: Text | None = None
+    materials_file: NonEmpty | None = None
     layers: Annotated[tuple[AnyLayer, ...], BeforeValidator(_layers)] = ()
     base: BaseTable | None = None
 

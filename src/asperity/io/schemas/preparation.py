@@ -4,38 +4,20 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from ...core import require
 from ...core.errors import InputError
+from ...core.settings import Settings, setting
+from ...core.values import Length, LengthRange, Number, Points, Positive, Whole
 from ...surfaces.prepare.level import HIGHEST_DEGREE
-from .values import Length, LengthRange, Number, PlaceOnMap, Points, Table
+from .values import PlaceOnMap
+
+OddCount: TypeAlias = Annotated[int, Whole(3, odd=True)]
+Degree: TypeAlias = Annotated[int, Whole(0, HIGHEST_DEGREE)]
+Width: TypeAlias = Annotated[float, Number(above=0.0, most=0.5)]
 
 
-def _width(value: float) -> float:
-    return require.at_most(value, 0.5, "")
-
-
-def _odd(value: int) -> int:
-    if require.integer(value, 3, "") % 2 == 0:
-        raise InputError(f" must be an odd number, but is {value}.")
-    return value
-
-
-def _degree(value: int) -> int:
-    if not 0 <= value <= HIGHEST_DEGREE:
-        raise InputError(f" must be a whole number from 0 to {HIGHEST_DEGREE}, but is {value}.")
-    return value
-
-
-OddCount: TypeAlias = Annotated[int, AfterValidator(_odd)]
-"""An odd number >= 3."""
-
-Degree: TypeAlias = Annotated[int, AfterValidator(_degree)]
-"""Total degree of a polynomial."""
-
-
-class Level(Table):
+class Level(Settings):
     """Remove a ``form`` (a plane by default) or a polynomial of total ``degree``; ``robust`` leaves out outliers."""
 
     step: Literal["level"]
@@ -50,22 +32,22 @@ class Level(Table):
         return self
 
 
-class Despike(Table):
+class Despike(Settings):
     """Mask points far from the median of their surroundings, by ``threshold`` standard deviations; fill them afterwards."""
 
     step: Literal["despike"]
-    threshold: Number = 6.0
+    threshold: Positive = 6.0
     window: OddCount = 5
 
 
-class LineCorrect(Table):
+class LineCorrect(Settings):
     """Remove the offsets between the scan lines, which run along the fast ``axis``."""
 
     step: Literal["line_correct"]
     axis: Literal["x", "y"] = "x"
 
 
-class Filter(Table):
+class Filter(Settings):
     """Remove the waves shorter than ``short`` and longer than ``long``; ``short_y``, ``long_y`` where y differs from x."""
 
     step: Literal["filter"]
@@ -86,14 +68,14 @@ class Filter(Table):
         return self
 
 
-class TipLimit(Table):
+class TipLimit(Settings):
     """Remove the waves that a tip of this ``radius`` may have shaped."""
 
     step: Literal["tip_limit"]
     radius: Length
 
 
-class Crop(Table):
+class Crop(Settings):
     """Keep the rectangle between ``x`` and ``y``, each a pair of lengths from the corner."""
 
     step: Literal["crop"]
@@ -107,34 +89,34 @@ class Crop(Table):
         return self
 
 
-class Resample(Table):
+class Resample(Settings):
     """Change the number of points at constant size."""
 
     step: Literal["resample"]
     points: Points
 
 
-class Fill(Table):
+class Fill(Settings):
     """Fill missing points; does nothing where none are missing."""
 
     step: Literal["fill"]
     method: Literal["harmonic", "mean", "nearest"] = "harmonic"
 
 
-class Taper(Table):
+class Taper(Settings):
     """Let the heights fall to their mean along the borders; ``width`` is a fraction of the side."""
 
     step: Literal["taper"]
-    width: Annotated[float, AfterValidator(_width)] = 0.1
+    width: Width = 0.1
 
 
-class Periodise(Table):
+class Periodise(Settings):
     """Remove the smooth component that carries the jumps between opposite borders."""
 
     step: Literal["periodise"]
 
 
-class Slice(Table):
+class Slice(Settings):
     """Keep one line, that at ``y`` or that at ``x``, as a surface of one row, for line contact.
 
     ``length`` is the length along the contact that forces and areas belong to: per metre by default.
@@ -143,7 +125,7 @@ class Slice(Table):
     step: Literal["slice"]
     x: PlaceOnMap | None = None
     y: PlaceOnMap | None = None
-    length: Length = "1 m"
+    length: Length = setting("1 m")
 
     @model_validator(mode="after")
     def _one(self) -> Slice:

@@ -7,23 +7,13 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, model_validator
 
 from ...core.errors import InputError
+from ...core.settings import Settings
+from ...core.values import Count, Force, Fraction, Length, Pressure
 from .bodies import BodyTable
 from .film import FilmTable
 from .stress import StressTable
 from .surfaces import FileSurface, SurfaceTable
-from .values import (
-    Count,
-    Force,
-    Fraction,
-    Length,
-    Method,
-    PathForces,
-    PathLengths,
-    PathPressures,
-    Pressure,
-    PressureOrBody,
-    Table,
-)
+from .values import Method, PathForce, PathLength, PathPressure, PressureOrBody
 
 VERSION = 1
 """Version of the document that this package reads and writes."""
@@ -38,7 +28,7 @@ STEPS = 10
 """Steps from one turning point of a load path to the next, if not said otherwise."""
 
 
-class BoundaryTable(Table):
+class BoundaryTable(Settings):
     """What lies outside the grid: the same again, no load, or for a surface of one row the same line contact for ever.
 
     ``datum`` is the distance at which displacements of a line contact are called zero, by default the length of the grid.
@@ -54,13 +44,13 @@ class BoundaryTable(Table):
         return self
 
 
-class HardWallTable(Table):
+class HardWallTable(Settings):
     """No limit on the pressure."""
 
     kind: Literal["hard_wall"]
 
 
-class HardnessTable(Table):
+class HardnessTable(Settings):
     """Pressure limited by a hardness, given or taken from the softer body."""
 
     kind: Literal["hardness"]
@@ -71,16 +61,16 @@ LawTable: TypeAlias = Annotated[HardWallTable | HardnessTable, Field(discriminat
 """One interface law, told apart by the key ``kind``."""
 
 
-class PathTable(Table):
+class PathTable(Settings):
     """A load or position that runs from zero through turning points: exactly one list of them, and ``steps`` from one to the next.
 
     Zero, with or without a unit, takes the load away. A mean gap starts at its first value and is never zero.
     """
 
-    mean_pressure: PathPressures | None = None
-    force: PathForces | None = None
-    approach: PathLengths | None = None
-    mean_gap: PathLengths | None = None
+    mean_pressure: tuple[PathPressure, ...] | None = None
+    force: tuple[PathForce, ...] | None = None
+    approach: tuple[PathLength, ...] | None = None
+    mean_gap: tuple[PathLength, ...] | None = None
     steps: Count = STEPS
 
     @model_validator(mode="after")
@@ -89,7 +79,7 @@ class PathTable(Table):
         return self
 
 
-class ControlTable(Table):
+class ControlTable(Settings):
     """What is prescribed: exactly one of these."""
 
     mean_pressure: Pressure | None = None
@@ -104,13 +94,17 @@ class ControlTable(Table):
         return self
 
 
-def _require_one(table: Table, keys: tuple[str, ...]) -> None:
+def _require_one(table: Settings, keys: tuple[str, ...]) -> None:
     given = [key for key in keys if getattr(table, key) is not None]
+    if given and getattr(table, given[0]) == ():
+        raise InputError(
+            f'.{given[0]} must hold at least one turning point, such as ["50 MPa", "0", "80 MPa"], but is empty.'
+        )
     if len(given) != 1:
         raise InputError(f" must give exactly one of {', '.join(keys)}, but gives {' and '.join(given) or 'none'}.")
 
 
-class SolverTable(Table):
+class SolverTable(Settings):
     """How the problem is solved; what is left out is chosen by the package."""
 
     method: Method | None = None
@@ -120,13 +114,13 @@ class SolverTable(Table):
     threads: Count | None = None
 
 
-class PlasticLoadTable(Table):
+class PlasticLoadTable(Settings):
     """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
 
     share: Fraction = 0.02
 
 
-class ProblemDocument(Table):
+class ProblemDocument(Settings):
     """A contact problem with its load and solver, as text."""
 
     version: Literal[1]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
+from ...core.values import Count, Density, Fraction, Length, NonNegativeLength, Positive, Real, Seed, SignedLength
 from .base import GeneratedSurface
 from .spectra import HeightsTable, SpectrumTable
-from .values import AnyNumber, Count, Density, Fraction, Length, NonNegativeLength, Number, Seed, SignedLength
 
 
 class Rough(GeneratedSurface):
@@ -26,8 +26,8 @@ class DigitalFilter(GeneratedSurface):
     kind: Literal["digital_filter"]
     seed: Seed
     spectrum: SpectrumTable
-    skewness: AnyNumber = 0.0
-    kurtosis: Number = 3.0
+    skewness: Real = 0.0
+    kurtosis: Positive = 3.0
     system: Literal["johnson", "pearson"] = "johnson"
     periodic: bool = False
 
@@ -38,8 +38,8 @@ class Translated(GeneratedSurface):
     kind: Literal["translated"]
     seed: Seed
     spectrum: SpectrumTable
-    skewness: AnyNumber
-    kurtosis: Number
+    skewness: Real
+    kurtosis: Positive
     system: Literal["johnson", "pearson"] = "johnson"
     predistorted: bool = True
 
@@ -52,7 +52,7 @@ class RankOrdered(GeneratedSurface):
     spectrum: SpectrumTable
     heights: HeightsTable
     last: Literal["heights", "spectrum"] = "heights"
-    tolerance: Number = 1e-4
+    tolerance: Positive = 1e-4
     max_iterations: Count = 1000
 
 
@@ -88,7 +88,7 @@ class Particles(GeneratedSurface):
     density: Density
     radius: Length
     radius_deviation: NonNegativeLength | None = None
-    exposure: Number = 2.0
+    exposure: Positive = 2.0
 
 
 class WeierstrassMandelbrot(GeneratedSurface):
@@ -96,9 +96,9 @@ class WeierstrassMandelbrot(GeneratedSurface):
 
     kind: Literal["weierstrass_mandelbrot"]
     seed: Seed
-    dimension: Number
+    dimension: Positive
     roughness: Length
-    gamma: Number = 1.5
+    gamma: Positive = 1.5
     ridges: Count = 10
     length: Length | None = None
     shortest_wavelength: Length | None = None
@@ -109,9 +109,9 @@ class WeierstrassMandelbrotProfile(GeneratedSurface):
 
     kind: Literal["weierstrass_mandelbrot_profile"]
     seed: Seed | None = None
-    dimension: Number
+    dimension: Positive
     roughness: Length
-    gamma: Number = 1.5
+    gamma: Positive = 1.5
     length: Length | None = None
     shortest_wavelength: Length | None = None
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
+from ...core.values import Length, NonNegativeLength, Positive
 from .base import GeneratedSurface
-from .values import Length, Lengths, NonNegativeLength, Number
 
 
 class Sphere(GeneratedSurface):
@@ -36,14 +36,14 @@ class Cone(GeneratedSurface):
     """Cone; ``slope`` is the tangent of the angle between flank and surface."""
 
     kind: Literal["cone"]
-    slope: Number
+    slope: Positive
 
 
 class Wedge(GeneratedSurface):
     """Wedge with its edge along ``axis``; ``slope`` as for the cone."""
 
     kind: Literal["wedge"]
-    slope: Number
+    slope: Positive
     axis: Literal["x", "y"] = "y"
 
 
@@ -51,7 +51,7 @@ class PowerLaw(GeneratedSurface):
     """Indenter of the shape r^``exponent`` that has fallen by ``height`` at the distance ``radius``."""
 
     kind: Literal["power_law"]
-    exponent: Number
+    exponent: Positive
     radius: Length
     height: Length
 
@@ -92,7 +92,7 @@ class LaserBumps(GeneratedSurface):
     """Laser-textured bumps at the distances ``pitch``: a rim around a crater, or a dome for a rim of radius 0."""
 
     kind: Literal["laser_bumps"]
-    pitch: Lengths
+    pitch: tuple[Length, Length]
     rim_height: Length
     rim_radius: NonNegativeLength
     rim_width: Length
@@ -104,10 +104,10 @@ class Dimples(GeneratedSurface):
     """Dimples, or with ``raised`` pillars, at the distances ``pitch``; walls are steep for a large ``sharpness``."""
 
     kind: Literal["dimples"]
-    pitch: Lengths
+    pitch: tuple[Length, Length]
     radius: Length
     depth: Length
-    sharpness: Number = 1.0
+    sharpness: Positive = 1.0
     raised: bool = False
 
 

@@ -7,18 +7,19 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, model_validator
 
 from ...core.errors import InputError
+from ...core.settings import Settings
+from ...core.values import Fraction, Hurst, Length, NonNegativeLength, Positive, Psd, Real
 from .base import FileSurface
-from .values import ORDERED, AnyNumber, Fraction, Hurst, Length, NonNegativeLength, Number, Numbers, Psd, Table
 
 AMPLITUDES = ("rms_height", "rms_slope", "plateau")
 """Keys of which a spectrum has exactly one."""
 
 
-class _Amplitude(Table):
+class _Amplitude(Settings):
     """Exactly one amplitude: an rms height, an rms slope or the plateau of the spectrum."""
 
     rms_height: Length | None = None
-    rms_slope: Number | None = None
+    rms_slope: Positive | None = None
     plateau: Psd | None = None
 
     @model_validator(mode="after")
@@ -31,7 +32,7 @@ class _Amplitude(Table):
         return self
 
 
-class ExponentialSpectrum(Table):
+class ExponentialSpectrum(Settings):
     """Exponential autocorrelation; at ``correlation_length`` it has dropped to ``drop`` (0.1 unless said otherwise)."""
 
     kind: Literal["exponential"]
@@ -41,7 +42,7 @@ class ExponentialSpectrum(Table):
     drop: Fraction = 0.1
 
 
-class GaussianSpectrum(Table):
+class GaussianSpectrum(Settings):
     """Gaussian autocorrelation, of a smooth surface; lengths as for the exponential one."""
 
     kind: Literal["gaussian"]
@@ -65,22 +66,22 @@ class TwoSlopesSpectrum(_Amplitude):
     """Plateau and two power laws q^-a, with ``exponents`` [a1, a2] above and below the ``crossover_wavelength``."""
 
     kind: Literal["two_slopes"]
-    exponents: Numbers
+    exponents: tuple[Positive, Positive]
     rolloff_wavelength: Length
     crossover_wavelength: Length
     shortest_wavelength: NonNegativeLength | None = None
     longest_wavelength: Length | None = None
 
 
-class TableSpectrum(Table):
+class TableSpectrum(Settings):
     """Isotropic spectrum C at some ``wavelengths``, in descending order; straight in between on logarithmic scales."""
 
     kind: Literal["table"]
-    wavelengths: Annotated[tuple[Length, ...], ORDERED]
-    psd: Annotated[tuple[Psd, ...], ORDERED]
+    wavelengths: tuple[Length, ...]
+    psd: tuple[Psd, ...]
 
 
-class MeasuredSpectrum(Table):
+class MeasuredSpectrum(Settings):
     """Spectrum of the ``surface`` in a file, which should be levelled and filled; a ``floor`` of noise is subtracted."""
 
     kind: Literal["measured"]
@@ -96,29 +97,29 @@ SpectrumTable: TypeAlias = Annotated[
 """One spectrum, told apart by the key ``kind``."""
 
 
-class MomentsHeights(Table):
+class MomentsHeights(Settings):
     """Heights of given skewness and kurtosis (3 for Gaussian heights), of Johnson's or Pearson's system."""
 
     kind: Literal["moments"]
-    skewness: AnyNumber = 0.0
-    kurtosis: Number = 3.0
+    skewness: Real = 0.0
+    kurtosis: Positive = 3.0
     system: Literal["johnson", "pearson"] = "johnson"
 
 
-class MeasuredHeights(Table):
+class MeasuredHeights(Settings):
     """Heights distributed as those of the ``surface`` in a file, which should be levelled."""
 
     kind: Literal["measured"]
     surface: FileSurface
 
 
-class TwoLevelsHeights(Table):
+class TwoLevelsHeights(Settings):
     """Two Gaussian levels: the upper one on a ``share`` of the area, widths and distance in deviations of the lower."""
 
     kind: Literal["two_levels"]
     share: Fraction
-    separation: Number
-    upper_deviation: Number = 1.0
+    separation: Positive
+    upper_deviation: Positive = 1.0
 
 
 HeightsTable: TypeAlias = Annotated[MomentsHeights | MeasuredHeights | TwoLevelsHeights, Field(discriminator="kind")]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, BeforeValidator, model_validator
+from pydantic import model_validator
 
-from ...core import require
 from ...core.errors import InputError
-from .values import ORDERED, Angle, Length, NonNegativeLength, PlaceOfMaximum, Pressure, Table
+from ...core.settings import Settings, setting
+from ...core.values import Angle, Length, NonNegativeLength, Number, Pressure
+from .values import PlaceOfMaximum
 
 
 def positions_from_text(text: str) -> dict[str, str]:
@@ -28,7 +29,7 @@ def positions_from_text(text: str) -> dict[str, str]:
     return found
 
 
-class _Placed(Table):
+class _Placed(Settings):
     """Positions ``x`` and ``y``, each a length or a word; both together may be text such as ``"y=max"``.
 
     ``"max"`` is the position of the largest stress, ``"pressure"`` that of the highest pressure.
@@ -61,11 +62,11 @@ class ProfileTable(_Placed):
     """Line into the body; a position that is left out is that of the largest equivalent stress, ``"max"``."""
 
 
-def _friction(value: float) -> float:
-    return require.not_negative(value, "", "Turn the direction by 180 deg instead.")
+Friction: TypeAlias = Annotated[float, Number(least=0.0, fix="Turn the direction by 180 deg instead.")]
+"""Coefficient of friction."""
 
 
-class StressTable(Table):
+class StressTable(Settings):
     """Stresses that are computed after the contact; those on the section y = max if nothing else is asked for.
 
     ``friction`` is the ratio of shear traction and pressure in a sliding contact, ``direction`` that of the traction on
@@ -74,13 +75,13 @@ class StressTable(Table):
     largest tension, and with shear and peel of the interfaces.
     """
 
-    friction: Annotated[float, AfterValidator(_friction)] = 0.0
-    direction: Angle = "0 deg"
+    friction: Friction = 0.0
+    direction: Angle = setting("0 deg")
     coupled: bool = False
     inside: Literal["body", "counter_body"] = "body"
-    depths: Annotated[tuple[NonNegativeLength, ...], ORDERED] = ()
-    sections: Annotated[tuple[SectionTable, ...], BeforeValidator(lambda value: _listed(value))] = ()
-    profiles: Annotated[tuple[ProfileTable, ...], BeforeValidator(lambda value: _listed(value))] = ()
+    depths: tuple[NonNegativeLength, ...] = ()
+    sections: tuple[SectionTable, ...] = ()
+    profiles: tuple[ProfileTable, ...] = ()
     deepest: Length | None = None
     criterion: Literal["von_mises", "tresca"] = "von_mises"
     tensile_strength: Pressure | None = None
@@ -89,12 +90,7 @@ class StressTable(Table):
     precision: Literal["double", "single"] = "double"
 
 
-def _listed(value: object) -> object:
-    """A list as a tuple; one section or profile, as a table or text, as a list of it."""
-    return (value,) if isinstance(value, str | dict) else tuple(value) if isinstance(value, list) else value
-
-
-class StressDocument(Table):
+class StressDocument(Settings):
     """Nothing but the stresses that are wanted of a contact that has been solved."""
 
     stress: StressTable

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
-from ...core import require
 from ...core.errors import InputError
-from .values import ORDERED, Count, Fraction, Number, Seed, Table, Text
+from ...core.settings import Settings
+from ...core.values import Count, Fraction, NonEmpty, Positive, Seed, Whole
 
 VERSION = 1
 """Version of the document that this package reads and writes."""
@@ -31,7 +31,7 @@ Values: TypeAlias = Annotated[tuple[Value, ...], BeforeValidator(_values)]
 """Values of an axis in the order given."""
 
 
-class _Range(Table):
+class _Range(Settings):
     """Values: a list, or ``count`` values from ``first`` to ``last``, equally spaced on a ``scale``."""
 
     values: Values | None = None
@@ -60,20 +60,20 @@ class AxisTable(_Range):
     ``also`` gives for each further path as many values, or a number: that many times the value of this axis.
     """
 
-    path: Text
-    name: Text | None = None
-    also: dict[str, Values | Number] = Field(default_factory=dict)
+    path: NonEmpty
+    name: NonEmpty | None = None
+    also: dict[str, Values | Positive] = Field(default_factory=dict)
 
 
-class RandomTable(Table):
+class RandomTable(Settings):
     """One uncertain scalar: ``seed`` (another whole number for every sample), or a distribution of a number.
 
     ``normal`` and ``lognormal`` have ``mean`` and standard ``deviation`` of the value itself, ``uniform`` runs from
     ``low`` to ``high``.
     """
 
-    path: Text
-    name: Text | None = None
+    path: NonEmpty
+    name: NonEmpty | None = None
     distribution: Literal["seed", "normal", "lognormal", "uniform"]
     mean: str | int | float | None = None
     deviation: str | int | float | None = None
@@ -90,17 +90,17 @@ class RandomTable(Table):
         return self
 
 
-class StopTable(Table):
+class StopTable(Settings):
     """Samples end when the confidence interval of the mean of ``quantity`` is narrow enough, everywhere on the other axes.
 
     Exactly one of ``width`` (SI units of the quantity) and ``relative_width``; both are half the interval.
     """
 
-    quantity: Text
-    width: Number | None = None
-    relative_width: Number | None = None
+    quantity: NonEmpty
+    width: Positive | None = None
+    relative_width: Positive | None = None
     confidence: Fraction = 0.95
-    at_least: Annotated[int, AfterValidator(lambda value: require.integer(value, 2, ""))] = 8
+    at_least: Annotated[int, Whole(2)] = 8
 
     @model_validator(mode="after")
     def _one_width(self) -> StopTable:
@@ -110,12 +110,12 @@ class StopTable(Table):
         return self
 
 
-class MonteCarloTable(Table):
+class MonteCarloTable(Settings):
     """Samples of random scalars, all from one ``seed``; at most ``samples``, or fewer where ``stop`` ends them."""
 
     seed: Seed
     samples: Count
-    random: Annotated[tuple[RandomTable, ...], ORDERED]
+    random: tuple[RandomTable, ...]
     stop: StopTable | None = None
 
     @model_validator(mode="after")
@@ -127,7 +127,7 @@ class MonteCarloTable(Table):
         return self
 
 
-class ConvergenceTable(Table):
+class ConvergenceTable(Settings):
     """The same contact at several ``levels``, the coarsest first.
 
     ``of`` is ``"grid"`` (levels are numbers of points along x), ``"tolerance"`` (of the solver) or ``"domain"`` (factors
@@ -135,7 +135,7 @@ class ConvergenceTable(Table):
     """
 
     of: Literal["grid", "tolerance", "domain"]
-    levels: Annotated[tuple[Number, ...], ORDERED]
+    levels: tuple[Positive, ...]
 
     @model_validator(mode="after")
     def _three(self) -> ConvergenceTable:
@@ -158,14 +158,14 @@ class CriticalThicknessTable(_Range):
     share of the difference of both (Peng 2001, eq. 4.1).
     """
 
-    layer: Text = "body.layers.0"
+    layer: NonEmpty = "body.layers.0"
     share: Fraction = 0.05
 
 
-class ParameterTable(Table):
+class ParameterTable(Settings):
     """One scalar that is varied on its own: from ``low`` to ``high``, or by a ``change``, a share of its value."""
 
-    path: Text
+    path: NonEmpty
     low: str | int | float | None = None
     high: str | int | float | None = None
     change: Fraction | None = None
@@ -183,7 +183,7 @@ def _parameters(value: object) -> object:
     return tuple({"path": item} if isinstance(item, str) else item for item in value)
 
 
-class SensitivityTable(Table):
+class SensitivityTable(Settings):
     """Every one of the ``parameters`` varied on its own, by the share ``change`` unless it says otherwise."""
 
     parameters: Annotated[tuple[ParameterTable, ...], BeforeValidator(_parameters)]
@@ -200,7 +200,7 @@ KINDS = ("monte_carlo", "convergence", "critical_thickness", "sensitivity")
 """Tables of which at most one says what kind of study it is; without any it is a sweep."""
 
 
-class StudyDocument(Table):
+class StudyDocument(Settings):
     """A study, as text: the ``problem`` (a table, or the path of a problem document), axes, and a kind.
 
     ``combine`` is ``"grid"`` for all combinations of the axes or ``"list"`` for their first values together, their
@@ -210,9 +210,9 @@ class StudyDocument(Table):
     version: Literal[1]
     title: str = ""
     problem: str | dict[str, Any]
-    quantities: Annotated[tuple[Text, ...], ORDERED] = DEFAULT_QUANTITIES
+    quantities: tuple[NonEmpty, ...] = DEFAULT_QUANTITIES
     combine: Literal["grid", "list"] = "grid"
-    axes: Annotated[tuple[AxisTable, ...], ORDERED] = ()
+    axes: tuple[AxisTable, ...] = ()
     monte_carlo: MonteCarloTable | None = None
     convergence: ConvergenceTable | None = None
     critical_thickness: CriticalThicknessTable | None = None
