@@ -24,7 +24,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "relieve": "a compiled pass takes its arrays and numbers one by one",
         "execute": "independent keyword-only choices of the callers, each with a default",
         "contact": "one group of options each, in the order of the help",
-        "write_report": "independent keyword-only parts of a report, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",
         "solve_path": "the choices of solve, for a sequence of controls",
         "steps": "the choices of solve, for a sequence of controls",
@@ -51,6 +50,7 @@ LIMITS: dict[str, dict[str, str]] = {
 
 CACHES: dict[str, str] = {
     "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made asks for it",
+    "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document asks for its parts",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign asks 10⁵ times",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",
 }

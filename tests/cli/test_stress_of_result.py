@@ -56,7 +56,7 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
     fields = [open_dataset(tmp_path / folder / "stress" / "section_1.nc") for folder in ("later", "once")]
     np.testing.assert_array_equal(fields[0]["xz"], fields[1]["xz"])
     html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")
-    assert "Largest stresses of each layer" in html
+    assert "Largest stresses inside each layer" in html
     assert "film" in later.stdout
     stress = load_document(document).stress
     assert stress is not None

@@ -10,7 +10,7 @@ import typer
 
 from .comparing import CompareOptions, CompareSource
 from .failures import NOT_CONVERGED, OK
-from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions
+from .options import BodyOptions, ReadingOptions, SolveOptions
 from .preparing import PreparationOptions
 
 if TYPE_CHECKING:
@@ -39,13 +39,13 @@ def compare(
     """
     from ..io.documents import checked, relocated
     from ..run.build import build
+    from .perform import output_folder
     from .show import print_files
-    from .stress_run import output_folder
 
     table, names, base = _table(source, reading, preparation, bodies, options)
     document = checked(table, str(source.from_ or "command line"), names)
     values, case = _pressures(options), build(document, base)
-    with output_folder(OutputOptions(out=options.out, force=options.force)) as folder:
+    with output_folder(options.out, force=options.force) as folder:
         comparison = _compared(case, values, options)
         if folder is not None and options.out is not None:
             _write(comparison, relocated(document, base, options.out), folder)

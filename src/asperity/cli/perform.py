@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,6 @@ from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..contact.path import LoadPath
     from ..io.documents import ProblemDocument
     from ..run.execute import Outcome
 
@@ -20,6 +20,9 @@ NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.
 PATH_NAMES = ("path.nc", "path.csv")
 """What a load path leaves there as well: its steps, and their scalars and energies."""
 
+STRESS_NAMES = ("stress", "stress.csv")
+"""What stresses leave there: the fields, and the table of the largest ones."""
+
 
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
@@ -28,84 +31,90 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
     from ..run.build import build
     from ..run.execute import execute
     from .progress import stage
-    from .stress_run import output_folder, write_volume
+    from .show import print_files, print_problem, print_result
 
     require_new_files(_single_files(output), overwrite=output.force)
     case = build(document, base_folder)
-    with output_folder(output) as folder:
+    with output_folder(output.out, force=output.force) as folder:
         outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
         if folder is not None and output.out is not None:
             _write_folder(outcome, relocated(document, base_folder, output.out), folder)
     _write_files(outcome, document, base_folder, output)
-    if "stress" in outcome.found:
-        write_volume(outcome.found["stress"].detail, output)
-    _print(outcome, _written(output, outcome))
+    write_volume(outcome, output.stress_nc, output.stress_vtk, force=output.force)
+    print_problem(outcome, document.title or "Contact")
+    print_result(outcome)
+    print_files(_written(output, outcome))
     return OK if outcome.converged else NOT_CONVERGED
-
-
-def _print(outcome: Outcome, written: Iterable[Path]) -> None:
-    """Print what ``outcome`` says and which files were ``written``."""
-    from .show import print_advice, print_files, print_path, print_plastic_load, print_result
-    from .stress_run import print_stress
-    from .wet_run import print_wet
-
-    found = {name: item.detail for name, item in outcome.found.items()}
-    print_result(outcome.result, outcome.case.document.title)
-    if outcome.path is not None:
-        print_path(outcome.path)
-    if "film" in found:
-        print_wet(found["film"], found.get("wet_theory", ""))
-    if "plastic_load" in found:
-        print_plastic_load(found["plastic_load"])
-    if "stress" in found:
-        print_stress(found["stress"])
-    print_advice(outcome.findings)
-    print_files(written)
 
 
 def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> None:
     """Write everything into ``folder``, with the ``document`` whose paths start there."""
     from ..io.documents import dumps, save_document
     from ..io.export import export_csv
+    from ..io.path_files import export_path_csv, save_path
     from ..io.results import save
+    from ..io.wet_results import save_wet
     from ..plots.contact import save_plots
-    from ..report import write_report
-    from .stress_run import write_stress
-    from .wet_run import write_wet
 
     result, text = outcome.result, dumps(document)
-    found = {name: item.detail for name, item in outcome.found.items()}
-    wet, stress = found.get("film"), found.get("stress")
     save_document(document, folder / "problem.toml")
     save_plots(result, folder / "plots")
-    if wet is None:
+    if "film" in outcome.found:
+        save_wet(outcome.found["film"].detail, folder / "result.nc", document=text)
+        export_csv(outcome.found["film"].detail, folder / "scalars.csv")
+    else:
         save(result, folder / "result.nc", document=text)
-    export_csv(wet or result, folder / "scalars.csv")
-    menisci = None if wet is None else write_wet(wet, found.get("wet_theory", ""), folder, text)
-    part = None if stress is None else write_stress(stress, folder)
+        export_csv(result, folder / "scalars.csv")
     if outcome.path is not None:
-        _write_path(outcome.path, folder, text)
-    write_report(
-        result,
-        folder / "report.html",
-        advice=outcome.findings,
-        document=text,
-        title=document.title,
-        stress=part,
-        load_path=outcome.path,
-        plastic_load=found.get("plastic_load"),
-        wet=menisci,
-    )
+        save_path(outcome.path, folder / PATH_NAMES[0], document=text)
+        export_path_csv(outcome.path, folder / PATH_NAMES[1])
+    write_parts(outcome, folder, text, document.title)
 
 
-def _write_path(path: LoadPath, folder: Path, document: str) -> None:
-    """Write steps, table and figures of ``path`` into ``folder``."""
-    from ..io.path_files import export_path_csv, save_path
-    from ..plots.contact import save_path_plots
+def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str) -> None:
+    """Write report, pictures of the parts and stress fields of ``outcome`` into ``folder``."""
+    from ..io.stress_files import export_stress_csv, save_stress
+    from ..report import write_report
 
-    save_path(path, folder / PATH_NAMES[0], document=document)
-    export_path_csv(path, folder / PATH_NAMES[1])
-    save_path_plots(path, folder / "plots")
+    for figure in (figure for figures in outcome.figures.values() for figure in figures):
+        if not (path := folder / "plots" / f"{figure.name}.png").exists():
+            path.write_bytes(figure.picture)
+    write_report(outcome, folder / "report.html", document=document, title=title)
+    if "stress" not in outcome.found:
+        return
+    survey, fields = outcome.found["stress"].detail, folder / STRESS_NAMES[0]
+    export_stress_csv(survey, folder / STRESS_NAMES[1])
+    fields.mkdir()
+    if survey.request.depths:
+        save_stress(survey.planes(survey.request.depths), fields / "planes.nc")
+    for number, section in enumerate(survey.sections, start=1):
+        save_stress(section.field, fields / f"section_{number}.nc")
+    for number, field in enumerate(survey.profiles, start=1):
+        save_stress(field, fields / f"profile_{number}.nc")
+
+
+def write_volume(outcome: Outcome, nc: Path | None, vtk: Path | None, *, force: bool) -> None:
+    """Write all planes of the stresses of ``outcome`` to the files that are asked for."""
+    from ..io.stress_files import export_stress_vtk, save_stress
+
+    if "stress" in outcome.found:
+        survey = outcome.found["stress"].detail
+        if nc is not None:
+            save_stress(survey.planes(survey.depths), nc, overwrite=force)
+        if vtk is not None:
+            export_stress_vtk(survey.planes(survey.depths), vtk, overwrite=force)
+
+
+@contextmanager
+def output_folder(out: Path | None, *, force: bool) -> Iterator[Path | None]:
+    """Temporary folder that becomes the folder ``out`` when all has gone well; None if none is wanted."""
+    from ..io.atomic import atomic_folder
+
+    if out is None:
+        yield None
+        return
+    with atomic_folder(out, overwrite=force) as folder:
+        yield folder
 
 
 def _write_files(outcome: Outcome, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
@@ -128,9 +137,7 @@ def _single_files(output: OutputOptions) -> list[Path]:
 
 
 def _written(output: OutputOptions, outcome: Outcome) -> list[Path]:
-    from .stress_run import FOLDER, TABLE
-
-    stressed = "stress" in outcome.found
-    names = [*NAMES_IN_FOLDER, *((FOLDER, TABLE) if stressed else ()), *(PATH_NAMES if outcome.path else ())]
+    stressed = STRESS_NAMES if "stress" in outcome.found else ()
+    names = [*NAMES_IN_FOLDER, *stressed, *(PATH_NAMES if outcome.path else ())]
     inside = [] if output.out is None else [output.out / name for name in names]
     return [*inside, *_single_files(output)]

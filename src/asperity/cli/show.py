@@ -11,10 +11,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from ..contact.path import LoadPath
-    from ..contact.plastic_load import PlasticLoad
     from ..contact.result import ContactResult
     from ..core.status import Advice
+    from ..run.execute import Outcome
 
 
 WIDTH = 120
@@ -73,47 +72,46 @@ def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     ]
 
 
-def print_problem(result: ContactResult, title: str) -> None:
-    """Print what was solved."""
+def print_problem(outcome: Outcome, title: str) -> None:
+    """Print what was solved, and what was done to the surface."""
     from ..core.units import show
     from ..io.words import problem_rows
 
-    control = result.control
-    console().print(
-        table(
-            title,
-            [*problem_rows(result.problem), ("prescribed", f"{control.name} {show(control.value, control.unit)}")],
-        )
-    )
-
-
-def print_result(result: ContactResult, title: str) -> None:
-    """Print problem, scalars and status of ``result``."""
-    out = console()
-    print_problem(result, title or "Contact")
-    for step in result.problem.surface.origin.history:
+    control, problem = outcome.solved.control, outcome.solved.problem
+    asked = ("prescribed", f"{control.name} {show(control.value, control.unit)}")
+    console().print(table(title, [*problem_rows(problem), asked]))
+    for step in problem.surface.origin.history:
         say(f"  {step}", "dim")
-    out.print(table("Result", scalar_rows(result)))
-    say(result.status.message, "green" if result.converged else "bold red")
-    if result.status.remedy:
-        say(result.status.remedy, "red")
 
 
-def print_path(path: LoadPath) -> None:
-    """Print where the load of ``path`` turns, and where its work went."""
-    from ..report.plasticity import energy_table, path_sentence, turn_table
+def print_result(outcome: Outcome) -> None:
+    """Print scalars and status of ``outcome``, with the words and findings of its parts."""
+    console().print(table("Result", scalar_rows(outcome.result)))
+    print_words(outcome)
+    say(outcome.status.message, "green" if outcome.converged else "bold red")
+    if outcome.status.remedy:
+        say(outcome.status.remedy, "red")
+    print_advice(outcome.findings)
 
+
+def print_words(outcome: Outcome) -> None:
+    """Print what the parts of ``outcome`` say, without their remarks."""
     out = console()
-    for title, made in (("Load path", turn_table(path)), ("Energies", energy_table(path))):
-        out.print(table(title, made.cells, made.headings))
-    say(path_sentence(path), "" if path.converged else "bold red")
+    for part, words in outcome.sections:
+        if words.rows:
+            out.print(table(part.title, words.rows))
+        else:
+            say(part.title, "bold")
+        for heading, made in words.tables:
+            out.print(table(heading, _once(made.cells), made.headings))
+        if words.sentence:
+            say(words.sentence, "yellow" if words.alarming else "")
 
 
-def print_plastic_load(found: PlasticLoad) -> None:
-    """Print the load at which the contact becomes plastic."""
-    from ..report.plasticity import plastic_load_row
-
-    console().print(table("Plastic load", [plastic_load_row(found)]))
+def _once(cells: tuple[tuple[str, ...], ...]) -> list[tuple[str, ...]]:
+    """The same ``cells``, without the name of a row where the row above has it too."""
+    above = ("", *(row[0] for row in cells))
+    return [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, cells, strict=False)]
 
 
 def print_advice(findings: Iterable[Advice]) -> None:

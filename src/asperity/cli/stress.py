@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .options import OUTPUT, OutputOptions
+from .options import OUTPUT
 from .panel import options_of
 from .results import Result
 from .stressing import StressOptions, stress_names, with_stress
 
 if TYPE_CHECKING:
-    from ..contact.result import ContactResult
     from ..io.documents import ProblemDocument
-    from ..stress.survey import StressRequest, StressSurvey
+    from ..run.execute import Outcome
+    from ..stress.survey import StressRequest
 
 _option = options_of(OUTPUT)
 
@@ -58,32 +58,32 @@ def stress(
 
     Exit code 1 if the saved contact has not converged; the others as for `contact`.
     """
+    from ..contact.advice import advise, review
     from ..io.atomic import require_new_files
     from ..io.build_stress import check_stress
     from ..io.documents import relocated
     from ..io.results import document_in, load
-    from ..parts.part import Solved
-    from ..parts.stress import Stress
+    from ..run.execute import analysed
     from .failures import NOT_CONVERGED, OK
+    from .perform import output_folder, write_volume
     from .progress import stage
-    from .show import print_files, print_problem
-    from .stress_run import output_folder, print_stress, write_volume
+    from .show import print_advice, print_files, print_problem, print_words
 
-    written, files = OutputOptions(**vars(output)), output.files
-    require_new_files(files, overwrite=output.force)
-    result = load(file)
+    require_new_files(output.files, overwrite=output.force)
+    result, written = load(file), output.files
     request, document = _asked(document_in(file), wanted)
     check_stress(request, result.problem)
-    with output_folder(written) as folder:
-        solved = Solved(result.problem, result.control, result, threads=threads, lines=folder is not None, stage=stage)
-        survey = Stress().compute(request, solved).detail
+    with output_folder(output.out, force=output.force) as folder:
+        asks = {"stress": request, "yielding": True}
+        outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)
         if folder is not None and output.out is not None:
             moved = document and relocated(document, file.parent, output.out)
-            files = [*(output.out / name for name in _write_folder(result, survey, moved, folder)), *files]
-    write_volume(survey, written)
-    print_problem(result, f"Stresses in {file}")
-    print_stress(survey)
-    print_files(files)
+            written = [*(output.out / name for name in _write_folder(outcome, moved, folder)), *written]
+    write_volume(outcome, output.stress_nc, output.stress_vtk, force=output.force)
+    print_problem(outcome, f"Stresses in {file}")
+    print_words(outcome)
+    print_advice((*advise(result.problem, result.control), *review(result), *outcome.findings))
+    print_files(written)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 
 
@@ -119,23 +119,17 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
         )
 
 
-def _write_folder(
-    result: ContactResult, survey: StressSurvey, document: ProblemDocument | None, folder: Path
-) -> list[str]:
+def _write_folder(outcome: Outcome, document: ProblemDocument | None, folder: Path) -> list[str]:
     """Write everything into ``folder``; return the names."""
-    from ..contact.advice import advise, review
     from ..io.documents import dumps, save_document
     from ..plots.contact import save_plots
-    from ..report import write_report
-    from .stress_run import FOLDER, TABLE, write_stress
+    from .perform import STRESS_NAMES, write_parts
 
-    names = ["report.html", "plots", FOLDER, TABLE]
-    save_plots(result, folder / "plots")
-    part, text, title = write_stress(survey, folder), None, ""
+    names = ["report.html", "plots", *STRESS_NAMES]
+    save_plots(outcome.result, folder / "plots")
     if document is not None:
-        text, title = dumps(document), document.title
         save_document(document, folder / "problem.toml")
         names.append("problem.toml")
-    findings = (*advise(result.problem, result.control), *review(result))
-    write_report(result, folder / names[0], advice=findings, document=text, title=title, stress=part)
+    text, title = (None, "") if document is None else (dumps(document), document.title)
+    write_parts(outcome, folder, text, title)
     return names

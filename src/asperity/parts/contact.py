@@ -32,6 +32,13 @@ class Contact(Part):
             Quantity("contact_modulus", "Pa", "contact modulus E*"),
         )
 
+    @property
+    def fields(self) -> tuple[Quantity, ...]:
+        """Fields (nx, ny) of a result."""
+        from ..io.words import FIELDS
+
+        return FIELDS
+
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the result."""
         from ..contact.advice import advise, review

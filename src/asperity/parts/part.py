@@ -106,10 +106,27 @@ class Solved:
 
 @dataclass(frozen=True, eq=False)
 class Words:
-    """What a part says: one ``sentence``, ``rows`` of settings and results, ``tables`` with their headings, ``remarks``."""
+    """What a part says.
+
+    Attributes
+    ----------
+    sentence
+        What matters most.
+    headline
+        Label and text of what people look for first.
+    rows
+        Label and text of settings and results.
+    tables
+        Further tables with their headings.
+    remarks
+        What to know before using the numbers.
+    alarming
+        Whether the sentence tells of something that must not be missed.
+    """
 
     sentence: str = ""
-    rows: tuple[tuple[str, Rows], ...] = ()
+    headline: Rows = field(default_factory=list)
+    rows: Rows = field(default_factory=list)
     tables: tuple[tuple[str, Table], ...] = ()
     remarks: tuple[str, ...] = ()
     alarming: bool = False
@@ -130,9 +147,16 @@ class Part:
     table: ClassVar[str] = ""
     quantities: ClassVar[tuple[Quantity, ...]] = ()
 
+    def settings_in(self, document: Any) -> Any:
+        """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
+        found = document
+        for key in filter(None, self.table.split(".")):
+            found = getattr(found, key)
+        return found if self.table else True
+
     def asked(self, document: Any, folder: Path) -> Any:
         """What ``document``, whose relative paths start at ``folder``, asks of this part; None for nothing."""
-        return getattr(document, self.table) if self.table else True
+        return self.settings_in(document)
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""

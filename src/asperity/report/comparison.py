@@ -15,10 +15,11 @@ from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import Rows, body_text, modulus_label, surface_rows
+from ..parts.part import Table
 from ..plots.comparison import comparison_figures
 from ..plots.picture import Figure
 from ..studies.comparison import Comparison, TheoryCurve
-from .page import Table, rendered
+from .page import rendered
 
 # A comparison of theories in words for tables.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
@@ -28,11 +27,3 @@ def _source(name: str) -> str:
 
 
 # Tables of text for the templates.
-
-
-@dataclass(frozen=True)
-class Table:
-    """Headings and cells of a table of text."""
-
-    headings: tuple[str, ...]
-    cells: tuple[tuple[str, ...], ...]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -25,8 +26,9 @@ from ..core.errors import AsperityError, InputError
 from ..core.status import Advice, Status
 from ..io.documents import ProblemDocument, checked, load_document
 from ..parts.contact import STIFFNESS
-from ..parts.part import Found, Part, Solved, Stage, no_stage
+from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
+from ..plots.picture import Figure
 from .build import Case, build
 
 
@@ -37,11 +39,9 @@ class Outcome:
     Attributes
     ----------
     case
-        What was solved.
-    result
-        The contact at the end of the load, or of the load path.
-    path
-        The load path, if the document asks for one.
+        What was asked for; None for the parts of a contact that was solved before.
+    solved
+        The contact, as parts see it.
     found
         What each part has found, by its name.
     findings
@@ -50,12 +50,21 @@ class Outcome:
         Whether everything that had to settle did.
     """
 
-    case: Case
-    result: ContactResult
-    path: LoadPath | None
+    case: Case | None
+    solved: Solved
     found: Mapping[str, Found]
     findings: tuple[Advice, ...]
     status: Status
+
+    @property
+    def result(self) -> ContactResult:
+        """The contact at the end of the load, or of the load path."""
+        return self.solved.result
+
+    @property
+    def path(self) -> LoadPath | None:
+        """The load path, if the document asks for one and its steps were kept."""
+        return self.solved.path
 
     @property
     def converged(self) -> bool:
@@ -64,8 +73,22 @@ class Outcome:
 
     @property
     def values(self) -> dict[str, Any]:
-        """Every quantity by its name, SI."""
-        return {name: value for found in self.found.values() for name, value in found.values.items()}
+        """Every scalar by the name of its quantity, SI."""
+        scalars = {item.name for part in parts() for item in part.quantities if not item.dims}
+        return {name: value for found in self.found.values() for name, value in found.values.items() if name in scalars}
+
+    @property
+    def sections(self) -> Iterator[tuple[Part, Words]]:
+        """Every part that has something to say, and its words."""
+        for part in parts():
+            if part.name in self.found and (words := part.words(self.found[part.name], self.solved)):
+                yield part, words
+
+    @cached_property
+    def figures(self) -> dict[str, tuple[Figure, ...]]:
+        """Figures of each part, by its name; drawn once."""
+        drawn = (part for part in parts() if part.name in self.found)
+        return {part.name: part.figures(self.found[part.name], self.solved) for part in drawn}
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -156,15 +179,26 @@ def execute(
     names = None if wanted is None else frozenset(wanted)
     solving = _Solving(case, warm or Warm(), threads or case.threads, names, lines, stage, on_failure)
     solved, status = solving.solved()
-    found, failed = analysed(case.asks, solved)
+    found, failed = _found(case.asks, solved)
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     statuses = [item.status for item in found.values() if item.status is not None]
     worst = next((item for item in statuses if not item.converged), next(iter(statuses), status))
-    return Outcome(case, solved.result, solved.path, found, findings, worst if status.converged else status)
+    return Outcome(case, replace(solved, found=found), found, findings, worst if status.converged else status)
 
 
-def analysed(asks: Mapping[str, Any], solved: Solved) -> tuple[dict[str, Found], tuple[Advice, ...]]:
-    """What the parts that are asked for find in a ``solved`` contact; a part that fails is a finding and ends no other."""
+def analysed(result: ContactResult, asks: Mapping[str, Any], path: LoadPath | None = None, **options: Any) -> Outcome:
+    """What the parts that are asked for find in a ``result`` that was solved before, the end of ``path`` if one is given.
+
+    ``options`` are fields of ``Solved``.
+    """
+    solved = Solved(result.problem, result.control, result, path, **options)
+    found, failed = _found(asks, solved)
+    findings = (*(finding for item in found.values() for finding in item.findings), *failed)
+    return Outcome(None, replace(solved, found=found), found, findings, result.status)
+
+
+def _found(asks: Mapping[str, Any], solved: Solved) -> tuple[dict[str, Found], tuple[Advice, ...]]:
+    """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no other."""
     found: dict[str, Found] = {}
     failed: list[Advice] = []
     for part in parts():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from pathlib import Path
 
 from ..core.errors import InputError
 from ..core.quantity import Quantity
@@ -17,7 +16,7 @@ def measures() -> dict[str, Quantity]:
     return {item.name: item for part in parts() for item in part.quantities if not item.dims}
 
 
-def computed(document: ProblemDocument, asked: Iterable[str], folder: Path = Path()) -> tuple[str, ...]:
+def computed(document: ProblemDocument, asked: Iterable[str]) -> tuple[str, ...]:
     """Names of the quantities that are computed of each case: all that cost nothing, and the costly ones ``asked`` for.
 
     Raises
@@ -28,8 +27,8 @@ def computed(document: ProblemDocument, asked: Iterable[str], folder: Path = Pat
     wanted = tuple(asked)
     there: dict[str, bool] = {}
     for part in parts():
-        given = part.name == "contact" or getattr(document, part.table, None) is not None
-        for item in part.quantities:
+        given = part.settings_in(document) is not None
+        for item in (item for item in part.quantities if not item.dims):
             there[item.name] = given
             if item.name in wanted and not given:
                 raise InputError(

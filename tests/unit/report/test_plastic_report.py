@@ -11,7 +11,10 @@ import pytest
 import asperity as asp
 from asperity.core.status import Outcome, Status
 from asperity.io.words import summary
-from asperity.report.plasticity import energy_table, path_sentence, plastic_load_row, plastic_rows, turn_table
+from asperity.parts.load_path.words import energy_table, path_sentence, turn_table
+from asperity.parts.part import Found
+from asperity.parts.plasticity.words import plastic_load_row, plastic_rows
+from asperity.run.execute import analysed
 
 
 def posed(law: asp.Hardness | asp.HardWall) -> asp.ContactProblem:
@@ -25,13 +28,13 @@ def path() -> asp.LoadPath:
     return asp.solve_path(posed(asp.Hardness(3e9)), asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=4))
 
 
-def page(tmp_path: Path, result: asp.ContactResult, **parts: object) -> str:
-    asp.write_report(result, tmp_path / "report.html", **parts)  # type: ignore[arg-type]
+def page(tmp_path: Path, answer: asp.ContactResult | asp.Outcome) -> str:
+    asp.write_report(answer, tmp_path / "report.html")
     return (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_path_is_reported(path: asp.LoadPath, tmp_path: Path) -> None:
-    text = page(tmp_path, path.results[-1], load_path=path)
+    text = page(tmp_path, analysed(path.results[-1], {"path": True, "plasticity": True}, path))
     for words in (
         "Plastic deformation",
         "Load path",
@@ -62,7 +65,7 @@ def test_tables_hold_the_turns(path: asp.LoadPath) -> None:
 
 def test_rows_and_summary(path: asp.LoadPath) -> None:
     top, last = path.results[3], path.results[-1]
-    rows = dict(plastic_rows(top, None))
+    rows = dict(plastic_rows(top))
     assert "plastic: more than 2 %" in rows["plastic area under this load / real area"]
     assert "µm²" in rows["area ever plastic"] or "nm²" in rows["area ever plastic"]
     assert rows["volume of the permanent indentation"].endswith(("µm³", "nm³"))
@@ -87,4 +90,4 @@ def test_the_plastic_load_is_reported(path: asp.LoadPath, tmp_path: Path) -> Non
     label, text = plastic_load_row(found)
     assert label == "first load at which 2 % of the real area is plastic"
     assert "mean pressure" in text
-    assert text in page(tmp_path, result, plastic_load=found)
+    assert text in page(tmp_path, replace(analysed(result, {}), found={"plastic_load": Found(detail=found)}))

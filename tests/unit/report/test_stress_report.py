@@ -11,10 +11,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.stress import line_figures
-from asperity.report import write_report
-from asperity.report.stress import (
-    StressPart,
+from asperity.parts.stress.words import (
     interface_table,
     maxima_table,
     region_text,
@@ -24,6 +21,9 @@ from asperity.report.stress import (
     yield_sentence,
     yield_table,
 )
+from asperity.plots.stress import line_figures
+from asperity.report import write_report
+from asperity.run.execute import analysed
 from asperity.stress.survey import Strengths, StressRequest, StressSurvey, survey
 
 FILM = asp.Elastic(200e9, 0.25, asp.Strength(hardness=14e9), name="film")
@@ -124,7 +124,8 @@ def test_plastic_contacts_carry_a_warning(found: StressSurvey) -> None:
 
 def test_the_report_shows_them(found: StressSurvey, tmp_path: Path) -> None:
     figures = tuple(line_figures(found))
-    write_report(found.result, tmp_path / "r.html", stress=StressPart(found, figures))
+    outcome = analysed(found.result, {"stress": found.request, "yielding": True})
+    write_report(outcome, tmp_path / "r.html")
     write_report(found.result, tmp_path / "bare.html")
     html, bare = ((tmp_path / name).read_text(encoding="utf-8") for name in ("r.html", "bare.html"))
     assert 'id="stress"' in html

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import InputError
-from ..core.quantity import Quantity
-from .part import Found, Part, Solved
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ..part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
-    from ..contact.wet import Friction
-    from ..contact.wetting import LiquidFilm
+    from ...contact.wet import Friction
+    from ...contact.wetting import LiquidFilm
+    from ...plots.picture import Figure
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ class Menisci(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars of a wet contact."""
-        from ..contact.wet_result import WET_SCALARS
+        from ...contact.wet_result import WET_SCALARS
 
         return WET_SCALARS
 
@@ -43,7 +44,7 @@ class Menisci(Part):
         """The film and friction that the table [film] describes."""
         if document.film is None:
             return None
-        from ..io.build_film import build_film
+        from ...io.build_film import build_film
 
         return Wetted(*build_film(document.film, folder))
 
@@ -53,12 +54,24 @@ class Menisci(Part):
 
     def compute(self, ask: Wetted, solved: Solved) -> Found:
         """Scalars of the menisci."""
-        from ..contact.wet_advice import review_wet
-        from ..contact.wet_result import WET_SCALARS
+        from ...contact.wet_advice import review_wet
+        from ...contact.wet_result import WET_SCALARS
 
         wet = solved.coupled["film"]
         values = {q.name: getattr(wet, q.name) for q in WET_SCALARS}
         return Found(values, wet, review_wet(wet), wet.citation_keys, wet.status)
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Map of the menisci."""
+        from ...plots.contact import wet_figures
+
+        return wet_figures(found.detail)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Liquid, menisci and friction."""
+        from .words import words
+
+        return words(found.detail)
 
 
 class WetTheory(Part):
@@ -71,10 +84,16 @@ class WetTheory(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Meniscus force of the theory; NaN with the reason as detail where it has none."""
-        from ..contact.wet_theory import wet_theory
+        from ...contact.wet_theory import wet_theory
 
         try:
             theory = wet_theory(solved.found["film"].detail)
         except InputError as error:
             return Found({"statistical_meniscus_force": math.nan}, str(error))
         return Found({"statistical_meniscus_force": theory.meniscus_force}, theory, (), theory.citation_keys)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Summits, forces and growth, or why there is no theory."""
+        from .words import theory_words
+
+        return theory_words(found.detail, solved.found["film"].detail)

@@ -8,19 +8,20 @@ from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.quantity import Quantity
-from .part import Found, Part, Solved
+from ...core.quantity import Quantity
+from ..part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem
-    from ..stress.survey import StressRequest, StressSurvey
+    from ...contact.problem import ContactProblem
+    from ...plots.picture import Figure
+    from ...stress.survey import StressRequest, StressSurvey
 
 
 class Stress(Part):
     """Largest stresses of layers and interfaces."""
 
     name = "stress"
-    title = "Stresses"
+    title = "Stresses inside the body"
     table = "stress"
     quantities = (
         Quantity("max_von_mises", "Pa", "largest von Mises stress"),
@@ -34,13 +35,13 @@ class Stress(Part):
         """What the table [stress] asks for."""
         if document.stress is None:
             return None
-        from ..io.build_stress import build_stress
+        from ...io.build_stress import build_stress
 
         return build_stress(document.stress)
 
     def check(self, ask: StressRequest, problem: ContactProblem) -> None:
         """Refuse stresses that the problem does not have."""
-        from ..io.build_stress import check_stress
+        from ...io.build_stress import check_stress
 
         check_stress(ask, problem)
 
@@ -50,7 +51,7 @@ class Stress(Part):
 
     def compute(self, ask: StressRequest, solved: Solved) -> Found:
         """Largest stresses; the survey with sections and profiles as detail."""
-        from ..stress.survey import survey
+        from ...stress.survey import survey
 
         with solved.stage("stresses") as progress:
             found = survey(ask, solved.result, lines=solved.lines, threads=solved.threads, progress=progress)
@@ -63,9 +64,23 @@ class Stress(Part):
         }
         return Found(values, found, (), found.citation_keys)
 
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Sections, profiles and whole planes."""
+        from ...plots.stress import line_figures, map_figure
+
+        survey = found.detail
+        planes = enumerate(survey.planes(survey.request.depths), start=1) if survey.request.depths else ()
+        return (*line_figures(survey), *(map_figure(plane, number) for number, plane in planes))
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Largest stresses of layers and interfaces."""
+        from .words import words
+
+        return words(found.detail)
+
     def citations(self, ask: StressRequest, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the stresses will rest on."""
-        from ..stress.survey import Planned
+        from ...stress.survey import Planned
 
         return Planned(ask, problem).citation_keys
 
@@ -80,8 +95,14 @@ class Yielding(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Load factor of the survey."""
-        report = solved.found["stress"].detail.yielding
-        return Found({"yield_load_factor": report.load_factor}, report)
+        survey = solved.found["stress"].detail
+        return Found({"yield_load_factor": survey.yielding.load_factor}, survey)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Which part of the body yields first, and when."""
+        from .words import yield_words
+
+        return yield_words(found.detail)
 
 
 def _largest(survey: StressSurvey, parts: str, peak: str) -> float:

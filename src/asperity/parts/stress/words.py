@@ -4,29 +4,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, TypeVar
 
-from ..core.units import show
-from ..io.words import Rows
-from ..plots.picture import Figure
-from ..stress.criteria import TABOR
-from ..stress.field import Peak, RegionMaxima
-from ..stress.regions import Region
-from ..stress.survey import StressSurvey
-from ..stress.yielding import RegionYield
-from .page import Table
+from ...core.units import show
+from ...stress.criteria import TABOR
+from ...stress.field import Peak, RegionMaxima
+from ...stress.regions import Region
+from ...stress.survey import StressSurvey
+from ...stress.yielding import RegionYield
+from ..part import Rows, Table, Words
 
 Part = TypeVar("Part", RegionMaxima, RegionYield)
 
 
-@dataclass(frozen=True, eq=False)
-class StressPart:
-    """The part of a report on stresses: what was found, and its figures."""
+def words(survey: StressSurvey) -> Words:
+    """Settings, and the largest stresses of layers and interfaces."""
+    tables = (
+        ("Largest stresses inside each layer", maxima_table(survey)),
+        ("Interfaces", interface_table(survey)),
+        ("Given strengths", strength_table(survey)),
+    )
+    shown = tuple((heading, table) for heading, table in tables if table.cells)
+    return Words(rows=setting_rows(survey), tables=shown, remarks=tuple(remarks(survey)))
 
-    survey: StressSurvey
-    figures: tuple[Figure, ...] = ()
+
+def yield_words(survey: StressSurvey) -> Words:
+    """Which part of the body yields first, and when."""
+    table = yield_table(survey)
+    return Words(yield_sentence(survey), tables=(("", table),) if table.cells else (), alarming=survey.yielding.yields)
 
 
 def setting_rows(survey: StressSurvey) -> Rows:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-from ..contact.wet_result import WET_SCALARS, WetContactResult
-from ..contact.wet_theory import HAMAKER, WetTheory, wet_theory
-from ..core.errors import InputError
-from ..core.units import percent, show
-from ..io.words import Rows, value_text
-from ..plots.picture import Figure
+from ...contact.wet_result import WET_SCALARS, WetContactResult
+from ...contact.wet_theory import HAMAKER, WetTheory
+from ...core.units import percent, show
+from ...io.words import value_text
+from ..part import Rows, Table, Words
 
 REGIMES = {
     "dry": "no liquid bridges the gap",
@@ -35,24 +33,20 @@ THEORY_REMARK = (
 """What the theory of summits is, and why it differs."""
 
 
-@dataclass(frozen=True, eq=False)
-class WetPart:
-    """The part of a report on the liquid: the wet contact, its figures and what the ``theory`` of summits says of it.
+def words(result: WetContactResult) -> Words:
+    """Liquid, menisci and friction."""
+    cells = tuple(wet_rows(result))
+    return Words(
+        wet_sentence(result),
+        rows=film_rows(result),
+        tables=(("", Table(("Quantity", "Value"), cells)),),
+        remarks=(REMARK,),
+    )
 
-    Instead of the theory there may be the sentence that says why there is none.
-    """
 
-    result: WetContactResult
-    figures: tuple[Figure, ...] = ()
-    theory: WetTheory | str = ""
-
-
-def theory_beside(result: WetContactResult) -> WetTheory | str:
-    """Statistical and kinetic menisci for ``result``, or the sentence that says why there are none."""
-    try:
-        return wet_theory(result)
-    except InputError as error:
-        return str(error)
+def theory_words(found: WetTheory | str, result: WetContactResult) -> Words:
+    """What the theory of summits says beside the ``result`` on the map, or why it says nothing."""
+    return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
 
 
 def theory_rows(found: WetTheory | str, result: WetContactResult) -> Rows:
