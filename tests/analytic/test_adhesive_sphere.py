@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -108,12 +106,10 @@ def test_maugis_goes_to_dmt_and_to_jkr():
             assert getattr(near, quantity) == pytest.approx(wanted, rel=tolerance, abs=tolerance * np.abs(wanted).max())
 
 
-def test_maugis_curves_are_quick_and_reach_the_pull_off():
+def test_maugis_curves_reach_the_pull_off():
     sphere = MaugisDugdale(1e9, 1e-6, 0.05, 1e8)
-    start = time.perf_counter()
     loads = np.linspace(-sphere.pull_off, 5.0 * sphere.pull_off, 200)
     answer = sphere.at_load(loads)
-    assert time.perf_counter() - start < 1.0
     # at pull-off the radius is known to 1e-8, the load to its square
     assert answer.load == pytest.approx(loads, rel=1e-9, abs=1e-12 * sphere.pull_off)
     assert np.all(np.diff(answer.radius) > 0.0)

@@ -204,4 +204,4 @@ def test_a_bar_on_a_terminal(monkeypatch, capsys):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with watched("study") as watch:
         watch.update(1, 0, 2, 10)
-    assert type(watch).__name__ == "OnBar"
+    assert "\x1b[" in capsys.readouterr().err, "a bar moves the cursor"

@@ -40,10 +40,10 @@ def exchanged(path: str) -> str:
 
 
 def numbers(surface: asp.Surface) -> dict[str, float]:
-    return {quantity.path: value for quantity, value in asp.characterise(surface).values()}
+    return {quantity.name: value for quantity, value in asp.characterise(surface).values()}
 
 
-UNITS = {quantity.path: quantity.unit for quantity in r.QUANTITIES}
+UNITS = {quantity.name: quantity.unit for quantity in r.QUANTITIES}
 FITTED = ("spectrum.",)
 """The spectrum is fitted on rings, and its shape chosen by a criterion: equal only to the accuracy of an optimum."""
 

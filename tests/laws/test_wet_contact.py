@@ -52,7 +52,6 @@ def test_the_force_grows_with_the_humidity(problem):
     ]
     assert all(wet.wetting.regime != "flooded" for wet in found)
     assert (np.diff([wet.meniscus_force for wet in found]) > 0.0).all()
-    assert (np.diff([wet.static_friction for wet in found]) == 0.0).all(), "no friction coefficient was given"
 
 
 def test_the_steady_force_is_the_balance(problem):

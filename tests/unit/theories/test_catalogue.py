@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import time
 
 import numpy as np
 import pytest
@@ -48,9 +47,7 @@ def test_every_theory_answers_about_the_same_surface(name, roughness):
     made = kind.from_roughness(roughness, **bodies)
     # a sixth of a per cent to six per cent of area: light loads at which all theories hold
     pressures = 0.1 * E_STAR * np.geomspace(1e-3, 2e-2, 200)
-    began = time.process_time()
     found = made.at_pressure(pressures)
-    assert time.process_time() - began < 1.0, "two hundred points of a curve are a matter of a second"
     assert found.pressure == pytest.approx(pressures, rel=1e-8)
     assert np.all(np.diff(found.area_fraction) > 0.0)
     for limit in made.validity(found):
