@@ -254,10 +254,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
 }
 """Reason by (solver, case) for what a solver refuses."""
 
-SUPPORTED = [(s, case) for s in SOLVERS.values() for case in CASES if (s.name, case.name) not in UNSUPPORTED]
-"""Every pair that must work."""
-
-
 def pair_id(value: Solver | Case) -> str:
     """Name of a parameter in test reports."""
     return value.name.replace(" ", "-")
