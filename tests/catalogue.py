@@ -254,6 +254,7 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
 }
 """Reason by (solver, case) for what a solver refuses."""
 
+
 def pair_id(value: Solver | Case) -> str:
     """Name of a parameter in test reports."""
     return value.name.replace(" ", "-")
