@@ -7,43 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asperity import (
-    Approach,
-    ContactProblem,
-    Elastic,
-    Force,
-    Free,
-    FreeLine,
-    Frictionless,
-    Grid,
-    Hardness,
-    HardWall,
-    Layer,
-    Layered,
-    MeanGap,
-    MeanPressure,
-    Periodic,
-    RigidBase,
-    Surface,
-)
+from asperity import Approach, ContactProblem, Elastic, Force, Free, FreeLine, Frictionless, Grid, Hardness, HardWall, Layer, Layered, MeanGap, MeanPressure, Periodic, RigidBase, Surface
 from asperity.contact.boundary import Boundary
 from asperity.contact.control import Control
-from asperity.contact.drive import drive
 from asperity.contact.laws import InterfaceLaw
-from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers import (
-    ActiveSet,
-    ConjugateGradient,
-    ContactQP,
-    DenseActiveSet,
-    FixedOffset,
-    Lemke,
-    NonNegativeLeastSquares,
-    QuasiNewton,
-    Solution,
-    Solver,
-    SteepestDescent,
-)
+from asperity.contact.solve import Prepared
+from asperity.contact.solvers import ActiveSet, ConjugateGradient, ContactQP, DenseActiveSet, FixedOffset, Lemke, NonNegativeLeastSquares, QuasiNewton, Solution, Solver, SteepestDescent
 from asperity.contact.solvers.protocol import scaled_to_load
 from asperity.core.arrays import RealArray
 from asperity.solids.layers import Body
@@ -105,9 +74,8 @@ class Case:
 
 def solved(case: Case, solver: Solver) -> tuple[ContactQP, Solution]:
     """Discrete problem of ``case`` and its solution by ``solver``."""
-    problem = case.problem
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    return drive(problem, case.control, solver, operator, None, None)
+    contact = Prepared(case.problem, solver=solver).settled(case.control).contact
+    return contact.qp, contact.solution
 
 
 def feasible_start(qp: ContactQP) -> RealArray:

@@ -154,4 +154,4 @@ def test_plastic_work_adds_up():
 def test_a_state_must_have_dissipated_something_positive():
     none = np.zeros((4, 4))
     with pytest.raises(asp.InputError, match="plastic work"):
-        asp.InterfaceState(none, none, -1.0)
+        asp.InterfaceState.dented(none, none, -1.0)

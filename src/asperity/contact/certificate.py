@@ -8,7 +8,9 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.system import peak_memory
-from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, level
+from .couplings.driver import CouplingCheck
+from .solvers.protocol import best_level, duality_gap, level
+from .solvers.protocol import ContactQP, FixedMean, Solution
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,10 @@ class Certificate:
         Largest memory the process has held so far, in bytes; NaN where the system does not tell.
     solver
         Name of the method.
+    couplings
+        Residual, rate and tolerance of every coupling with feedback.
+    rounds
+        Number of normal solves that the couplings took.
     """
 
     duality_gap: float
@@ -49,9 +55,20 @@ class Certificate:
     wall_time: float
     peak_memory: float
     solver: str
+    couplings: tuple[CouplingCheck, ...] = ()
+    rounds: int = 1
 
 
-def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float, wall_time: float) -> Certificate:
+def certify(
+    qp: ContactQP,
+    solution: Solution,
+    *,
+    solver: str,
+    tolerance: float,
+    wall_time: float,
+    couplings: tuple[CouplingCheck, ...] = (),
+    rounds: int = 1,
+) -> Certificate:
     """Certificate of ``solution``, which took ``wall_time`` s."""
     p, deflection = solution.state.pressure, solution.state.deflection
     r = deflection - qp.profile
@@ -75,6 +92,8 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
         wall_time=wall_time,
         peak_memory=peak_memory(),
         solver=solver,
+        couplings=couplings,
+        rounds=rounds,
     )
 
 

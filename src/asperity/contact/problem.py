@@ -1,4 +1,4 @@
-"""The contact problem: surfaces, bodies, boundary and interface law, without any load."""
+"""The contact problem: surfaces, bodies, boundary and the physics of the interface, without any load."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from ..solids.layers import Body, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
-from .laws import HardWall, InterfaceLaw
+from .laws import Coulomb, HardWall, InterfaceLaw
+from .wetting import LiquidFilm
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ CounterSurface: TypeAlias = Surface | Flat
 
 @dataclass(frozen=True, repr=False)
 class ContactProblem(Shown):
-    """Two bodies with their surfaces, pressed together without friction.
+    """Two bodies with their surfaces, pressed together.
 
     Parameters
     ----------
@@ -49,7 +50,11 @@ class ContactProblem(Shown):
     boundary
         ``Periodic()``, ``Free()``, or ``FreeLine()`` for a free line contact.
     law
-        ``HardWall()`` (elastic) or ``Hardness(H)``.
+        ``HardWall()`` (elastic), ``Hardness(H)`` or ``LayeredHardness(body)``.
+    film
+        Film of liquid whose menisci pull the surfaces together; None for a dry contact.
+    friction
+        ``Coulomb(mu)``: all points slide, and the shear changes the pressure of unlike bodies; None for none.
 
     Notes
     -----
@@ -68,6 +73,8 @@ class ContactProblem(Shown):
     counter_body: Body = Rigid()
     boundary: Boundary = Periodic()
     law: InterfaceLaw = HardWall()
+    film: LiquidFilm | None = None
+    friction: Coulomb | None = None
 
     def __post_init__(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
@@ -76,6 +83,8 @@ class ContactProblem(Shown):
         for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
             _require(body, Body, what, "Elastic(...), a named material, Layered(...) or Rigid()")
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
+        _require(self.film, LiquidFilm | None, "film", "LiquidFilm.of(liquid, thickness) or None")
+        _require(self.friction, Coulomb | None, "friction", "Coulomb(coefficient) or None")
         contact_modulus(self.body, self.counter_body)
         if isinstance(self.boundary, FreeLine):
             self.boundary.require_line(self.grid)
@@ -112,7 +121,8 @@ class ContactProblem(Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the problem rests on."""
         pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
-        parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, self.law)
+        physics = [part for part in (self.law, self.film, self.friction) if part is not None]
+        parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, *physics)
         return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 
     def profile(self) -> RealArray:

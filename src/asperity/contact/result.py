@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
@@ -12,10 +15,15 @@ from ..core.quantity import Quantity
 from ..core.status import Status
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
+from . import measure
 from .certificate import Certificate
 from .control import Control
+from .couplings.menisci import Menisci
+from .couplings.protocol import Contact, Memory
+from .couplings.sliding import Sliding
 from .problem import ContactProblem
 from .state import InterfaceState
+from .stiffness import normal_stiffness
 
 PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
@@ -44,6 +52,25 @@ SCALARS = (
     Quantity("contact_perimeter", "m", "contact perimeter (pixel edges)"),
 )
 """Every scalar of a result in the order of tables."""
+
+
+WET_SCALARS = (
+    Quantity("external_force", "N", "external force"),
+    Quantity("meniscus_force", "N", "meniscus force"),
+    Quantity("relative_meniscus_force", "1", "meniscus force / external force"),
+    Quantity("suction", "Pa", "pressure deficit in the menisci"),
+    Quantity("meniscus_height", "m", "meniscus height"),
+    Quantity("film_thickness", "m", "film thickness"),
+    Quantity("meniscus_area_fraction", "1", "area of the menisci / nominal area"),
+    Quantity("wetted_area_fraction", "1", "wetted area with contact / nominal area"),
+    Quantity("cut_area_fraction", "1", "cross-cut area at the meniscus height / nominal area"),
+    Quantity("n_menisci", "1", "number of menisci"),
+    Quantity("friction_force", "N", "static friction force"),
+    Quantity("viscous_force", "N", "viscous part of the friction force"),
+    Quantity("static_friction", "1", "static friction coefficient, friction / external force"),
+    Quantity("feedback", "1", "share of the meniscus force that the menisci themselves cause"),
+)
+"""Every scalar of the menisci, in the order of tables."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,7 +116,13 @@ class ContactResult(Drawn):
     n_spots, spot_areas, mean_spot_area, contact_perimeter
         Number of contact spots, their areas (m², largest first) and mean, perimeter along pixel edges (m).
     certificate, status
-        Error bounds and work; how the solver ended.
+        Error bounds and work; how the solver and the couplings ended.
+    couplings
+        What each coupling found, by its name: ``menisci``, ``sliding``.
+    memory
+        What each coupling remembers for the next step, by its name, beside what the fields here tell.
+    earlier
+        Pressure (nx, ny) in Pa of the load before, from which the next one is extrapolated; None for a first load.
     """
 
     problem: ContactProblem
@@ -124,6 +157,24 @@ class ContactResult(Drawn):
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
+    couplings: Mapping[str, Any] = field(default_factory=dict)
+    memory: Mapping[str, Memory] = field(default_factory=dict)
+    earlier: RealArray | None = None
+
+    @property
+    def menisci(self) -> Menisci | None:
+        """Menisci of the film; None in a dry contact."""
+        return self.couplings.get("menisci")
+
+    @property
+    def sliding(self) -> Sliding | None:
+        """What the shear traction does to the contact; None where it is left out."""
+        return self.couplings.get("sliding")
+
+    @property
+    def external_force(self) -> float:
+        """Force in N that is applied from outside: ``force`` less what menisci pull."""
+        return self.force if self.menisci is None else self.menisci.external_force
 
     @property
     def contact(self) -> BoolArray:
@@ -142,13 +193,14 @@ class ContactResult(Drawn):
 
     @property
     def converged(self) -> bool:
-        """Whether the solver reached its tolerance."""
+        """Whether solver and couplings reached their tolerances."""
         return self.status.converged
 
     @property
     def state(self) -> InterfaceState:
-        """State to continue from: permanent indentation, pressure and plastic work."""
-        return InterfaceState(self.permanent_indentation, self.pressure, self.total_plastic_work)
+        """State to go on from, in the middle of a leg as well."""
+        indentation = {"indentation": self.permanent_indentation, "work": np.asarray(self.total_plastic_work)}
+        return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier)
 
     def residual_surface(self, part: Literal["composite", "body", "counter_body"] = "composite") -> Surface:
         """Surface that is left when the load is taken away: the one before less the permanent indentation.
@@ -174,3 +226,79 @@ class ContactResult(Drawn):
             before = composite(surface, counter) if pair else surface  # type: ignore[arg-type]
         load = f"{self.mean_pressure:.6g} Pa"
         return before.with_heights(before.heights - self.permanent_indentation, f"indented for good, last load {load}")
+
+
+def assembled(
+    problem: ContactProblem,
+    found: Contact,
+    *,
+    before: InterfaceState | None,
+    memories: Mapping[str, Memory],
+    lift: RealArray | None,
+    stiffness: bool,
+    certificate: Certificate,
+    citations: tuple[str, ...],
+) -> ContactResult:
+    """Fields and scalars of the contact ``found``.
+
+    ``before`` is the interface before this load, ``memories`` what the couplings leave, ``lift`` the elastic displacement
+    (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
+    """
+    p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
+    offset = -found.level
+    gap = u - found.qp.profile
+    gap += offset
+    np.maximum(gap, 0.0, out=gap)
+    displacement = u if lift is None else u + lift
+    contact = p > 0.0
+    capped = contact & (p >= found.qp.cap)
+    pixels = int(np.count_nonzero(contact))
+    area = measure.corrected_area(contact, grid, wraps=wraps)
+    spots = measure.contact_spots(contact, wraps=wraps) * grid.pixel_area
+    load = float(p.sum(dtype=np.float64))
+    measured = stiffness and lift is None
+    return ContactResult(
+        problem=problem,
+        control=found.posed.control,
+        pressure=p,
+        displacement=displacement,
+        gap=gap,
+        plastic=capped,
+        offset=offset,
+        mean_pressure=load / grid.n_points,
+        force=load * grid.pixel_area,
+        area_fraction=pixels / grid.n_points,
+        area_fraction_corrected=area / grid.area,
+        contact_area=area,
+        mean_real_pressure=load / pixels if pixels else 0.0,
+        max_pressure=float(p.max()),
+        approach=found.posed.top - offset,
+        mean_gap=float(gap.mean()),
+        elastic_energy=0.5 * float(np.multiply(p, displacement, dtype=np.float64).sum()) * grid.pixel_area,
+        plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
+        normal_stiffness=normal_stiffness(found.qp.operator, p, found.qp.cap) if measured else np.nan,
+        n_spots=int(spots.size),
+        spot_areas=spots,
+        mean_spot_area=float(spots.mean()) if spots.size else 0.0,
+        contact_perimeter=measure.contact_perimeter(contact, grid, wraps=wraps),
+        certificate=certificate,
+        status=found.solution.status,
+        citation_keys=citations,
+        memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
+        earlier=before.pressure if before is not None and before.pressure.any() else None,
+        **_indentation(problem, before, memories["hardness"]),
+    )
+
+
+def _indentation(problem: ContactProblem, state: InterfaceState | None, memory: Memory) -> dict[str, Any]:
+    """What a result says of the permanent indentation in ``memory``, which takes the place of that of ``state``."""
+    permanent, total = memory["indentation"], float(memory["work"])
+    pixel = problem.grid.pixel_area
+    return {
+        "permanent_indentation": permanent,
+        "plastic_work": total - (0.0 if state is None else state.plastic_work),
+        "total_plastic_work": total,
+        "indented_area": int(np.count_nonzero(permanent)) * pixel,
+        "plastic_volume": float(permanent.sum()) * pixel,
+        "max_permanent_indentation": float(permanent.max()),
+    }

@@ -1,22 +1,34 @@
-"""The one function in which problem, control, solver and what to keep meet."""
+"""The one function in which problem, control or history, solver and what to keep meet."""
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Literal, overload
+
+import numpy as np
 
 from ..core import require
+from ..core.arrays import RealArray
 from ..core.engine import Engine
-from ..core.errors import ConvergenceError, InputError
+from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.progress import Progress
-from .assemble import assemble
 from .certificate import certify
-from .control import Control
-from .drive import drive
+from .control import Approach, Control, MeanGap, Unloaded, mean_pressure
+from .couplings.driver import Rounds, Settled, settle
+from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
+from .couplings.hardness import ConstantHardness, DepthHardness
+from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
+from .couplings.menisci import MeniscusCoupling
+from .couplings.protocol import Coupling, Posed
+from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
+from .couplings.sliding import SlidingCoupling
+from .history import History, HistoryResult, Step
+from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
-from .result import ContactResult
+from .result import ContactResult, assembled
 from .solvers.by_name import default_solver
 from .solvers.protocol import Solver
 from .state import InterfaceState
@@ -29,77 +41,245 @@ class Keep:
     stiffness: bool = True
 
 
+@overload
 def solve(
     problem: ContactProblem,
     control: Control,
     *,
     solver: Solver | None = None,
     state: InterfaceState | None = None,
-    keep: Keep = Keep(),
+    keep: Keep | None = None,
     operator: Operator | None = None,
     progress: Progress | None = None,
     engine: Engine | None = None,
+    rounds: Rounds = Rounds(),
     on_failure: Literal["raise", "return"] = "raise",
-) -> ContactResult:
-    """Solve a contact problem.
+) -> ContactResult: ...
+
+
+@overload
+def solve(
+    problem: ContactProblem,
+    control: History,
+    *,
+    solver: Solver | None = None,
+    state: InterfaceState | None = None,
+    keep: Keep | None = None,
+    operator: Operator | None = None,
+    progress: Progress | None = None,
+    engine: Engine | None = None,
+    rounds: Rounds = Rounds(),
+    on_failure: Literal["raise", "return"] = "raise",
+) -> HistoryResult: ...
+
+
+def solve(
+    problem: ContactProblem,
+    control: Control | History,
+    *,
+    on_failure: Literal["raise", "return"] = "raise",
+    **options: Any,
+) -> ContactResult | HistoryResult:
+    """Solve a contact problem for one load or position, or for a history of them.
+
+    Normal contact, hardness, menisci and sliding friction are balanced together, whatever the problem holds. Where a
+    physics gives back more the more it gets (menisci, softening films), the balance found is the first that a growing
+    load meets from the interface it started with; others may exist.
 
     Parameters
     ----------
     problem
-        Surfaces, bodies, boundary, law.
+        Surfaces, bodies, boundary, physics of the interface.
     control
-        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``; or a ``History`` of such steps, each of
+        which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
+        All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted.
     solver
-        Method with its tolerance; chosen by ``default_solver`` if not given.
+        Method of the normal solves with its tolerance; chosen by ``default_solver`` if not given.
     state
-        Result state of an earlier load: its permanent indentation is kept, its pressure is the first guess.
+        State of an earlier result: what it remembers is kept, its pressure is the first guess.
     keep
-        What to compute beyond the fields.
+        What to compute beyond the fields; by default the stiffness of a single load.
     operator
         Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in repeated solves.
     progress
         Receives the error after every iteration.
     engine
         Machine to compute on, such as ``CpuEngine(threads=2)``; the CPU with ASPERITY_THREADS or all cores by default.
+    rounds
+        When to give up the iteration between contact and couplings.
     on_failure
-        ``"raise"`` a ConvergenceError holding the result, or ``"return"`` it with its status, when not converged.
+        ``"raise"`` a ConvergenceError holding the result (of the first step that fails), or ``"return"`` it with its
+        status, when not converged; a history then goes on from the last step that did converge.
 
     Raises
     ------
     NoSolutionError
-        If the load exceeds what the pressure cap bears, or the position lies beyond full contact.
+        If a load exceeds what the pressure cap bears or menisci run away, or a position has no solution.
     ConvergenceError
-        If the solver does not reach its tolerance and ``on_failure`` is ``"raise"``.
+        If the tolerance is not reached and ``on_failure`` is ``"raise"``.
     InputError
-        If state or operator do not belong to the grid of the problem.
+        If the control is none, or state or operator do not belong to the problem.
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
+    if isinstance(control, History):
+        start = options.get("state")
+        return HistoryResult(tuple(steps(problem, control, on_failure=on_failure, **options)), start)
     if not isinstance(control, Control):
-        kinds = "MeanPressure, Force, Approach, MeanGap or Unloaded"
+        kinds = "MeanPressure, Force, Approach, MeanGap, Unloaded or a History of them"
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
-    if solver is not None and not hasattr(solver, "step"):
-        raise InputError(f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name.")
-    method = solver or default_solver(problem)
-    ready = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    _require_same_problem(ready, problem)
-    started = time.perf_counter()
-    qp, solution = drive(problem, control, method, ready, state, progress)
-    seconds = time.perf_counter() - started
-    certificate = certify(qp, solution, solver=method.name, tolerance=method.tolerance, wall_time=seconds)
-    citation_keys = tuple(sorted({*problem.citation_keys, *method.citation_keys}))
-    result = assemble(
-        problem,
-        control,
-        qp,
-        solution,
-        state=state,
-        stiffness=keep.stiffness,
-        certificate=certificate,
-        citations=citation_keys,
-    )
-    if on_failure == "raise" and not solution.status.converged:
-        raise ConvergenceError(f"{solution.status.message} {solution.status.remedy}", result)
+    state = options.pop("state", None)
+    keep = options.pop("keep", None) or Keep()
+    result = Prepared(problem, keep=keep, **options).step(control, state)
+    if on_failure == "raise" and not result.converged:
+        raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
+
+
+def steps(
+    problem: ContactProblem,
+    history: History | Iterable[Step | Control],
+    *,
+    state: InterfaceState | None = None,
+    keep: Keep | None = None,
+    on_failure: Literal["raise", "return"] = "raise",
+    **options: Any,
+) -> Iterator[ContactResult]:
+    """Results of the steps of ``history`` one by one, each when it is solved; only the last is held here.
+
+    Arguments and errors are those of ``solve``; what is wrong with them is said at the call, before any step.
+    """
+    require.one_of(on_failure, ("raise", "return"), "on_failure")
+    ordered = history if isinstance(history, History) else History(history)
+    prepared = Prepared(problem, keep=keep or Keep(stiffness=False), **options)
+
+    def run() -> Iterator[ContactResult]:
+        latest = state
+        for number, step in enumerate(ordered, start=1):
+            try:
+                result = prepared.step(step.normal, latest)
+            except NoSolutionError as error:
+                raise NoSolutionError(f"Step {number} of the history: {error}") from error
+            if result.converged:
+                latest = result.state
+            elif on_failure == "raise":
+                status = result.status
+                raise ConvergenceError(f"Step {number} of the history: {status.message} {status.remedy}", result)
+            yield result
+
+    return run()
+
+
+class Prepared:
+    """A problem with everything prepared once for all its steps."""
+
+    def __init__(
+        self,
+        problem: ContactProblem,
+        *,
+        keep: Keep = Keep(),
+        solver: Solver | None = None,
+        operator: Operator | None = None,
+        progress: Progress | None = None,
+        engine: Engine | None = None,
+        rounds: Rounds = Rounds(),
+    ) -> None:
+        if solver is not None and not hasattr(solver, "step"):
+            raise InputError(
+                f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name."
+            )
+        self.problem, self.keep, self.progress, self.rounds = problem, keep, progress, rounds
+        self.solver = solver or default_solver(problem)
+        self.operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        _require_same_problem(self.operator, problem)
+        self.couplings = couplings_of(problem, self.operator, rounds)
+        self.profile = problem.profile()
+
+    def settled(self, control: Control, state: InterfaceState | None = None) -> Settled:
+        """Contact under ``control`` that agrees with all couplings, started from ``state``."""
+        dented, start = self.profile, None
+        if state is not None:
+            state.require_shape(self.profile.shape)
+            dented = self.profile - state.permanent_indentation
+            start = state.pressure if state.pressure.any() else None
+        scale = _height_scale(self.profile, control, self.operator)
+        return settle(
+            Posed(self.operator, self.profile, dented, control, scale, start),
+            self.couplings,
+            {} if state is None else state.memory,
+            self.solver,
+            earlier=None if state is None else state.earlier,
+            rounds=self.rounds,
+            progress=self.progress,
+        )
+
+    def step(self, control: Control, state: InterfaceState | None = None) -> ContactResult:
+        """Result under ``control``, started from ``state``."""
+        started = time.perf_counter()
+        settled = self.settled(control, state)
+        return self._result(settled, state, time.perf_counter() - started)
+
+    def _result(self, settled: Settled, state: InterfaceState | None, seconds: float) -> ContactResult:
+        contact, problem = settled.contact, self.problem
+        ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
+        found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
+        lift = found["sliding"].shear_displacement if "sliding" in found else None
+        certificate = certify(
+            contact.qp,
+            contact.solution,
+            solver=self.solver.name,
+            tolerance=settled.tolerance,
+            wall_time=seconds,
+            couplings=settled.checks,
+            rounds=settled.rounds,
+        )
+        shown = replace(contact, solution=replace(contact.solution, status=settled.status))
+        result = assembled(
+            problem,
+            shown,
+            before=state,
+            memories={name: memory for name, (memory, _) in ends.items()},
+            lift=lift if lift is not None and lift.any() else None,
+            stiffness=self.keep.stiffness,
+            certificate=certificate,
+            citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *_citations(found.values())})),
+        )
+        return replace(result, couplings=found)
+
+
+def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds()) -> tuple[Coupling, ...]:
+    """Couplings of the physics that ``problem`` holds, prepared for ``operator``."""
+    law, film, friction, tolerances = problem.law, problem.film, problem.friction, rounds.tolerances
+    found: list[Coupling] = []
+    if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
+        found.append(DepthHardness.prepared(law, operator, tolerances.get("hardness", HARDNESS_TOLERANCE)))
+    else:
+        found.append(ConstantHardness(law))
+    if film is not None:
+        tolerance = tolerances.get("menisci", MENISCUS_TOLERANCE)
+        found.append(MeniscusCoupling(film, problem.boundary.wraps, friction or Coulomb(0.0), tolerance))
+    if friction is not None and friction.couples:
+        tolerance, stiffest = tolerances.get("sliding", SLIDING_TOLERANCE), float(operator.kernel.max())
+        threads = getattr(operator.engine, "threads", None)
+        found.append(SlidingCoupling.prepared(problem, friction, stiffest, tolerance, threads))
+    return tuple(found)
+
+
+def _citations(found: Iterable[Any]) -> set[str]:
+    return {key for outcome in found for key in getattr(outcome, "citation_keys", ())}
+
+
+def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:
+    """Rms height (m); for flat bodies the length by which they deform, for there is no other."""
+    rms = float(virgin.std())
+    if rms > 0.0:
+        return rms
+    if isinstance(control, Approach | MeanGap):
+        return control.value
+    if isinstance(control, Unloaded):
+        return 1.0
+    uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
+    return float(np.abs(operator.apply(uniform)).max()) or 1.0
 
 
 def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:

@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Self
 
 import numpy as np
 
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from .couplings.protocol import Memory
 
 
 @dataclass(frozen=True, eq=False)
 class InterfaceState:
-    """State of the interface after a load.
+    """State of the interface after a load; a value that a later solve can start from, with the same answer as without a break.
 
     Parameters
     ----------
-    permanent_indentation
-        (nx, ny), m, >= 0: material removed from the composite profile by plastic flow so far.
     pressure
         (nx, ny), Pa, >= 0: last pressure, where the next solve starts from.
-    plastic_work
-        J, >= 0: energy dissipated by plastic flow so far.
+    memory
+        Named arrays of every coupling by its name: of ``hardness`` the permanent ``indentation`` (nx, ny) in m, >= 0, and
+        the plastic ``work`` in J, >= 0; of ``menisci`` their ``force`` in N. Couplings that a problem does not have are
+        left out of its solve and forgotten.
+    earlier
+        (nx, ny), Pa: pressure of the load before the last, from which the next guess is extrapolated; None if there is none.
 
     Raises
     ------
@@ -30,19 +35,44 @@ class InterfaceState:
         If a value is negative or not finite.
     """
 
-    permanent_indentation: RealArray
     pressure: RealArray
-    plastic_work: float = 0.0
+    memory: Mapping[str, Memory] = field(default_factory=dict)
+    earlier: RealArray | None = None
 
     def __post_init__(self) -> None:
-        for values, what in (
-            (self.permanent_indentation, "permanent indentation (m)"),
-            (self.pressure, "pressure (Pa)"),
-        ):
-            field = require.field(values, f"{what} of an interface state")
-            if not np.isfinite(field).all() or field.min() < 0.0:
+        fields = [(self.pressure, "pressure (Pa)"), (self.permanent_indentation, "permanent indentation (m)")]
+        if self.earlier is not None:
+            fields.append((self.earlier, "earlier pressure (Pa)"))
+        for values, what in fields:
+            found = require.field(values, f"{what} of an interface state")
+            if not np.isfinite(found).all() or found.min() < 0.0:
                 raise InputError(
                     f"{what} of an interface state must be finite and not negative, but its smallest value is "
-                    f"{field.min():g}. Pass the state of an earlier result."
+                    f"{found.min():g}. Pass the state of an earlier result."
                 )
         require.not_negative(self.plastic_work, "plastic work (J) of an interface state")
+
+    @classmethod
+    def dented(cls, permanent_indentation: RealArray, pressure: RealArray, plastic_work: float = 0.0) -> Self:
+        """State of a dry interface with this indentation (nx, ny) in m, last pressure (nx, ny) in Pa and plastic work in J."""
+        memory = {"indentation": permanent_indentation, "work": np.asarray(plastic_work)}
+        return cls(pressure, {"hardness": memory})
+
+    @property
+    def permanent_indentation(self) -> RealArray:
+        """(nx, ny), m, >= 0: material removed from the composite profile by plastic flow so far."""
+        found = self.memory.get("hardness", {}).get("indentation")
+        return np.zeros(np.shape(self.pressure)) if found is None else found
+
+    @property
+    def plastic_work(self) -> float:
+        """J, >= 0: energy dissipated by plastic flow so far."""
+        return float(self.memory.get("hardness", {}).get("work", 0.0))
+
+    def require_shape(self, shape: tuple[int, int]) -> None:
+        """Refuse a state of another grid than one of this ``shape`` with an InputError."""
+        for values, what in ((self.permanent_indentation, "permanent indentation"), (self.pressure, "pressure")):
+            if values.shape != shape:
+                raise InputError(
+                    f"{what} of the state must have the shape {shape} of the grid, but has {values.shape}."
+                )

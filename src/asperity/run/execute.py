@@ -107,8 +107,8 @@ class Warm:
         """A virgin interface with the pressure that the last contacts suggest for the load of ``case``."""
         if not self.last:
             return None
-        pressure = predicted(case.problem, case.control, self.last).pressure
-        return InterfaceState(np.zeros(pressure.shape), pressure)
+        guess = predicted(case.problem, case.control, self.last)
+        return InterfaceState(guess.pressure, earlier=guess.earlier)
 
 
 def run(

@@ -167,9 +167,9 @@ def test_solvers_check_their_settings(method, settings):
 def test_impossible_state_is_refused(bad):
     sound, broken = np.zeros((4, 4)), np.full((4, 4), bad)
     with pytest.raises(asp.InputError, match="permanent indentation"):
-        asp.InterfaceState(broken, sound)
+        asp.InterfaceState.dented(broken, sound)
     with pytest.raises(asp.InputError, match="pressure"):
-        asp.InterfaceState(sound, broken)
+        asp.InterfaceState.dented(sound, broken)
 
 
 @pytest.mark.parametrize("bad", ["1 GPa", True])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from reference_data import reference
 
 import asperity as asp
-from asperity.contact.viscous import viscous_force
+from asperity.contact.couplings.menisci import viscous_force
 from asperity.contact.wetting import LiquidFilm, wetting
 from asperity.core.errors import InputError
 from asperity.theories.wet.meniscus import film_force

@@ -1,0 +1,181 @@
+"""A prescribed position as a coupling: the load that reaches it is one more unknown.
+
+At prescribed load the discrete problem is well conditioned up to and beyond full contact; at prescribed position on a
+periodic half-space it is not (a uniform pressure moves nothing). Approach and mean gap are monotone in the load, so the
+logarithm of the load takes steps towards the position together with all other unknowns, instead of a search over loads
+around them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.errors import NoSolutionError
+from ..control import Approach, MeanGap
+from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+TARGET_ERROR = 1e-7
+"""Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height."""
+
+_HEIGHT_ERROR = 1e-9
+_SOLVER_SHARE = 1e-2
+_FINEST = 1e-10
+_LARGEST_SHARE = 1e2
+_LOOSE = 1e3
+_PERSSON = 0.45
+_LIGHT = 0.8
+_AT_FULL = 0.8
+_FARTHEST = float(np.log(8.0))
+_INSIDE = 1e-3
+_CLOSED = 1e-12
+
+
+@dataclass(frozen=True)
+class _Note:
+    """Mean gap at first touch, closeness wanted from there and what its error is relative to (m); bracket of the logarithm of the load, and the last misses (m)."""
+
+    touch: float
+    wanted: float
+    size: float
+    low: float = -np.inf
+    high: float = np.inf
+    misses: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Position(Coupling):
+    """Load that brings the bodies to the approach or mean gap prescribed; the unknown is the logarithm of the mean pressure.
+
+    ``alone`` says that no other coupling has feedback: then every load tried lies on one side of the one looked for, and
+    the bracket holds. ``elastic`` that none limits the pressure: beyond full contact a periodic half-space would carry any
+    pressure, for its mean gap cannot be negative. ``tolerance`` is that of the normal solves.
+    """
+
+    alone: bool
+    elastic: bool
+    tolerance: float
+    name: ClassVar[str] = "position"
+    feedback: ClassVar[bool] = True
+    remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """The load of the start, or a guess.
+
+        Raises
+        ------
+        NoSolutionError
+            If the dented surfaces do not touch at this position, or it lies beyond full contact.
+        """
+        control, h = posed.control, posed.dented
+        highest, touch = float(h.max()), float(h.max() - h.mean())
+        if isinstance(control, Approach):
+            if self.elastic and control.value >= posed.top - float(h.mean()):
+                raise NoSolutionError(
+                    f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic contact is full and "
+                    f"its mean gap zero, but is {control.value:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
+                )
+            wanted = control.value - (posed.top - highest)
+            if wanted <= 0.0:
+                raise NoSolutionError(
+                    f"approach must be more than {posed.top - highest:.6g} m, where the bodies touch after their permanent "
+                    f"indentation, but is {control.value:.6g} m. Use Unloaded() for no load."
+                )
+        else:
+            assert isinstance(control, MeanGap)
+            wanted = touch - control.value
+            if wanted <= 0.0:
+                raise NoSolutionError(
+                    f"mean gap must be less than {touch:.6g} m, the mean gap at first touch, but is {control.value:.6g} m."
+                )
+        known = 0.0 if posed.start is None else float(posed.start.mean())
+        x = np.asarray(np.log(known) if known > 0.0 else _first_guess(posed, touch, wanted))
+        size = min(wanted, control.value) if isinstance(control, MeanGap) else wanted
+        accuracy = max(_SOLVER_SHARE * min(size / posed.height_scale, 1.0), _FINEST)
+        return Exchange(x, x, np.inf, accuracy=accuracy, note=_Note(touch, wanted, size))
+
+    def share(self, exchange: Exchange) -> Share:
+        """None: the driver poses the mean pressure exp(x)."""
+        return Share()
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """Step of the logarithm of the load, from how far the bodies are from the position."""
+        note, x, posed = exchange.note, float(exchange.x), contact.posed
+        closeness = self._closeness(note, contact)
+        miss = closeness - note.wanted
+        noise = contact.solution.state.error * posed.height_scale
+        low = x if miss < -noise else note.low
+        high = x if miss > noise else note.high
+        note = replace(note, low=low, high=high, misses=(*note.misses[-2:], abs(miss)))
+        allowed = TARGET_ERROR * note.size + _HEIGHT_ERROR * min(posed.height_scale, _LARGEST_SHARE * note.size)
+        step = self._step(note, closeness, posed.height_scale)
+        if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
+            miss = 0.0  # a load that far away cannot be told apart by the normal solve
+        lowest, highest = x - _FARTHEST, x + _FARTHEST
+        if self.alone and np.isfinite(high - low):
+            slow = len(note.misses) > 2 and note.misses[-1] > 0.5 * note.misses[0]
+            inside = (0.5 if slow else _INSIDE) * (high - low)
+            lowest, highest = low + inside, high - inside
+        return replace(
+            exchange,
+            target=np.asarray(x + step),
+            residual=abs(miss) / note.size,
+            tolerance=allowed / note.size,
+            lowest=lowest,
+            highest=highest,
+            stuck=self.alone and high - low < max(_CLOSED, 0.1 * self.tolerance),
+            note=note,
+        )
+
+    def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
+        """Half the way back to the largest load known to be too small."""
+        note = replace(exchange.note, high=min(exchange.note.high, float(exchange.x)))
+        low = note.low if np.isfinite(note.low) else float(exchange.x) - _FARTHEST
+        return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """That no load reaches it, or how far it is."""
+        if exchange.stuck:
+            return (
+                "No load reaches the prescribed position: where nearly every point yields, the position jumps with the load, and "
+                "at a mean pressure equal to the hardness it is undetermined. This was found"
+            )
+        return f"The prescribed position is still missed by {exchange.residual:.1e}"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
+        """Nothing to remember."""
+        return {}, None
+
+    def _closeness(self, note: _Note, contact: Contact) -> float:
+        """Approach or decrease of the mean gap (m) since the dented surfaces touched."""
+        posed = contact.posed
+        if isinstance(posed.control, Approach):
+            return contact.level + float(posed.dented.max())
+        return note.touch - float(contact.gap.mean())
+
+    def _step(self, note: _Note, closeness: float, rms: float) -> float:
+        """Step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads."""
+        wanted = note.wanted
+        if closeness <= 0.0:
+            return _FARTHEST
+        if max(closeness, wanted) < _PERSSON * rms / _LIGHT:
+            return float(np.log(wanted / closeness)) / _LIGHT
+        return (wanted - closeness) / (_PERSSON * rms)
+
+
+def _first_guess(posed: Posed, touch: float, wanted: float) -> float:
+    """Logarithm of the mean pressure (Pa) at which the surfaces are closer by ``wanted`` (m) than at first ``touch``.
+
+    Persson's law from the stiffness of the surface as a whole, with the constant of self-affine surfaces, where it is within a
+    factor of three; in proportion to the load where few points touch.
+    """
+    response = posed.operator.apply(posed.dented)
+    stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
+    full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
+    unit = _PERSSON * posed.height_scale
+    light = unit / _LIGHT
+    if wanted >= light:
+        return full - (touch - wanted) / unit
+    return full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT

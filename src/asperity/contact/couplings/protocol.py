@@ -1,0 +1,223 @@
+"""What a physics of the interface says to the normal contact, and what the contact says to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+
+from ...core.arrays import BoolArray, RealArray
+from ...core.errors import NoSolutionError
+from ..control import Control, Force, MeanPressure, Unloaded, mean_pressure
+from ..operators.protocol import Operator
+from ..solvers.protocol import level
+from ..solvers.protocol import ContactQP, Solution
+
+Memory: TypeAlias = Mapping[str, RealArray]
+"""What a coupling remembers from one step to the next, by name; numbers are 0-d arrays."""
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """What stays the same through the rounds of one step.
+
+    Attributes
+    ----------
+    operator
+        Pressure (Pa) to displacement (m).
+    profile
+        Composite heights (nx, ny) in m of the virgin surfaces.
+    dented
+        The same less the permanent indentation before this step.
+    control
+        What is prescribed.
+    height_scale
+        Length in m by which errors are made relative.
+    start
+        Pressure (nx, ny) in Pa to start from; None where nothing is known.
+    """
+
+    operator: Operator
+    profile: RealArray
+    dented: RealArray
+    control: Control
+    height_scale: float
+    start: RealArray | None = None
+
+    @cached_property
+    def top(self) -> float:
+        """Highest point (m) of the virgin profile, from which the approach counts."""
+        return float(self.profile.max())
+
+    @property
+    def external_force(self) -> float | None:
+        """Prescribed external force in N, zero if unloaded; None where the position is prescribed."""
+        if isinstance(self.control, Unloaded):
+            return 0.0
+        if isinstance(self.control, MeanPressure | Force):
+            return mean_pressure(self.control, self.operator.grid) * self.operator.grid.area
+        return None
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Normal contact of one round, solved."""
+
+    posed: Posed
+    qp: ContactQP
+    solution: Solution
+
+    @property
+    def pressure(self) -> RealArray:
+        """Pressure (nx, ny) in Pa."""
+        return self.solution.state.pressure
+
+    @cached_property
+    def level(self) -> float:
+        """Level (m) of the contacting plane, see ``solvers.protocol.level``."""
+        state = self.solution.state
+        return level(self.qp, state.pressure, state.deflection - self.qp.profile)
+
+    @cached_property
+    def overlap(self) -> RealArray:
+        """Overlap (nx, ny) in m of the deformed bodies, negative where they are apart."""
+        return self.level - (self.solution.state.deflection - self.qp.profile)
+
+    @property
+    def gap(self) -> RealArray:
+        """Gap (nx, ny) in m of the deformed bodies, >= 0."""
+        return np.maximum(-self.overlap, 0.0)
+
+    @property
+    def touching(self) -> BoolArray:
+        """(nx, ny), True where the pressure is positive."""
+        return self.pressure > 0.0
+
+    @property
+    def force(self) -> float:
+        """Force in N that the bodies press each other with."""
+        return float(self.pressure.sum(dtype=np.float64)) * self.posed.operator.grid.pixel_area
+
+    def with_work_of(self, earlier: Contact | None) -> Contact:
+        """The same with the work of the rounds before it added."""
+        if earlier is None:
+            return self
+        own, before = self.solution.state, earlier.solution.state
+        state = replace(
+            own,
+            iterations=own.iterations + before.iterations,
+            applications=own.applications + before.applications,
+            extra_pairs=own.extra_pairs + before.extra_pairs,
+        )
+        return replace(self, solution=replace(self.solution, state=state))
+
+
+@dataclass(frozen=True, eq=False)
+class Share:
+    """What one coupling adds to the normal problem gap = offset + K p + lift - h >= 0, 0 <= p <= cap.
+
+    Shares combine: loads (N) and lifts (m) add, the smallest cap (Pa) holds at every point. At a prescribed position the
+    loads are passive: they change what holds the bodies there, not the contact.
+    """
+
+    load: float = 0.0
+    lift: RealArray | float = 0.0
+    cap: RealArray | float = np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class Exchange:
+    """What a coupling carries through the rounds of one step.
+
+    Attributes
+    ----------
+    x
+        Its unknown: what the contact was posed with.
+    target
+        What the last contact asks for in its place.
+    residual
+        How far the two are apart, relative; the tolerance of the normal solves follows the largest of all couplings.
+    tolerance
+        Residual at which it is settled.
+    smooth
+        Whether the unknown follows the contact smoothly, so that it may be extrapolated. If not, the target is taken as it is.
+    scale
+        Size of a typical difference of unknowns, by which those of several couplings are made comparable.
+    lowest, highest
+        Bounds of the unknown.
+    accuracy
+        Largest error of the normal solve at which the reply still means something.
+    exact
+        Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
+    stuck
+        Whether no unknown can be the one asked for, so that it must be given up.
+    note
+        What else it carries.
+    """
+
+    x: RealArray
+    target: RealArray
+    residual: float = 0.0
+    tolerance: float = 0.0
+    smooth: bool = True
+    scale: float = 1.0
+    lowest: RealArray | float = -np.inf
+    highest: RealArray | float = np.inf
+    accuracy: float = np.inf
+    exact: bool = False
+    stuck: bool = False
+    note: Any = None
+
+    @property
+    def settled(self) -> bool:
+        """Whether the last contact asks for what it was posed with."""
+        return self.residual <= self.tolerance
+
+
+class Coupling(Protocol):
+    """A physics that joins the normal contact: frozen settings, prepared once for a problem.
+
+    ``begin`` is asked once a step, then ``share``, a normal solve and ``reply`` alternate until every coupling is
+    settled, then ``end``. All couplings reply to the same contact, so that their order does not matter. A coupling may
+    inherit from this protocol to leave out what does not concern it.
+    """
+
+    @property
+    def name(self) -> str:
+        """Name in states, results and certificates."""
+
+    @property
+    def feedback(self) -> bool:
+        """Whether the contact changes its share; if not, one round is enough."""
+
+    @property
+    def remedy(self) -> str:
+        """What to do if it does not settle."""
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """Exchange before the first round, from the ``memory`` of the step before (empty for a virgin interface)."""
+
+    def share(self, exchange: Exchange) -> Share:
+        """What the next contact is posed with."""
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """What ``contact`` asks for. May raise NoSolutionError, explained, where there is no balance."""
+        return exchange
+
+    def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
+        """Exchange that is nearer to bearing the ``mean`` pressure (Pa), which is above the last cap; None if it has no say."""
+        return None
+
+    def unbearable(self, exchange: Exchange, error: NoSolutionError) -> NoSolutionError | None:
+        """The ``error`` that the load cannot be borne in words of this coupling, if it is the cause; else None."""
+        return None
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """What still changes and by how much: the beginning of a sentence that ends in "after 40 rounds"."""
+        return f"The share of {self.name} still changes by {exchange.residual:.1e}"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, object]:
+        """Memory for the next step, and what it found (None if that is all in the contact)."""

@@ -1,0 +1,135 @@
+"""Gross sliding as a coupling: shear traction moves the surfaces up and down, and so changes the pressure (Dundurs 1969).
+
+All points slide: the shear traction is the friction coefficient times the pressure, in one direction, and lifts the
+surface of the softer or more compressible body by a field that is linear in the pressure. Every round on its own reduces
+the change by about friction times Dundurs' β; extrapolation over the last rounds does the rest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from ...core.arrays import ComplexArray, RealArray
+from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
+from ...solids.compliance.tensor import coupling_influence
+from ...solids.compliance.tensor import coupling_strips
+from ...solids.compliance.tensor import surface_tensor
+from ..boundary import Free, Periodic
+from ..laws import Coulomb
+from ..problem import ContactProblem
+from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+TOLERANCE = 1e-6
+"""Relative L2 change of the displacement by shear that does not count."""
+
+_NOTHING = 1e-11
+"""Displacement by shear over that by pressure which is rounding: equal bodies, or an incompressible one on a rigid one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sliding:
+    """What the shear traction of a sliding contact does to it.
+
+    Attributes
+    ----------
+    friction, direction
+        Coefficient μ, and angle in rad of the shear traction on ``body`` from +x towards +y.
+    shear_displacement
+        Normal displacement (nx, ny) in m caused by the shear traction alone.
+    """
+
+    friction: float
+    direction: float
+    shear_displacement: RealArray
+
+
+class ShearKernel:
+    """Normal displacement under shear that is the pressure times the ratios (kx, ky), prepared once.
+
+    The coupling of the two bodies subtracts, for they carry opposite tractions: equal bodies have none, nor has an
+    incompressible body against a rigid one. On a free line shear along y moves nothing up or down.
+    """
+
+    def __init__(self, problem: ContactProblem, ratios: tuple[float, float], *, threads: int | None = None) -> None:
+        grid, (kx, ky) = problem.grid, ratios
+        threads = thread_count(threads)
+        self._transform: RealTransform | PaddedTransform
+        self._kernel: ComplexArray
+        if isinstance(problem.boundary, Periodic):
+            tensor = surface_tensor(grid, problem.body, problem.counter_body)
+            self._kernel = -1j * (kx * tensor.xz + ky * tensor.yz)  # C_zx = -C_xz
+            self._transform = RealTransform(grid.shape, threads)
+        else:
+            bodies = problem.body, problem.counter_body
+            padded = fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1)
+            if isinstance(problem.boundary, Free):
+                xz, yz = coupling_influence(grid, *bodies)  # C_zx = -C_xz
+                kernel = -kx * wrapped(xz, padded, odd_x=True) - ky * wrapped(yz, padded, odd_y=True)
+            else:
+                kernel = kx * wrapped(coupling_strips(grid, *bodies), padded, odd_x=True)
+            self._kernel = RealTransform(padded, threads).forward(kernel)
+            self._transform = PaddedTransform(grid.shape, padded, threads)
+
+    @property
+    def largest(self) -> float:
+        """Largest displacement by a wave of unit pressure, m/Pa."""
+        return float(np.abs(self._kernel).max())
+
+    def displacement(self, pressure: RealArray) -> RealArray:
+        """Normal displacement (nx, ny) in m of ``body`` relative to the counter body under the shear of ``pressure``."""
+        field = np.ascontiguousarray(pressure, dtype=np.float64)
+        spectrum = self._transform.forward(field, np.empty(self._transform.spectrum_shape, np.complex128))
+        spectrum *= self._kernel
+        return self._transform.backward(spectrum, np.empty_like(field))
+
+
+@dataclass(frozen=True, eq=False)
+class SlidingCoupling(Coupling):
+    """Lift by the shear of ``friction``; the unknown is that displacement (nx, ny) in m."""
+
+    friction: Coulomb
+    kernel: ShearKernel = field(repr=False)
+    feedback: bool = True
+    tolerance: float = TOLERANCE
+    name: ClassVar[str] = "sliding"
+    remedy: ClassVar[str] = "Tighten the solver's tolerance, allow more change, or lower the friction coefficient."
+
+    @classmethod
+    def prepared(
+        cls, problem: ContactProblem, friction: Coulomb, stiffest: float, tolerance: float, threads: int | None
+    ) -> Self:
+        """Coupling of the bodies of ``problem``; passive where it is nothing beside ``stiffest``, the largest normal compliance (m/Pa)."""
+        mu, angle = friction.coefficient, friction.direction
+        kernel = ShearKernel(problem, (mu * math.cos(angle), mu * math.sin(angle)), threads=threads)
+        return cls(friction, kernel, kernel.largest > _NOTHING * stiffest, tolerance)
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """The displacement under the pressure to start from."""
+        start = posed.start if self.feedback else None
+        x = np.zeros(posed.profile.shape) if start is None else self.kernel.displacement(start)
+        return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
+
+    def share(self, exchange: Exchange) -> Share:
+        """The displacement as a lift."""
+        return Share(lift=exchange.x)
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """The displacement under the shear of ``contact``."""
+        if not self.feedback:
+            return exchange
+        target = self.kernel.displacement(contact.pressure)
+        size = float(np.linalg.norm(target))
+        change = float(np.linalg.norm(target - exchange.x))
+        return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """The change of the displacement."""
+        return f"The normal displacement by shear of the sliding contact still changes by {exchange.residual:.1e}"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, Sliding]:
+        """Nothing to remember: the displacement follows from the pressure."""
+        return {}, Sliding(self.friction.coefficient, self.friction.direction, exchange.x)

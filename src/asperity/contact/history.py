@@ -1,0 +1,296 @@
+"""A history of steps on one contact: loading, unloading and loading again; results in order, and where the work goes."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self, TypeAlias
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from .control import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
+from .result import ContactResult
+from .state import InterfaceState
+
+Ramped: TypeAlias = type[MeanPressure] | type[Force] | type[Approach] | type[MeanGap]
+"""Kind of control that is changed step by step."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a history: what is prescribed along the normal, ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``."""
+
+    normal: Control
+
+
+@dataclass(frozen=True, init=False)
+class History:
+    """Sequence of steps, each from the interface that the last one left.
+
+    Parameters
+    ----------
+    steps
+        Controls, or ``Step`` of each, in any mixture; at least one. See ``ramps``.
+
+    Raises
+    ------
+    InputError
+        If there is no step, or one is something else.
+    """
+
+    steps: tuple[Step, ...]
+
+    def __init__(self, steps: Iterable[Step | Control]) -> None:
+        if isinstance(steps, Control | Step):
+            raise InputError(f"steps of a history must be a sequence, but are {steps!r}. Write History([{steps!r}]).")
+        try:
+            ordered = tuple(steps)
+        except TypeError:
+            raise InputError(
+                f"steps of a history must be a sequence of controls, but are {steps!r}. "
+                "Write for example History([MeanPressure(50e3), MeanPressure(100e3)])."
+            ) from None
+        if not ordered:
+            raise InputError("steps of a history must hold at least one control, but hold none.")
+        for number, step in enumerate(ordered, start=1):
+            control = step.normal if isinstance(step, Step) else step
+            if not isinstance(control, Control):
+                raise InputError(
+                    f"step {number} of a history must be a MeanPressure, Force, Approach, MeanGap or Unloaded, "
+                    f"but is {control!r}. Write for example MeanPressure(50e3)."
+                )
+        object.__setattr__(self, "steps", tuple(s if isinstance(s, Step) else Step(s) for s in ordered))
+
+    @classmethod
+    def ramps(cls, kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> Self:
+        """History that runs through the ``turning_points``, see ``ramps``."""
+        return cls(ramps(kind, turning_points, steps=steps))
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.steps)
+
+
+def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> tuple[Control, ...]:
+    """Controls of a history that runs through the ``turning_points``.
+
+    Parameters
+    ----------
+    kind
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
+    turning_points
+        Values in SI units, >= 0, in order; for example ``[50e6, 0, 80e6]`` to load, unload and load again. Zero is no
+        load (``Unloaded``). A path starts at zero, except of ``MeanGap``, which starts at its first value.
+    steps
+        Number of steps from each turning point to the next. They are equal, but where a load begins or ends at zero they
+        grow with the distance from it, load = (k/steps)² of the other end: a light contact changes fastest.
+
+    Raises
+    ------
+    InputError
+        If there is no turning point, two neighbours are equal, one is negative, or a mean gap is zero.
+    """
+    require.integer(steps, 1, "number of steps")
+    if not isinstance(kind, type) or kind not in (MeanPressure, Force, Approach, MeanGap):
+        raise InputError(f"kind of a ramp must be MeanPressure, Force, Approach or MeanGap, but is {kind!r}.")
+    values = [require.not_negative(value, f"turning point of a load path ({kind.unit})") for value in turning_points]
+    first = [] if kind is MeanGap else [0.0]
+    points = [*first, *(values[1:] if values[:1] == first else values)]
+    if len(points) < 2 - (kind is MeanGap):
+        raise InputError("turning points of a load path must hold at least one value greater than zero, but hold none.")
+    if any(low == high for low, high in itertools.pairwise(points)):
+        raise InputError(f"neighbouring turning points of a load path must differ, but are {values}.")
+    graded = kind in (MeanPressure, Force)
+    legs = [_leg(start, end, steps, graded=graded) for start, end in itertools.pairwise(points)]
+    course = [*(points[:1] if kind is MeanGap else []), *(float(value) for leg in legs for value in leg)]
+    return tuple(kind(value) if value > 0.0 or kind is MeanGap else Unloaded() for value in course)
+
+
+def _leg(start: float, end: float, steps: int, *, graded: bool) -> RealArray:
+    """Values after each of the ``steps`` from ``start`` to ``end``; ``graded`` ones are denser towards a zero."""
+    share = np.arange(1, steps + 1) / steps
+    if graded and start == 0.0:
+        share = share**2
+    elif graded and end == 0.0:
+        share = 1.0 - (1.0 - share) ** 2
+    values: RealArray = start + share * (end - start)
+    values[-1] = end
+    return values
+
+
+@dataclass(frozen=True, eq=False)
+class HistoryResult:
+    """Results of the steps of a history, in order.
+
+    Parameters
+    ----------
+    steps
+        One for each control. A step that did not converge carries the status that says so; the steps after it
+        started from the last one that did.
+    start
+        Interface before the first step; None for a virgin one.
+    """
+
+    steps: tuple[ContactResult, ...]
+    start: InterfaceState | None = None
+
+    @property
+    def last(self) -> ContactResult:
+        """Result of the last step."""
+        return self.steps[-1]
+
+    @property
+    def state(self) -> InterfaceState | None:
+        """State to go on from, that of the last step that converged."""
+        good = [result for result in self.steps if result.converged]
+        return good[-1].state if good else self.start
+
+    @property
+    def mean_pressure(self) -> RealArray:
+        """Mean pressure (Pa) of every step."""
+        return self.scalars("mean_pressure")
+
+    @property
+    def area_fraction_corrected(self) -> RealArray:
+        """Real over nominal contact area of every step, without pixel bias."""
+        return self.scalars("area_fraction_corrected")
+
+    @property
+    def approach(self) -> RealArray:
+        """Approach (m) from first touch of the virgin surfaces of every step."""
+        return self.scalars("approach")
+
+    @property
+    def mean_gap(self) -> RealArray:
+        """Mean gap (m) of every step."""
+        return self.scalars("mean_gap")
+
+    @property
+    def force(self) -> RealArray:
+        """Force (N) between the solids of every step."""
+        return self.scalars("force")
+
+    @property
+    def external_force(self) -> RealArray:
+        """External force (N) of every step: ``force`` less what menisci pull."""
+        return self.scalars("external_force")
+
+    @property
+    def elastic_energy(self) -> RealArray:
+        """Elastic energy (J) of every step."""
+        return self.scalars("elastic_energy")
+
+    @property
+    def plastic_work(self) -> RealArray:
+        """Plastic work (J) that every step added."""
+        return self.scalars("plastic_work")
+
+    @property
+    def turns(self) -> tuple[int, ...]:
+        """Index of every step after which the load changes direction, and of the last step."""
+        rises = np.diff(self.mean_pressure) > 0.0
+        return (*(int(step) + 1 for step in np.flatnonzero(np.diff(rises.astype(int)))), len(self.steps) - 1)
+
+    @property
+    def converged(self) -> bool:
+        """Whether every step reached its tolerance."""
+        return all(result.converged for result in self.steps)
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers the numbers rest on."""
+        return tuple(sorted({key for result in self.steps for key in result.citation_keys}))
+
+    @cached_property
+    def energies(self) -> EnergyBalance:
+        """Where the work goes, see ``EnergyBalance``."""
+        return _balance(self)
+
+    def scalars(self, name: str) -> RealArray:
+        """Attribute ``name`` of every step."""
+        return np.array([getattr(result, name) for result in self.steps], dtype=float)
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyBalance:
+    """Energies after each step of a history in J, counted from the touching of the unloaded bodies, dented as it found them.
+
+    A history that goes on from a loaded interface is counted from its first step instead. Integrals are trapezia through
+    the steps. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
+    change of the elastic energy, K being symmetric, the work of the displacement by shear, which is part of u, and the
+    plastic work, p being the hardness where dw > 0. F is the external force and that of the menisci. Periodic
+    bodies are measured without the mean mode on both sides.
+
+    Parameters
+    ----------
+    external_work
+        ∫ F dδ of the force between the solids over the approach, so of external load and menisci.
+    meniscus_work
+        The part of it that the menisci do.
+    elastic_energy
+        Half of pressure times displacement, less that at the start.
+    plastic_work
+        Sum of the plastic works of the steps.
+    shear_work
+        ∫ Σ p du of the displacement by shear: what sliding takes, or gives, by lifting the surfaces.
+    """
+
+    external_work: RealArray
+    meniscus_work: RealArray
+    elastic_energy: RealArray
+    plastic_work: RealArray
+    shear_work: RealArray
+
+    @property
+    def residual(self) -> RealArray:
+        """External work less all others: the error of the trapezoidal rule, of second order."""
+        return self.external_work - self.elastic_energy - self.plastic_work - self.shear_work
+
+    @property
+    def relative_error(self) -> float:
+        """Largest magnitude of the residual over the largest external work; zero where no work was done."""
+        largest = float(np.abs(self.external_work).max())
+        return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0
+
+
+def _balance(history: HistoryResult) -> EnergyBalance:
+    force, approach, elastic = history.force, history.approach, history.elastic_energy
+    plastic, pull = np.cumsum(history.plastic_work), history.force - history.external_force
+    shear = _shear_works(history)
+    start = history.start
+    if start is None or not start.pressure.any():
+        virgin = history.steps[0].problem.profile()
+        dented = virgin if start is None else virgin - start.permanent_indentation
+        approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
+        work, pulled = (np.cumsum(_trapezia(np.concatenate([[0.0], f]), approach)) for f in (force, pull))
+        shear = np.cumsum(shear)
+    else:
+        work, pulled = (np.concatenate([[0.0], np.cumsum(_trapezia(f, approach))]) for f in (force, pull))
+        elastic, plastic = elastic - elastic[0], plastic - plastic[0]
+        shear = np.cumsum(shear) - shear[0]
+    return EnergyBalance(work, pulled, elastic, plastic, shear)
+
+
+def _trapezia(force: RealArray, approach: RealArray) -> RealArray:
+    pieces: RealArray = 0.5 * (force[1:] + force[:-1]) * np.diff(approach)
+    return pieces
+
+
+def _shear_works(history: HistoryResult) -> RealArray:
+    """Σ p du (J) of the displacement by shear in every step, by the mean of the pressures before and after."""
+    pixel, works = history.steps[0].problem.grid.pixel_area, []
+    none = np.zeros(history.steps[0].pressure.shape)
+    pressure: RealArray = none
+    lift: RealArray = none
+    for result in history.steps:
+        now = none if result.sliding is None else result.sliding.shear_displacement
+        works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
+        pressure, lift = result.pressure, now
+    return np.array(works)
