@@ -3,13 +3,16 @@ from .contact import solvers
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
 from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
-from .contact.energy import EnergyBalance, energy_balance
-from .contact.laws import Hardness, HardWall, LayeredHardness
+from .contact.couplings.driver import CouplingCheck, Rounds
+from .contact.couplings.menisci import Menisci
+from .contact.couplings.sliding import GrossSliding
+from .contact.energy import energy_balance
+from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps
+from .contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
 from .contact.operators import prepare_operator
 from .contact.path import LoadPath, solve_path
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import ContactProblem, Flat
-from .contact.ramps import ramps
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
 from .contact.sliding import SlidingResult, solve_sliding
@@ -89,6 +92,8 @@ __all__ = [
     "ContactProblem",
     "ContactResult",
     "ConvergenceError",
+    "Coulomb",
+    "CouplingCheck",
     "CpuEngine",
     "DepthProfile",
     "Elastic",
@@ -103,8 +108,11 @@ __all__ = [
     "Friction",
     "Frictionless",
     "Grid",
+    "GrossSliding",
     "HardWall",
     "Hardness",
+    "History",
+    "HistoryResult",
     "InputError",
     "InterfaceState",
     "Keep",
@@ -119,6 +127,7 @@ __all__ = [
     "MaxPrincipal",
     "MeanGap",
     "MeanPressure",
+    "Menisci",
     "NoSolutionError",
     "Outcome",
     "OutputError",
@@ -128,11 +137,13 @@ __all__ = [
     "Rigid",
     "RigidBase",
     "Roughness",
+    "Rounds",
     "Section",
     "ShearTraction",
     "Sliding",
     "SlidingResult",
     "Steady",
+    "Step",
     "Strength",
     "StressField",
     "Surface",

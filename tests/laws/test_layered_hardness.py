@@ -114,7 +114,7 @@ def test_prescribed_positions(boundary, kind):
 
 def test_rounds_that_do_not_agree_are_flagged():
     class Restless:
-        """Softer whenever it is asked again."""
+        """Another one whenever it is asked again."""
 
         name = "restless"
         citation_keys = ()
@@ -125,7 +125,7 @@ def test_rounds_that_do_not_agree_are_flagged():
 
         def cap_at(self, indentation):
             self.asked += 1
-            return np.full(indentation.shape, 0.4 + 0.01 * (self.asked % 3))
+            return np.full(indentation.shape, 0.4 + 0.01 * (0.618 * self.asked % 1.0))
 
         def work_at(self, indentation):
             return 0.4 * indentation

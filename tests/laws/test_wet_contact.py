@@ -77,7 +77,7 @@ def test_the_steady_force_is_the_balance(problem):
 def test_stiffness_is_that_of_the_last_contact(problem):
     """Rounds leave it out; that of the contact at its end is the one of the same dry contact under load and menisci."""
     wet = asp.solve_wet(problem, LOAD, lubricant(1.0 * NM))
-    direct = asp.solve(problem, wet.contact.control, state=asp.InterfaceState(wet.contact.pressure))
+    direct = asp.solve(problem, asp.Force(wet.contact.force), state=asp.InterfaceState(wet.contact.pressure))
     assert wet.contact.normal_stiffness == pytest.approx(direct.normal_stiffness, rel=1e-4)
 
 

@@ -59,16 +59,7 @@ class Certificate:
     rounds: int = 1
 
 
-def certify(
-    qp: ContactQP,
-    solution: Solution,
-    *,
-    solver: str,
-    tolerance: float,
-    wall_time: float,
-    couplings: tuple[CouplingCheck, ...] = (),
-    rounds: int = 1,
-) -> Certificate:
+def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float, wall_time: float) -> Certificate:
     """Certificate of ``solution``, which took ``wall_time`` s."""
     p, deflection = solution.state.pressure, solution.state.deflection
     r = deflection - qp.profile
@@ -92,8 +83,6 @@ def certify(
         wall_time=wall_time,
         peak_memory=peak_memory(),
         solver=solver,
-        couplings=couplings,
-        rounds=rounds,
     )
 
 

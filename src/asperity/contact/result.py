@@ -20,7 +20,7 @@ from .certificate import Certificate
 from .control import Control
 from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Memory
-from .couplings.sliding import Sliding
+from .couplings.sliding import GrossSliding
 from .problem import ContactProblem
 from .state import InterfaceState
 from .stiffness import normal_stiffness
@@ -167,7 +167,7 @@ class ContactResult(Drawn):
         return self.couplings.get("menisci")
 
     @property
-    def sliding(self) -> Sliding | None:
+    def sliding(self) -> GrossSliding | None:
         """What the shear traction does to the contact; None where it is left out."""
         return self.couplings.get("sliding")
 
@@ -228,7 +228,7 @@ class ContactResult(Drawn):
         return before.with_heights(before.heights - self.permanent_indentation, f"indented for good, last load {load}")
 
 
-def assembled(
+def assemble(
     problem: ContactProblem,
     found: Contact,
     *,

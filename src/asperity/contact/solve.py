@@ -28,7 +28,7 @@ from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
-from .result import ContactResult, assembled
+from .result import ContactResult, assemble
 from .solvers.by_name import default_solver
 from .solvers.protocol import Solver
 from .state import InterfaceState
@@ -204,11 +204,10 @@ class Prepared:
             start = state.pressure if state.pressure.any() else None
         scale = _height_scale(self.profile, control, self.operator)
         return settle(
-            Posed(self.operator, self.profile, dented, control, scale, start),
+            Posed(self.operator, self.profile, dented, control, scale, start, None if state is None else state.earlier),
             self.couplings,
             {} if state is None else state.memory,
             self.solver,
-            earlier=None if state is None else state.earlier,
             rounds=self.rounds,
             progress=self.progress,
         )
@@ -230,11 +229,10 @@ class Prepared:
             solver=self.solver.name,
             tolerance=settled.tolerance,
             wall_time=seconds,
-            couplings=settled.checks,
-            rounds=settled.rounds,
         )
+        certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
         shown = replace(contact, solution=replace(contact.solution, status=settled.status))
-        result = assembled(
+        result = assemble(
             problem,
             shown,
             before=state,

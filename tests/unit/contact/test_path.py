@@ -148,8 +148,7 @@ def test_the_given_operator_serves_every_step(monkeypatch: pytest.MonkeyPatch) -
     def never(*_: object, **__: object) -> None:
         raise AssertionError("a second operator was prepared")
 
-    for module in ("path", "solve"):
-        monkeypatch.setattr(f"asperity.contact.{module}.prepare_operator", never)
+    monkeypatch.setattr("asperity.contact.solve.prepare_operator", never)
     seen = []
     for _ in steps(posed, pressures(LOADS), operator=counting):  # type: ignore[arg-type]
         seen.append(counting.asked["convolution"])
@@ -163,8 +162,7 @@ def test_without_operator_one_is_prepared(monkeypatch: pytest.MonkeyPatch) -> No
         made.append(options)
         return asp.prepare_operator(*arguments, **options)
 
-    for module in ("path", "solve"):
-        monkeypatch.setattr(f"asperity.contact.{module}.prepare_operator", counted)
+    monkeypatch.setattr("asperity.contact.solve.prepare_operator", counted)
     engine = asp.CpuEngine(1)
     asp.solve_path(problem(), pressures(LOADS), engine=engine)
     assert made == [{"engine": engine}]
@@ -215,9 +213,7 @@ def test_a_failed_first_step_leaves_the_given_state() -> None:
 
 
 def test_a_failed_step_raises_with_its_number_and_result() -> None:
-    with pytest.raises(
-        asp.ConvergenceError, match=r"Step 2 of the load path: Stagnated above .* Try another"
-    ) as caught:
+    with pytest.raises(asp.ConvergenceError, match=r"Step 2 of the history: Stagnated above .* Try another") as caught:
         asp.solve_path(problem(), pressures(LOADS), solver=Flaky(at=0.1))
     assert isinstance(caught.value.result, asp.ContactResult)
     assert caught.value.result.control == asp.MeanPressure(0.1)
@@ -225,7 +221,7 @@ def test_a_failed_step_raises_with_its_number_and_result() -> None:
 
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
 def test_a_step_without_solution_raises_with_its_number(on_failure: Any) -> None:
-    with pytest.raises(asp.NoSolutionError, match=r"Step 2 of the load path: mean pressure must be at most"):
+    with pytest.raises(asp.NoSolutionError, match=r"Step 2 of the history: mean pressure must be at most"):
         asp.solve_path(problem(asp.Hardness(0.4)), pressures((0.1, 0.5)), on_failure=on_failure)
 
 
@@ -265,9 +261,9 @@ def test_inputs_are_left_alone() -> None:
     ("controls", "message"),
     [
         ([], "must hold at least one control, but hold none"),
-        (asp.MeanPressure(0.1), r"must be a sequence, but is MeanPressure.*Write \[MeanPressure"),
-        (0.1, r"must be a sequence of controls, but is 0\.1"),
-        ([asp.MeanPressure(0.1), 0.2], r"control of step 2 of a load path must be .*, but is 0\.2"),
+        (asp.MeanPressure(0.1), r"must be a sequence, but are MeanPressure.*Write History\(\[MeanPressure"),
+        (0.1, r"must be a sequence of controls, but are 0\.1"),
+        ([asp.MeanPressure(0.1), 0.2], r"step 2 of a history must be .*, but is 0\.2"),
     ],
 )
 def test_wrong_controls_are_refused_before_any_step(controls: Any, message: str) -> None:

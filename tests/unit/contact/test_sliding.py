@@ -22,7 +22,7 @@ def test_without_coupling_friction_changes_nothing(body, counter_body, boundary)
     problem = asp.ContactProblem(rough(), body, counter_body=counter_body, boundary=boundary)
     slid, still = solve_sliding(problem, asp.MeanPressure(1e8), 0.5), asp.solve(problem, asp.MeanPressure(1e8))
     assert slid.converged
-    assert slid.rounds == 2
+    assert slid.rounds == 1
     np.testing.assert_allclose(slid.pressure, still.pressure, atol=1e-4 * still.max_pressure)
     np.testing.assert_allclose(slid.shear_displacement, 0.0, atol=1e-13 * np.abs(still.displacement).max())
 
@@ -137,14 +137,15 @@ def test_prescribed_approach_counts_from_the_true_surfaces():
 
 
 def test_a_pressure_that_does_not_settle_is_said_so():
-    """Friction times β = (1-2ν)/2(1-ν) = 4/9 beyond one: every round makes the change larger."""
+    """Friction times β = (1-2ν)/2(1-ν) = 4/9 beyond one: every plain round makes the change larger; extrapolation reaches a little further."""
     problem = asp.ContactProblem(rough((12, 10)), COMPRESSIBLE)
-    result = solve_sliding(problem, asp.MeanPressure(1e8), 6.0, on_failure="return")
-    assert not result.converged
-    assert "after 30 rounds" in result.status.message
+    assert solve_sliding(problem, asp.MeanPressure(1e8), 3.0).converged
+    result = solve_sliding(problem, asp.MeanPressure(1e8), 20.0, on_failure="return")
+    assert result.status.outcome == "stagnated"
+    assert "displacement by shear of the sliding contact still changes by" in result.status.message
     assert result.status.remedy
     with pytest.raises(asp.ConvergenceError, match="still changes"):
-        solve_sliding(problem, asp.MeanPressure(1e8), 6.0)
+        solve_sliding(problem, asp.MeanPressure(1e8), 20.0)
 
 
 def test_progress_counts_the_iterations_of_all_rounds():
@@ -160,7 +161,7 @@ def test_progress_counts_the_iterations_of_all_rounds():
     iterations, errors, tolerances = map(np.array, zip(*heard, strict=True))
     assert np.all(np.diff(iterations) >= 0)
     assert iterations[-1] >= slid.rounds
-    assert errors[-1] == slid.change <= tolerances[-1] == 1e-6
+    assert errors[-1] <= tolerances[-1] == 1e-12
     np.testing.assert_allclose(slid.pressure, solve_sliding(problem, asp.MeanPressure(1e8), 0.5).pressure, rtol=1e-12)
 
 

@@ -118,7 +118,6 @@ def settle(
     memories: Mapping[str, Memory],
     solver: Solver,
     *,
-    earlier: RealArray | None = None,
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
@@ -134,8 +133,6 @@ def settle(
         Memory of the step before by name of the coupling.
     solver
         Method of the normal solves; its tolerance is that of the last one, those before are looser.
-    earlier
-        Pressure (nx, ny) in Pa before that of ``posed.start``, on the same leg: loads beyond both extrapolate it.
     rounds
         When to give up.
     progress
@@ -146,7 +143,7 @@ def settle(
     NoSolutionError
         If the load cannot be borne, runs away, or the position has no solution.
     """
-    return _Iteration(posed, couplings, memories, solver, earlier, rounds, progress or NoProgress()).settled()
+    return _Iteration(posed, couplings, memories, solver, rounds, progress or NoProgress()).settled()
 
 
 class _Iteration:
@@ -158,7 +155,6 @@ class _Iteration:
         couplings: Sequence[Coupling],
         memories: Mapping[str, Memory],
         solver: Solver,
-        earlier: RealArray | None,
         rounds: Rounds,
         progress: Progress,
     ) -> None:
@@ -174,7 +170,7 @@ class _Iteration:
         self.active = [name for name, coupling in self.couplings.items() if coupling.feedback]
         needed = min(exchange.accuracy for exchange in self.exchanges.values())
         self.loosest, self.finest = min(_LOOSEST, needed), min(solver.tolerance, _FINER * needed)
-        self.pressures = [p for p in (earlier, posed.start) if p is not None and p.any()]
+        self.pressures = [p for p in (posed.earlier, posed.start) if p is not None and p.any()]
         self.residuals: dict[str, list[float]] = {name: [] for name in self.active}
         self.mixing, self.directions = Mixing(), dict[str, float]()
         self.told = _Told(progress, self.finest, lone=not self.active)
@@ -291,10 +287,16 @@ class _Iteration:
         return np.clip(latest + ratio * (latest - before), 0.0, qp.cap)
 
     def _goes_on(self) -> bool:
-        """Whether an unknown that is not smooth keeps the direction of its last step: such a one is bounded, and so comes to rest."""
-        steps = {n: float((e.target - e.x).sum()) for n, e in self.exchanges.items() if not (e.smooth or e.settled)}
-        on = any(step * self.directions.get(name, 0.0) > 0.0 for name, step in steps.items())
-        self.directions = steps
+        """Whether an unknown that is not smooth still moves and has never turned back: it is bounded, and so comes to rest."""
+        on = False
+        for name, exchange in self.exchanges.items():
+            if exchange.smooth:
+                continue
+            step = float((exchange.target - exchange.x).sum())
+            self.directions.setdefault(name, step)
+            if step * self.directions[name] < 0.0:
+                self.directions[name] = 0.0
+            on = on or (step * self.directions[name] > 0.0 and not exchange.settled)
         return on
 
     def _ratio(self, name: str) -> float:

@@ -120,8 +120,8 @@ class DepthHardness(Coupling):
         """The limit at the depth reached; where the solid hardens, at the one that a pixel on its own would reach."""
         before, x = exchange.note.before, exchange.x
         reached = before + added_indentation(contact)
-        limit, virgin = self.law.cap_at(reached), self.law.cap_at(before)
-        smooth = exchange.smooth and not bool((limit < virgin).any())
+        limit, virgin = np.asarray(self.law.cap_at(reached)), self.law.cap_at(before)
+        smooth = exchange.smooth and not bool(np.any(limit < virgin))
         return replace(
             exchange,
             target=self._sprung_back(before, reached, x) if smooth else limit,

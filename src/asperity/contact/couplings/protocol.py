@@ -38,6 +38,8 @@ class Posed:
         Length in m by which errors are made relative.
     start
         Pressure (nx, ny) in Pa to start from; None where nothing is known.
+    earlier
+        That of the load before ``start`` on the same leg, beyond which both are extrapolated; None where there is none.
     """
 
     operator: Operator
@@ -46,6 +48,7 @@ class Posed:
     control: Control
     height_scale: float
     start: RealArray | None = None
+    earlier: RealArray | None = None
 
     @cached_property
     def top(self) -> float:

@@ -31,7 +31,7 @@ _NOTHING = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
-class Sliding:
+class GrossSliding:
     """What the shear traction of a sliding contact does to it.
 
     Attributes
@@ -130,6 +130,6 @@ class SlidingCoupling(Coupling):
         """The change of the displacement."""
         return f"The normal displacement by shear of the sliding contact still changes by {exchange.residual:.1e}"
 
-    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, Sliding]:
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, GrossSliding]:
         """Nothing to remember: the displacement follows from the pressure."""
-        return {}, Sliding(self.friction.coefficient, self.friction.direction, exchange.x)
+        return {}, GrossSliding(self.friction.coefficient, self.friction.direction, exchange.x)
