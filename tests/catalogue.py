@@ -7,12 +7,42 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asperity import Approach, ContactProblem, Elastic, Force, Free, FreeLine, Frictionless, Grid, Hardness, HardWall, Layer, Layered, MeanGap, MeanPressure, Periodic, RigidBase, Surface
+from asperity import (
+    Approach,
+    ContactProblem,
+    Elastic,
+    Force,
+    Free,
+    FreeLine,
+    Frictionless,
+    Grid,
+    Hardness,
+    HardWall,
+    Layer,
+    Layered,
+    MeanGap,
+    MeanPressure,
+    Periodic,
+    RigidBase,
+    Surface,
+)
 from asperity.contact.boundary import Boundary
 from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.solve import Prepared
-from asperity.contact.solvers import ActiveSet, ConjugateGradient, ContactQP, DenseActiveSet, FixedOffset, Lemke, NonNegativeLeastSquares, QuasiNewton, Solution, Solver, SteepestDescent
+from asperity.contact.solvers import (
+    ActiveSet,
+    ConjugateGradient,
+    ContactQP,
+    DenseActiveSet,
+    FixedOffset,
+    Lemke,
+    NonNegativeLeastSquares,
+    QuasiNewton,
+    Solution,
+    Solver,
+    SteepestDescent,
+)
 from asperity.contact.solvers.protocol import scaled_to_load
 from asperity.core.arrays import RealArray
 from asperity.solids.layers import Body

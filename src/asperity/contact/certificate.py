@@ -9,8 +9,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.system import peak_memory
 from .couplings.driver import CouplingCheck
-from .solvers.protocol import best_level, duality_gap, level
-from .solvers.protocol import ContactQP, FixedMean, Solution
+from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, level
 
 
 @dataclass(frozen=True)

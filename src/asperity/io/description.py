@@ -11,7 +11,8 @@ import numpy as np
 
 from ..contact.boundary import Boundary
 from ..contact.control import Control
-from ..contact.laws import Hardness, HardWall, LayeredHardness
+from ..contact.couplings.driver import CouplingCheck
+from ..contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
 from ..contact.problem import Flat
 from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray
@@ -24,6 +25,8 @@ TYPES: tuple[type, ...] = (
     *get_args(Boundary),
     *get_args(Control),
     *get_args(Interface),
+    Coulomb,
+    CouplingCheck,
     Flat,
     Hardness,
     HardWall,

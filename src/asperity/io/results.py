@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.certificate import Certificate
+from ..contact.couplings.menisci import Menisci
+from ..contact.couplings.sliding import GrossSliding
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
-from ..core.arrays import RealArray, array_digest
+from ..contact.wetting import wetting
+from ..core.arrays import BoolArray, RealArray, array_digest
 from ..core.errors import FileFormatError
 from ..core.status import Outcome, Status
 from ..surfaces.surface import Origin, Surface
@@ -29,6 +32,15 @@ FORMAT_VERSION = 1
 
 PARTS = ("body", "counter_body", "boundary", "law", "control")
 """Attributes that describe problem and control, each a JSON text."""
+
+PHYSICS = ("film", "friction")
+"""The same for physics that a problem need not have."""
+
+_LATER = ("couplings", "rounds")
+"""Entries of the certificate that older files lack, written as JSON texts."""
+
+_MENISCI = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "feedback")
+"""Numbers of the menisci that do not follow from contact and film."""
 
 
 def dataset(result: ContactResult, *, document: str | None = None) -> xarray.Dataset:
@@ -147,19 +159,50 @@ def _result(data: xarray.Dataset) -> ContactResult:
     surface = _surface(arrays["heights"], attributes["surface"])
     if "counter_heights" in arrays:
         parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
-    certificate = {f.name: _plain(attributes[f"certificate_{f.name}"]) for f in fields(Certificate)}
+    parts |= {part: rebuild(json.loads(attributes[part])) for part in PHYSICS if part in attributes}
+    problem = ContactProblem(surface=surface, **parts)
+    certificate = {
+        f.name: _plain(attributes[f"certificate_{f.name}"]) for f in fields(Certificate) if f.name not in _LATER
+    }
+    certificate |= {
+        name: rebuild(json.loads(attributes[f"certificate_{name}"]))
+        for name in _LATER
+        if f"certificate_{name}" in attributes
+    }
+    certificate["couplings"] = tuple(certificate.get("couplings", ()))
     values: dict[str, Any] = {item.name: arrays[item.name] for item in FIELDS}
     values |= {item.name: data[item.name].item() for item in ALL_SCALARS}
     return ContactResult(
-        problem=ContactProblem(surface=surface, **parts),
+        problem=problem,
         control=control,
         plastic=arrays["plastic"].astype(bool),
         spot_areas=np.asarray(data["spot_areas"]),
         certificate=Certificate(**certificate),
         status=Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"]),
         citation_keys=tuple(attributes["citation_keys"].split()),
+        couplings=_couplings(problem, arrays, values["gap"], values["pressure"] > 0.0, attributes),
+        memory=_memories(attributes),
         **values,
     )
+
+
+def _couplings(
+    problem: ContactProblem, arrays: dict[str, Any], gap: RealArray, contact: BoolArray, attributes: dict[str, Any]
+) -> dict[str, Any]:
+    """What the couplings found, from the fields and what ``_physics`` wrote."""
+    found: dict[str, Any] = {}
+    if problem.film is not None and "menisci" in attributes:
+        stands = wetting(gap, contact, problem.film, wraps=problem.boundary.wraps)
+        found["menisci"] = Menisci(problem.film, stands, **rebuild(json.loads(attributes["menisci"])))
+    if problem.friction is not None and "shear_displacement" in arrays:
+        friction = problem.friction
+        found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays["shear_displacement"])
+    return found
+
+
+def _memories(attributes: dict[str, Any]) -> dict[str, dict[str, RealArray]]:
+    described = json.loads(attributes.get("memory", "{}"))
+    return {name: {key: np.asarray(value) for key, value in item.items()} for name, item in described.items()}
 
 
 def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dataset:
@@ -173,6 +216,9 @@ def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dat
         variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
     for item in FIELDS:
         variables[item.name] = _field(getattr(result, item.name), item.unit, item.label)
+    if result.sliding is not None:
+        lift = result.sliding.shear_displacement
+        variables["shear_displacement"] = _field(lift, "m", "normal displacement by shear")
     variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
     variables["plastic"] = _field(result.plastic, "1", "whether the pressure is at its limit")
     variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
@@ -203,7 +249,23 @@ def _attributes(result: ContactResult) -> dict[str, Any]:
     if isinstance(counter, Surface):
         described["counter_surface"] = _surface_text(counter)
     checks = {f"certificate_{f.name}": getattr(result.certificate, f.name) for f in fields(Certificate)}
-    return described | checks
+    checks |= {f"certificate_{name}": json.dumps(describe(getattr(result.certificate, name))) for name in _LATER}
+    return described | checks | _physics(result)
+
+
+def _physics(result: ContactResult) -> dict[str, str]:
+    """Film and friction of the problem, the numbers of the menisci, and what couplings remember, as JSON texts."""
+    found: dict[str, Any] = {
+        part: describe(value) for part in PHYSICS if (value := getattr(result.problem, part)) is not None
+    }
+    if result.menisci is not None:
+        found["menisci"] = {name: describe(getattr(result.menisci, name)) for name in _MENISCI}
+    if result.memory:
+        found["memory"] = {
+            name: {key: np.asarray(value).tolist() for key, value in memory.items()}
+            for name, memory in result.memory.items()
+        }
+    return {name: json.dumps(item) for name, item in found.items()}
 
 
 def _surface_text(surface: Surface) -> str:

@@ -62,7 +62,7 @@ def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path
         return prepared[-1]
 
     monkeypatch.setattr(importlib.import_module("asperity.run.execute"), "prepare_operator", counted)
-    monkeypatch.setattr("asperity.contact.wet.prepare_operator", counted)
+    monkeypatch.setattr(importlib.import_module("asperity.contact.solve"), "prepare_operator", counted)
     loads = ["1 MPa", "2 MPa", "4 MPa", "8 MPa"]
     made = plan(problem=WET, axes=[{"path": "control.mean_pressure", "values": loads}], quantities=["meniscus_force"])
     carry_out(made, tmp_path / "r.log", InProcess())

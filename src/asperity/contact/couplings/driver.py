@@ -338,9 +338,11 @@ class _Iteration:
     def _converged(self, contact: Contact, count: int) -> Status:
         if not self.active:
             return contact.solution.status
-        names = " and ".join(self.active)
-        message = f"Settled with {names} in {count} {'rounds' if count > 1 else 'round'}."
-        return Status(Outcome.CONVERGED, f"{contact.solution.status.message} {message}")
+        told = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
+        rounds = f"after {count} {'rounds' if count > 1 else 'round'}."
+        return Status(
+            Outcome.CONVERGED, " ".join([contact.solution.status.message, *(f"{text} {rounds}" for text in told)])
+        )
 
     def _given_up(self, count: int) -> Status:
         """Why it was given up, in the words of the coupling that is farthest from its tolerance."""

@@ -160,6 +160,10 @@ class DepthHardness(Coupling):
             return None
         return replace(exchange, x=0.5 * (exchange.x + bearing), note=replace(note, bearing=bearing))
 
+    def settled(self, exchange: Exchange) -> str:
+        """That the limit is."""
+        return "The hardness agrees with the depth of the indentation"
+
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the limit."""
         return f"The hardness still changes by {exchange.residual:.1e} with the depth of the indentation"

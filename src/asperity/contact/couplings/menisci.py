@@ -199,6 +199,10 @@ class MeniscusCoupling(Coupling):
         force = replace(note, force=float(exchange.x))
         return NoSolutionError(f"{self._runaway(note.external, force)} The contact bears no more: {error}")
 
+    def settled(self, exchange: Exchange) -> str:
+        """That the force is steady, and how the liquid stands."""
+        return f"The meniscus force is steady ({exchange.note.found.regime})"
+
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the force."""
         return f"The meniscus force still changes by {exchange.residual:.1e} of the external force"

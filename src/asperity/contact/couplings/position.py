@@ -135,6 +135,10 @@ class Position(Coupling):
         low = note.low if np.isfinite(note.low) else float(exchange.x) - _FARTHEST
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
 
+    def settled(self, exchange: Exchange) -> str:
+        """That it is reached."""
+        return "The prescribed position is reached"
+
     def unsettled(self, exchange: Exchange) -> str:
         """That no load reaches it, or how far it is."""
         if exchange.stuck:

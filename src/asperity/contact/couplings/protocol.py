@@ -13,8 +13,7 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import NoSolutionError
 from ..control import Control, Force, MeanPressure, Unloaded, mean_pressure
 from ..operators.protocol import Operator
-from ..solvers.protocol import level
-from ..solvers.protocol import ContactQP, Solution
+from ..solvers.protocol import ContactQP, Solution, level
 
 Memory: TypeAlias = Mapping[str, RealArray]
 """What a coupling remembers from one step to the next, by name; numbers are 0-d arrays."""
@@ -217,6 +216,10 @@ class Coupling(Protocol):
     def unbearable(self, exchange: Exchange, error: NoSolutionError) -> NoSolutionError | None:
         """The ``error`` that the load cannot be borne in words of this coupling, if it is the cause; else None."""
         return None
+
+    def settled(self, exchange: Exchange) -> str:
+        """That nothing changes any more: the beginning of a sentence that ends in "after 7 rounds"."""
+        return f"The share of {self.name} is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
         """What still changes and by how much: the beginning of a sentence that ends in "after 40 rounds"."""

@@ -15,9 +15,7 @@ import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
-from ...solids.compliance.tensor import coupling_influence
-from ...solids.compliance.tensor import coupling_strips
-from ...solids.compliance.tensor import surface_tensor
+from ...solids.compliance.tensor import coupling_influence, coupling_strips, surface_tensor
 from ..boundary import Free, Periodic
 from ..laws import Coulomb
 from ..problem import ContactProblem
@@ -125,6 +123,10 @@ class SlidingCoupling(Coupling):
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
+
+    def settled(self, exchange: Exchange) -> str:
+        """That the displacement is."""
+        return "The displacement by shear is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the displacement."""
