@@ -138,7 +138,7 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         onset_of_yield,
         (),
         ROUNDING,
-        "the same stresses; a maximum forgives the error of its place",
+        "the same stresses; at a maximum an error of the position is of second order",
     ),
     Agreement(
         "statistical-meniscus",
@@ -147,16 +147,16 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         dry_summits,
         (1e-2, 1e-4, 1e-6),
         1e-6,
-        "the pull of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach it, over 1e5 Pa",
+        "the meniscus force of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach it, over 1e5 Pa",
     ),
     Agreement(
         "kinetic-meniscus",
         "statistical-meniscus",
-        "long after contact, film held ever more weakly",
+        "long after contact, Hamaker constant to zero",
         grown_menisci,
         (1e-20, 1e-22, 1e-24),
         1e-6,
-        "gaps up to the film over the height of the menisci, which goes as the reciprocal of the Hamaker constant",
+        "film thickness over meniscus height, which goes as the reciprocal of the Hamaker constant",
     ),
     Agreement(
         "least-area",
@@ -165,7 +165,7 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         designed_area,
         (),
         0.1,
-        "the factor 3.2 is that of the middle of these loads",
+        "the factor 3.2 holds in the middle of this range of loads",
     ),
     Agreement(
         "cone",

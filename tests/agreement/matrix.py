@@ -1,4 +1,4 @@
-"""The agreement matrix: which theory must meet which, in what limit, to what tolerance. A new agreement is one more row.
+"""The agreement matrix: which theories must agree, in which limit, to what tolerance. One row per agreement.
 
 Each row holds a function from the parameter of the limit to the largest relative difference; it is evaluated at the values
 ``towards`` the limit. The difference at the last one must be within the tolerance, and smaller than at the one before.
@@ -213,11 +213,11 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "discrete-summits",
         "greenwood-williamson",
-        "summits at the quantiles of a Gaussian, more and more",
+        "summits at the quantiles of a Gaussian, number to infinity",
         quantile_summits,
         (1e2, 1e3, 1e4),
         5e-3,
-        "the last cell of the midpoint rule holds 1e-4 of the summits and the highest loads at D = 2",
+        "the last cell of the midpoint rule holds 1e-4 of the summits, those with the highest loads, at D = 2",
     ),
     Agreement(
         "discrete-summits",
@@ -298,7 +298,7 @@ MATRIX: tuple[Agreement, ...] = (
         exponential_pairs,
         (),
         ROUNDING,
-        "an exponential has no memory of the misalignment",
+        "for exponential heights misalignment only rescales the number of contacts",
     ),
     Agreement(
         "greenwood-tripp",
@@ -321,7 +321,7 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "chang-etsion-bogy",
         "greenwood-williamson",
-        "hardness beyond every contact",
+        "hardness above every contact pressure",
         lambda H: like_gw("chang-etsion-bogy", H),
         (5e9, 1e12),
         ROUNDING,
@@ -330,7 +330,7 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "kogut-etsion",
         "greenwood-williamson",
-        "hardness beyond every contact",
+        "hardness above every contact pressure",
         lambda H: like_gw("kogut-etsion", H),
         (5e9, 1e12),
         ROUNDING,
@@ -339,7 +339,7 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "jackson-green",
         "greenwood-williamson",
-        "yield stress beyond every contact",
+        "yield stress above every contact pressure",
         lambda Y: like_gw("jackson-green", Y),
         (2e9, 5e11),
         ROUNDING,
@@ -352,7 +352,7 @@ MATRIX: tuple[Agreement, ...] = (
         lambda work: like_gw("fuller-tabor", work),
         (1e-3, 1e-5, 1e-7),
         1e-3,
-        "extensions at pull-off go as the work to 2/3, against heights",
+        "the extension at pull-off over the height deviation goes as the work to the power 2/3",
     ),
     Agreement(
         "mccool",
@@ -448,7 +448,13 @@ MATRIX: tuple[Agreement, ...] = (
         "the same density of peaks",
     ),
     Agreement(
-        "majumdar-bhushan", "p/H", "light load", all_plastic, (1e3,), ROUNDING, "spots below the critical area flow"
+        "majumdar-bhushan",
+        "p/H",
+        "light load",
+        all_plastic,
+        (1e3,),
+        ROUNDING,
+        "spots below the critical area are plastic",
     ),
     Agreement(
         "hertz-ellipse",
@@ -493,12 +499,12 @@ MATRIX: tuple[Agreement, ...] = (
         lambda load: contacts_apart(make("rigid-sphere", E, R).at_load(load), HERTZ.at_load(load)),
         (1e-5, 1e-8, 1e-11),
         1e-7,
-        "the sphere leaves its parabola by (a/R)²",
+        "the sphere deviates from its parabola by (a/R)²",
     ),
     Agreement(
         "chang-etsion-bogy-sphere",
         "hertz",
-        "hardness beyond the contact",
+        "hardness above the contact pressure",
         lambda H: like_hertz("chang-etsion-bogy-sphere", H),
         (1e12,),
         ROUNDING,
@@ -507,7 +513,7 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "kogut-etsion-sphere",
         "hertz",
-        "hardness beyond the contact",
+        "hardness above the contact pressure",
         lambda H: like_hertz("kogut-etsion-sphere", H),
         (1e12,),
         ROUNDING,
@@ -516,7 +522,7 @@ MATRIX: tuple[Agreement, ...] = (
     Agreement(
         "jackson-green-sphere",
         "hertz",
-        "yield stress beyond the contact",
+        "yield stress above the contact pressure",
         lambda Y: like_hertz("jackson-green-sphere", Y),
         (5e11,),
         ROUNDING,

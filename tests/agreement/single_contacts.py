@@ -140,7 +140,7 @@ SINGLE_CONTACTS = (
     Agreement(
         "mindlin",
         "2 (1 - nu)/(2 - nu)",
-        "first stiffness over the normal one, equal bodies",
+        "initial tangential over normal stiffness, equal bodies",
         first_stiffness,
         (),
         ROUNDING,
@@ -153,7 +153,7 @@ SINGLE_CONTACTS = (
         lambda attraction: maugis_like("jkr", attraction),
         (1e9, 1e10, 1e11),
         1e-5,
-        "the ring narrows with the square of the attraction; 1/λ² is 1e-7 at the last",
+        "the width of the adhesive ring goes as 1/λ², 1e-7 at the last",
     ),
     Agreement(
         "maugis-dugdale",
@@ -171,7 +171,7 @@ SINGLE_CONTACTS = (
         pull_off_like_jkr,
         (1e-10, 1e-11, 1e-12),
         1e-5,
-        "the load is flat at its least: the square of deviation over reach, 5e-4 at the last",
+        "the load has a minimum there: second order in the deviation over the range of adhesion, 5e-4 at the last",
     ),
     Agreement(
         "greenwood-williamson",
