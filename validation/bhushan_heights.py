@@ -38,15 +38,15 @@ ABOUT = (
     "the steady values; areas are counted in pixels."
 )
 
-WORDS = """* Area and force fall with the kurtosis, as published, and by orders of magnitude at low loads: few high peaks carry the load
-  and keep the rest out of the film.
-* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is there at K = 3: area and force are
-  least near 0.2 and rise towards 0.5. (At 32.8 MPa, where summits push each other, the area does so, but the force goes on falling.)
-* It is no law of the two moments. What counts is how wide the highest hundredth of the surface is: from the height that 1 % exceeds to
-  that of 0.01 % there are 0.75, 1.37, 1.50 and 1.42 σ at a skewness of -0.5, 0, 0.2 and 0.5 with K = 3, because with K kept more skewness is
-  bought with a shorter tail, and 3.4 σ at K = 5. There area and force go on falling with the skewness.
+WORDS = """* Area and force fall with the kurtosis, as published, and by orders of magnitude at low loads: a few high peaks carry the load and hold the rest of
+  the surface outside the film.
+* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is found at K = 3: area and force have a minimum near
+  0.2 and rise towards 0.5. (At 32.8 MPa, where summits interact, the area does so, but the force continues to fall.)
+* It is not a function of the two moments alone. The governing quantity is the height range of the highest hundredth of the surface: from the height
+  that 1 % exceeds to that of 0.01 % there are 0.75, 1.37, 1.50 and 1.42 σ at a skewness of -0.5, 0, 0.2 and 0.5 with K = 3, because at constant K a
+  larger skewness implies a shorter tail, and 3.4 σ at K = 5. There area and force continue to fall with the skewness.
 * With h/σ the force changes less the larger the skewness, and by far least at a kurtosis of five or more, as published.
-* A kurtosis below 2.42 cannot be had from this filter on this grid. At 0.3 MPa and K ≥ 5 contact is a pixel or two. Maps are finite: those
+* A kurtosis below 2.42 is not possible with this filter on this grid. At 0.3 MPa and K ≥ 5 contact is a pixel or two. Maps are finite: those
   of K = 10 have 8.4 on average."""
 
 

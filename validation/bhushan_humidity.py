@@ -24,10 +24,10 @@ ABOUT = (
 
 WORDS = """* The force rises with the humidity, slowly at first and steeply above 70 %, as published, where the film grows from 0.03 to 0.34 nm and the
   menisci from 0.2 to 5 nm.
-* At 95 % the menisci, 10 nm high, fill all of the area between surfaces so smooth, and the force falls with the suction. A rougher or
-  wavy disk is not flooded so soon; the text says nothing of such a fall.
-* What makes the rise is the height of the menisci: the suction falls as its inverse, but the area within the height grows faster.
-* Below 50 % the radius of the menisci is that of a few molecules, and the film is thinner than one: numbers there are formal."""
+* At 95 % the menisci, 10 nm high, fill the whole area between such smooth surfaces, and the force falls with the suction. A rougher or wavy disk is
+  flooded at a higher humidity; the text does not mention such a decrease.
+* The rise is caused by the height of the menisci: the suction falls as its inverse, but the area within that height grows faster.
+* Below 50 % the radius of the menisci is a few molecular diameters, and the film is thinner than a monolayer: numbers there are formal."""
 
 
 def compare(count: int = 8, humidities: Sequence[float] = HUMIDITIES) -> Page:

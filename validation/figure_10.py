@@ -35,16 +35,23 @@ ABOUT = (
 )
 
 READING = (
-    "**Where it agrees.** With κ normalised by the rms gradient, the two reported slopes are those of secants at the loads of the figure: the summits of the map give "
+    "**Where it agrees.** With κ normalised by the rms gradient, the two reported slopes are those of secants at the loads of the figure: "
+    "the summits of the map give "
     "1.36 near 16 % of the area, interacting crests 1.60 near 5 %, on surfaces that contain the whole printed spectrum; 2.5 is √(2π).",
-    "**Where it does not.** (1) None of the slopes is a limit: κ of every asperity theory falls with the load, on a broad spectrum from 1 % of the area on. Bush, Gibson and "
-    "Thomas's own curve is at 1.6, not 2.5, at 2 % of the area: the asymptote belongs to loads nobody plots. (2) 1.36 lies below Persson's √(8/π) = 1.596, so that his areas "
-    "cannot be the smallest where that slope holds; they are below those of the asperity theories up to 2 to 5 % of the area, and on the surface cut at 50 nm up to nearly 20 %. (3) Elasticity itself "
-    "is above all of them: boundary elements give 2.2 falling to 2.0, with the area corrected for its pixels; counted pixels give more still. Boundary elements close to 1.6 cannot be "
+    "**Where it does not.** (1) None of the slopes is a limit: κ of every asperity theory falls with the load, on a broad spectrum from 1 "
+    "% of the area on. Bush, Gibson and "
+    "Thomas's own curve is at 1.6, not 2.5, at 2 % of the area: the asymptote holds only at loads far below those of the figure. (2) 1.36 "
+    "lies below Persson's √(8/π) = 1.596, so that his areas "
+    "cannot be the smallest where that slope holds; they are below those of the asperity theories up to 2 to 5 % of the area, and on the "
+    "surface cut at 50 nm up to nearly 20 %. (3) The boundary-element solution lies above all of them: 2.2 falling to 2.0, with the area "
+    "corrected for pixel bias; counted pixels give still larger values. Boundary elements close to 1.6 cannot be "
     "reproduced on these surfaces. (4) Greenwood and Williamson's area is 25 to 35 % too small on the whole spectrum (α = 20). "
-    "On the surface cut at 50 nm (α = 2.3, the Nayak parameter the chapter reports) it is within 10 % up to 2 % of the area and 22 % low at 20 %: the claim that it is accurate belongs to "
-    "that surface, the slope of 1.36 to the other. (5) Interaction lowers load and area together: at equal load it adds at most 4 % to the area here, not the 18 % between 1.36 and 1.60.",
-    "Interacting crests are paraboloids here, with the curvatures of the map: a map does not tell depth and wavelength of a crest. Loads with more than a thousand "
+    "On the surface cut at 50 nm (α = 2.3, the Nayak parameter the chapter reports) it is within 10 % up to 2 % of the area and 22 % low "
+    "at 20 %: the claim that it is accurate belongs to "
+    "that surface, the slope of 1.36 to the other. (5) Interaction lowers load and area together: at equal load it adds at most 4 % to the "
+    "area here, not the 18 % between 1.36 and 1.60.",
+    "Interacting crests are paraboloids here, with the curvatures of the map: a map does not determine depth and wavelength of a crest. "
+    "Loads with more than a thousand "
     "touching crests are left out for them.",
 )
 

@@ -74,7 +74,7 @@ def _entry(path: Path, level: str) -> Entry:
 
 
 def _index(made: list[Entry], level: str) -> str:
-    named = {quantity.path: quantity for quantity in asp.roughness.QUANTITIES}
+    named = {quantity.name: quantity for quantity in asp.roughness.QUANTITIES}
     head = "".join(f"<th>{escape(named[path].label)}</th>" for path in COLUMNS)
     rows, sections = [], []
     for entry in made:

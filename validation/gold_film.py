@@ -34,10 +34,10 @@ ABOUT = (
 )
 
 READING = (
-    "The printed numbers do not all belong together. The plateau of 380 nm⁴ gives 2.92 nm, 8 % more than the reported rms height; 325 nm⁴ would give "
+    "The printed numbers are not all consistent. The plateau of 380 nm⁴ gives 2.92 nm, 8 % more than the reported rms height; 325 nm⁴ would give "
     "2.7 nm. The Nayak parameter of 2.2 is that of the spectrum **cut at 50 nm**; with the −4.6 branch, which the generated surfaces contain, it is "
     "17 to 19, or 12 as finite differences on the 512² points see it, and the radius of the summits is four times smaller. The exponents mean "
-    "H = 2.25 and 1.3: below the roll-off the film is smooth, not self-affine. A branch close to −5 is what a blunt tip makes of any surface. "
+    "H = 2.25 and 1.3: below the roll-off the film is smooth, not self-affine. A branch close to −5 is what a blunt tip produces on any surface. "
     "Gaussian surfaces have kurtosis 3, not 2.7; rank ordering gives both the spectrum and the measured moments."
 )
 

@@ -44,13 +44,12 @@ ABOUT = (
 READING = (
     "**What agrees**: nearly proportional curves that bend down, a power of the load a little below one; all between Persson's theory, the lowest, and "
     "the line of Bush, Gibson & Thomas. **The film above the mean**: one surface scatters by 3 % of the mean at the lowest load and by 1 % at the "
-    "highest, so a film that lies up to 9 % higher is not one of the 1000 by chance. The chapter names three possible causes. Heights of the measured "
+    "highest, so a film with an area up to 9 % larger is not a random member of the 1000. The chapter names three possible causes. Heights of the measured "
     "skewness −0.08 and kurtosis 2.7 in place of Gaussian ones, with the same spectrum and the same gradient, raise the area at every load, the more the "
-    "lower it is (last column), and from a tenth of the area on by no more than the reported 9 %: the first of the causes is enough by itself. "
+    "lower it is (last column), and from a tenth of the area on by no more than the reported 9 %: the first of the causes is sufficient by itself. "
     "**What cannot be compared**: made dimensionless with the gradient of all waves, slopes of 1.36 to 1.60 would lie below ours at every load, and below "
     "Persson's limit of 1.60 as well. With the gradient of the waves down to 50 nm, of which Nayak's parameter is the reported 2.2, our slopes at large "
-    "loads are of that size; the chapter does not say which it takes. Its areas are counted pixels; their mean is given beside that freed of the pixel "
-    "bias (Yastrebov et al. 2017)."
+    "loads are of that size; the chapter does not say which it takes. Its areas are counted pixels; their mean is given beside that corrected for pixel bias (Yastrebov et al. 2017)."
 )
 
 
@@ -179,7 +178,10 @@ def _table(found: Curves, film: Curves, slope: float) -> Table:
         "Persson (%)",
         "film-like heights (%)",
     )
-    about = f"Mean and scatter of one surface (standard deviation over mean); κ = A E* h'/(A₀ p) with h' = {slope:.4f}; last: rank-ordered surfaces over Gaussian ones, 95 %:"
+    about = (
+        f"Mean and scatter of one surface (standard deviation over mean); κ = A E* h'/(A₀ p) with h' = {slope:.4f}; "
+        "last: rank-ordered surfaces over Gaussian ones, 95 %:"
+    )
     return Table(about, head, tuple(rows))
 
 

@@ -121,12 +121,14 @@ def _limit(name: str, load: str, unit: float, found: Convergence) -> tuple[str, 
 
 
 READING = (
-    "**What agrees**: up to 32² points the grid cannot show the waves at the roll-off of 90 nm; the surface is too flat and the area too large, on 4² "
-    "points everything touches. From 64² points on (two pixels are 47 nm) the rms height changes by 1 % and the mean gap by less than 10 %, and from 256² "
+    "**What agrees**: up to 32² points the grid cannot show the waves at the roll-off of 90 nm; the surface is too flat and the area too "
+    "large, on 4² points the contact is complete. From 64² points on (two pixels are 47 nm) the rms height changes by 1 % and the mean gap "
+    "by less than 10 %, and from 256² "
     "on curves of the area on a linear scale come close to each other. **What does not**: the area is not converged there. Below 50 nm the spectrum falls "
-    "as q^−4.6, and each finer grid adds waves that are low but steep: what is missing of the mean square gradient falls as h^0.6 only, and the area, "
-    "inversely proportional to the gradient, follows that slowly, on the finest grids with an order of about one half. Counted pixels add an error of "
-    "first order, for those on the edge of a spot count whole; the correction (Yastrebov et al. 2017) takes most of it. The rms height has the order "
+    "as q^−4.6, and each finer grid adds waves that are low but steep: the missing part of the mean square gradient falls only as h^0.6, "
+    "and the area, inversely proportional to the gradient, converges as slowly, on the finest grids with an order of about one half. "
+    "Counted pixels add an error of "
+    "first order, because those on the edge of a spot are counted fully; the correction (Yastrebov et al. 2017) removes most of it. The rms height has the order "
     "a − 2 = 2.6 of the same exponent. Where the spectrum ends at 50 nm nothing is added beyond 64²: the last tables show the error of the grid alone, "
     "far smaller from 256² points on, and the first order of the counted pixels. Areas of one surface without the bias then change by tenths of a "
     "per cent, too unevenly for an order."

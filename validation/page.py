@@ -78,7 +78,7 @@ class Page:
         rows = tuple(
             (claim.text, f"{claim.found:.3g}", claim.expected, "yes" if claim.holds else "NO") for claim in self.claims
         )
-        lines += Table("## What is claimed", ("claim", "found", "expected", "holds"), rows).lines()
+        lines += Table("## Claims and checks", ("claim", "found", "expected", "holds"), rows).lines()
         return "\n".join(lines) + "\n"
 
 

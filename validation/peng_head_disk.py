@@ -188,21 +188,21 @@ def _reading(found: Studies) -> str:
     sticking = disk.data["thickness"].size * disk.data["surface"].size - disk.answered(0.1)
     return f"""## Reading the tables
 
-* **Floor.** About 5 nm, as published, for every quantity: below it the carbon might as well not be there.
+* **Floor.** About 5 nm, as published, for every quantity: below it the carbon has no effect.
 * **Ceiling.** Published are 10⁴ nm for area and meniscus force and 10² nm for the largest pressure, ours are between {_range(disk)} nm
-  for all of them; that of the pressure is the lowest in ours, too. Waves of the surface of length λ reach about λ/2π down, and the longest with much power have some β* = 500 nm: on a
-  periodic cell nothing is felt from 10⁴ nm below. On a cell with nothing around it the load presses a dent as wide as
-  the cell; then the largest displacement has its ceiling beyond 10⁴ nm ({_ceilings(free, "max_displacement")} nm) and the largest pressure
-  one of {_ceilings(free, "max_pressure")} nm. The published split by two powers of ten has this mark of a finite patch, but area and
-  meniscus force have their ceilings at {_ceilings(free, "area_fraction")} and {_ceilings(free, "relative_meniscus_force")} nm there, too.
+  for all of them; that of the pressure is the lowest in ours, too. Waves of the surface of length λ reach about λ/2π down, and the longest with much
+  power have some β* = 500 nm: on a periodic cell a depth of 10⁴ nm has no influence. On an isolated cell (free boundary) the load makes a dent as
+  wide as the cell; then the largest displacement has its ceiling beyond 10⁴ nm ({_ceilings(free, "max_displacement")} nm) and the largest pressure
+  one of {_ceilings(free, "max_pressure")} nm. The published split by two powers of ten is characteristic of a finite patch, but area and meniscus
+  force have their ceilings at {_ceilings(free, "area_fraction")} and {_ceilings(free, "relative_meniscus_force")} nm there, too.
 * **No floor.** With E₁/E₂ = 0.1 the hardness of the carbon, 2 GPa, limits the pressure however thin it is. Without liquid the contact is
   some ten pixels, and its area changes by whole ones.
 * **Stiffness.** A stiff overcoat lowers area, displacement and meniscus force and raises the pressure, a compliant one does the
   opposite, as published.
-* **Menisci.** They pull with {force:.0f} times the external force: films of 2σ reach far, and what they pull together makes more of
-  them. With E₁/E₂ = 0.1 they run away in {sticking} cases, all with thick layers: such a disk sticks. The published largest displacement stays below 0.3 h,
-  1.5 nm at h = 5 nm; ours at that h and E₁/E₂ = 0.75 is {wet_depth:.1f} nm with the menisci and {dry_depth:.1f} nm without. This and fig. 3.20
-  (see [peng_menisci](peng_menisci.md)) speak for menisci that were not, or not fully, fed back into the published loads."""
+* **Menisci.** They pull with {force:.0f} times the external force: films of 2σ cover much of the area, and closing the gap enlarges the menisci
+  further. With E₁/E₂ = 0.1 they run away in {sticking} cases, all with thick layers: such a disk sticks. The published largest displacement stays
+  below 0.3 h, 1.5 nm at h = 5 nm; ours at that h and E₁/E₂ = 0.75 is {wet_depth:.1f} nm with the menisci and {dry_depth:.1f} nm without. This and
+  fig. 3.20 (see [peng_menisci](peng_menisci.md)) speak for menisci that were not, or not fully, fed back into the published loads."""
 
 
 def _range(curves: Curves) -> str:
@@ -214,7 +214,7 @@ def _ceilings(curves: Curves, quantity: str) -> str:
     return " and ".join(_nanometres(curves.critical(quantity, ratio).ceiling) for ratio in curves.ratios)
 
 
-MEMS = """Peng computes nothing for silicon (E₂ = 170 GPa, counter face rigid, E₁/E₂ = 0.82 and 1.65), but infers that it lies between the two
+MEMS = """Peng gives no computed values for silicon (E₂ = 170 GPa, counter face rigid, E₁/E₂ = 0.82 and 1.65), but infers that it lies between the two
 disks. It does so: relative to no carbon, each quantity changes less than with E₁/E₂ = 0.75 and 1.75 on the disk under the same
 counter face."""
 

@@ -60,8 +60,7 @@ def _table(ratio: float, thicknesses: Sequence[float], found: Sequence[Found], b
     return Table(f"E₁/E₂ = {ratio:g}:", head, tuple(rows))
 
 
-WORDS = f"""* The limits are those of elasticity: the base for h → 0 and the material of the layer for h → ∞. (Sec. 3.2.6.2
-  says it the other way round, a slip.)
+WORDS = f"""* The limits are those of elasticity: the base for h → 0 and the material of the layer for h → ∞. (Sec. 3.2.6.2 states the reverse, a slip.)
 * Nearly all of the change happens between 0.01 and 1 β*: contacts are about as wide as a pixel, {SIDE / PIXELS * 1e9:.0f} nm or 0.16 β*. At the
   h/β* = 2 of table 3.1 the layer is all but infinitely thick."""
 

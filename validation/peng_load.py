@@ -41,10 +41,10 @@ ABOUT = (
     "dry and of h = 1 µm."
 )
 
-WORDS = """* The area is linear in the load over four decades, plastic or not. Below some 10⁻⁶ E₂ it is a handful of pixels.
+WORDS = """* The area is linear in the load over four decades, plastic or not. Below about 10⁻⁶ E₂ it is only a few pixels.
 * The pressure reaches the hardness at a load that rises with E₁/E₂, as in the figure.
-* Fₘ/W falls with the load. At small loads it is that of one summit, whatever the load; at large loads it falls slowly, as menisci grow
-  less than contact does. Like in the figure it goes from about 1 to 10⁻², and is smaller under a stiffer layer.
+* Fₘ/W falls with the load. At small loads it is the force of one summit, independent of the load; at large loads it falls slowly, as the meniscus
+  area grows less than the contact area. As in the figure it falls from about 1 to 10⁻², and is smaller under a stiffer layer.
 * With σ = 10 nm the force that the menisci add to the load matters only where the load is smallest."""
 
 

@@ -38,7 +38,7 @@ TRIALS = (
 ABOUT = (
     "Peng (2001, sec. 3.2.6.1, figs 3.18 and 3.20): the meniscus force with film and menisci of the height σ, water (72.75 mN/m, 60° on both "
     "sides), β* = 0.5 µm, E₂ = 100 GPa, hardness 0.05 E₁. With X = pₙβ*/E₂σ his law is Fₘ ∝ γAₙX/σ. Area and pressure are on the pages "
-    "[peng_scaling](peng_scaling.md) and [peng_layer_effect](peng_layer_effect.md). Two forces are told apart: that of the menisci in the contact "
+    "[peng_scaling](peng_scaling.md) and [peng_layer_effect](peng_layer_effect.md). Two forces are distinguished: that of the menisci in the contact "
     "under the external load W alone, and the steady one, for which the contact bears W and the menisci."
 )
 
@@ -132,11 +132,11 @@ def _law(shapes: Sequence[asp.Surface]) -> tuple[Table, tuple[Claim, ...]]:
     return Table(about, head, tuple(rows)), tuple(claims)
 
 
-LAW = """* Under the external load alone Fₘ rises more slowly than X. Menisci stand around summits that nearly touch, of which a small
-  load has relatively more. Peng takes it as proportional to the area "for the sake of simplification".
+LAW = """* Under the external load alone Fₘ rises more slowly than X. Menisci form around summits that nearly touch, which are relatively more numerous at
+  small load. Peng takes the force as proportional to the area "for the sake of simplification".
 * The steady force depends on γβ*/E₂σ² as well. At σ = 10 nm it is nearly that under W; at σ = 1 nm it is many times as large, because
-  there the menisci press the surfaces together more than the load does, and hardly depends on the load (Fₘ/W ∝ 1/X). So a law in X
-  alone is one for menisci that are weak, or not fed back."""
+  there the menisci press the surfaces together more than the load does, and hardly depends on the load (Fₘ/W ∝ 1/X). So a law in X alone holds for
+  weak menisci, or without feedback."""
 
 
 def _layer(data: xarray.Dataset) -> tuple[Table, tuple[Claim, ...]]:
@@ -170,9 +170,9 @@ def _layer_claims(means: dict[str, np.ndarray], alone: float, steady: float) -> 
         yield Claim(f"{name}: endless stiff layer over no layer", float(stiff[-1] / stiff[0]), 0.4, 0.9)
 
 
-LAYER = """* The ordinate of the figure is that of menisci under the external load alone, though the flow chart of Peng feeds their
-  force back. Table 3.1 is dry, too: its rows of one pixel carry pₙ and nothing more. With σ = 1 nm and water the steady force is some ten times as large, and the
-  interface far from the published one.
+LAYER = """* The ordinate of the figure is that of menisci under the external load alone, though the flow chart of Peng includes the feedback. Table 3.1 is also
+  dry: its rows of one pixel carry pₙ alone. With σ = 1 nm and water the steady force is some ten times as large, and the interface far from the
+  published one.
 * A compliant layer raises the force and a stiff one lowers it, most of it between 0.02 and 1 β*, as in the figure."""
 
 

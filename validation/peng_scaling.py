@@ -216,12 +216,13 @@ def _of_ratio(curves: Sequence[Curve], name: str) -> np.ndarray:
 def _words(curves: Sequence[Curve], theirs: Sequence[Curve], count: int, stressed: int) -> str:
     return f"""Ours are {count} surfaces (stresses: {stressed}), without hardness.
 
-* The area is nearly proportional to X. At small X there are few contact pixels, and the highest summit of a finite surface tells.
-* The largest pressure and √J2 rise together, but slower than X^(1/3), in his numbers as in ours.
-* At X = 2·10⁻³ the area goes as E₁/E₂ to the power {_spread(_of_ratio(curves, "area"))} (theirs {_of_ratio(theirs, "area")[0]:.2f}), and pₘₐₓ to {_spread(_of_ratio(curves, "peak"))} (theirs {_of_ratio(theirs, "peak")[0]:.2f}), where the
-  laws say −1 and 1. The second is at odds with the others: contacts of a pixel feel little more than the layer, for which X and the
-  unit of stress contain E₁, so that pₘₐₓ ∝ X^m at given E₁/E₂ entails pₘₐₓ ∝ (E₁/E₂)^(1−m), the power found.
-* The coefficient Aᵣ/AₙX belongs to his pixel of 78 nm (see [peng_table_3_1](peng_table_3_1.md))."""
+* The area is nearly proportional to X. At small X there are few contact pixels, and the highest summit of a finite surface has an influence.
+* The largest pressure and √J2 have the same exponent, which is below 1/3, in his results as in ours.
+* At X = 2·10⁻³ the area goes as E₁/E₂ to the power {_spread(_of_ratio(curves, "area"))} (theirs {_of_ratio(theirs, "area")[0]:.2f}), and pₘₐₓ to
+  {_spread(_of_ratio(curves, "peak"))} (theirs {_of_ratio(theirs, "peak")[0]:.2f}), where the laws say −1 and 1. The second is at odds with the
+  others: contacts of one pixel are governed by the layer alone, for which X and the unit of stress contain E₁, so that pₘₐₓ ∝ X^m at given E₁/E₂
+  entails pₘₐₓ ∝ (E₁/E₂)^(1−m), the power found.
+* The coefficient Aᵣ/AₙX holds for his pixel size of 78 nm (see [peng_table_3_1](peng_table_3_1.md))."""
 
 
 def _claims(curves: Sequence[Curve], theirs: Sequence[Curve]) -> tuple[Claim, ...]:

@@ -133,18 +133,18 @@ def _table(found: Contacts, coatings: Sequence[Coating], frictions: Sequence[flo
 
 LEAD = "Stresses over E₂σ/β*, each with its mean depth in nm:"
 
-TRENDS = """* μ raises the largest √J2, σt and σxz, and lifts the first and the last from 0.3 pixels and more below the surface onto it.
+TRENDS = """* μ raises the largest √J2, σt and σxz, and moves the maxima of the first and the last from 0.3 pixels and more below the surface to the surface.
 * The stiff layer has the higher stresses throughout, the compliant one the lower ones.
 * A thin layer (50 nm, less than a pixel) carries a high shear stress at its interface.
-* He says that the largest σt and σxz always are on the surface. For σxz that cannot be so without friction, where it vanishes there (it is 0.4
-  to 0.7 pixels below). For σt it is so but for the thin stiff layer at μ = 0, which bends under the contacts: its largest tension
+* Peng states that the largest σt and σxz are always at the surface. For σxz this is impossible without friction, since it vanishes there (its
+  maximum is 0.4 to 0.7 pixels below). For σt it holds except for the thin stiff layer at μ = 0, which bends under the contacts: its largest tension
   is at its lower side.
 * Pressures do not depend on friction unless the displacement that the shear traction causes is included. Even then, with a rigid counter body
   and ν = 0.3, where it is large, area and largest pressure change by less than 1 % (`asperity.solve_sliding`; see the claims)."""
 
-PIXELS_LEAD = """The contacts are about one pixel wide, so numbers depend on what is thought to act between the points: above, the trigonometric interpolation
-of the pressure, as in his influence coefficients. With constant tractions on the pixels (free boundary, fewer surfaces) √J2 is about a tenth
-higher without friction, and the tension at the edges about half as high with it. The trends are the same:"""
+PIXELS_LEAD = """The contacts are about one pixel wide, so the values depend on the assumed interpolation between the points: above, the
+trigonometric interpolation of the pressure, as in his influence coefficients. With constant tractions on the pixels (free boundary, fewer
+surfaces) √J2 is about a tenth higher without friction, and the tension at the edges about half as high with it. The trends are the same:"""
 
 
 def _claims(found: Contacts) -> tuple[Claim, ...]:

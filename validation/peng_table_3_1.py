@@ -65,7 +65,7 @@ ABOUT = (
     "`asperity.solve` with `Hardness(0.05 E₁)`. z is (theirs − mean)/standard deviation."
 )
 
-ASSUMPTIONS = f"""## What we assume
+ASSUMPTIONS = f"""## Assumptions
 
 * Poisson's ratio 0.3 in layer and base, frictionless, rigid counter body.
 * {PIXELS} × {PIXELS} points on 20 × 20 µm²: all 34 printed areas are whole multiples of 1/{PIXELS}², though the text says 256.
@@ -75,8 +75,7 @@ ASSUMPTIONS = f"""## What we assume
   expectation.
 
 The last table below shows what other choices change: less than the scatter, except for the size of the pixel. An exponential
-autocorrelation has no finest wavelength, its slopes grow without limit as pixels shrink, and with them all numbers of
-the table; they belong to pixels of 78 nm."""
+autocorrelation has no finest wavelength, its slopes grow without limit as pixels shrink, and with them all values of the table; they hold for pixels of 78 nm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,11 +196,11 @@ def _reading(rows: list[Row]) -> str:
     return f"""## Reading the table
 
 * **One surface.** Rows of equal E₁/E₂ and X = pₙβ*/E₂σ have the same contact pixels (79 in three rows of E₁/E₂ = 1, 41 in three of
-  E₁/E₂ = 2), so all of his rows belong to one surface and deviate together. On ours the largest pressures of the {len(elastic)} elastic rows of
-  {MANY} pixels or more go together with a mean correlation of {alike:.2f}: they are hardly more than one number. His surface is one
+  E₁/E₂ = 2), so all of his rows are from one surface and their deviations are correlated. On ours the largest pressures of the {len(elastic)} elastic rows of
+  {MANY} pixels or more have a mean correlation of {alike:.2f}: they are hardly more than one independent number. His surface is one
   whose highest summits are somewhat blunter than most (mean z = {theirs:.1f}; {blunter} of our {count} are blunter still), which is
-  why his pressures lie on one side in all of these rows. That everything is within two standard deviations is therefore worth a
-  few independent numbers, not {2 * len(rows)}.
+  why his pressures lie on one side in all of these rows. That all values are within two standard deviations therefore amounts to a
+  few independent checks, not {2 * len(rows)}.
 * **His accuracy.** The three rows of X = 2·10⁻³ and E₁/E₂ = 0.5 must have the same pixels, too, but have 147, 151 and 151: 3 %.
 * **Few pixels.** One pixel is 0.0015 %. The rows of one pixel carry {PIXELS}² pₙ there, whatever the surface: 0.02601 and 0.06503
   against the printed 0.0260 and 0.0650."""

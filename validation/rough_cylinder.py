@@ -188,13 +188,12 @@ def _table(rough: Contacts, smooth: Contacts) -> Table:
     return Table(about, head, tuple(rows))
 
 
-WORDS = """* On the base alone roughness makes the pressures several times Hertz's, on fewer strips.
+WORDS = """* On the base alone roughness raises the largest pressure to several times the Hertzian one, on a smaller width.
 * The compliant layer enlarges the contact and lowers the pressure, the stiff one does the reverse, the more the thicker it is.
-* Friction moves zone and load in the direction of the friction force on the cylinder, in proportion to μ: pressures fall on one side and
-  rise on the other. (Behind a tangential force the surface rises, before it the surface sinks, by reciprocity with a normal force
-  that draws the surface towards itself. An elastic cylinder on a rigid half-space moves the other way.) On thick layers the shift is larger
-  on the compliant one.
-* Friction neither enlarges the contact nor lowers the pressure to speak of, as Peng objects to Mao et al."""
+* Friction shifts zone and load in the direction of the friction force on the cylinder, in proportion to μ: pressures decrease on one side and
+  increase on the other. (Behind a tangential force the surface rises, before it the surface sinks, by reciprocity with a normal force that draws the
+  surface towards itself. An elastic cylinder on a rigid half-space moves the other way.) On thick layers the shift is larger on the compliant one.
+* Friction neither enlarges the contact nor lowers the pressure noticeably, in agreement with Peng's objection to Mao et al."""
 
 
 def _claims(rough: Contacts) -> tuple[Claim, ...]:

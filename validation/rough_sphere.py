@@ -182,12 +182,12 @@ def _depths(found: dict[tuple[str, float], list[Seen]], roughness: Sequence[floa
     )
 
 
-WORDS = f"""* The largest pressure is several times Hertz's and grows with the roughness; theirs is that of σ = {ALIKE * 1e9:g} nm, about.
-* Outside the contact the displacement hardly differs from that under the smooth sphere: the deformation is Hertzian at large. The rougher
-  the sphere, the wider the load is spread, so both the displacement outside and the stresses far below deviate with σ.
-* The largest √J2 lies just under the surface, below the asperities; at half a contact radius and more below it is nearly that under the
-  smooth sphere.
-* With G₁/G₂ = 1.26 the layer changes the stresses little, but as it bears 4.4 times as much, much less of the body yields."""
+WORDS = f"""* The largest pressure is several times the Hertzian one and grows with the roughness; the published one is about that of σ =
+  {ALIKE * 1e9:g} nm.
+* Outside the contact the displacement hardly differs from that under the smooth sphere: the deformation is Hertzian on the large scale. The rougher
+  the sphere, the wider the load is distributed, so both the displacement outside and the stresses far below deviate with σ.
+* The largest √J2 lies just below the surface, under the asperities; at depths of half a contact radius and more it is nearly that under the smooth sphere.
+* With G₁/G₂ = 1.26 the layer changes the stresses little, but since its yield stress is 4.4 times as large, much less of the body yields."""
 
 
 def _claims(found: dict[tuple[str, float], list[Seen]], roughness: Sequence[float]) -> tuple[Claim, ...]:

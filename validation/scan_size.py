@@ -21,17 +21,22 @@ SIDES = (4e-6, 8e-6, 16e-6, 32e-6, 64e-6, 128e-6)
 VARIANCE, SLOPE, _ = MODEL.moments()
 
 ABOUT = (
-    "Poon & Bhushan (1995), in Bhushan (1998, fig. 32), scanned disk substrates by AFM on squares of different size with 256 × 256 points each. The rms height grows with "
-    "the size of the scan and is constant beyond 16 µm, from which they infer a longest wavelength of 16 µm; the correlation length keeps growing, which they "
-    "put down to the sampling interval that grows with the scan. Here windows of a random surface of known spectrum are scanned in the same way: "
-    "roll-off at 16 µm, Hurst exponent 0.8, shortest wave 50 nm; heights in units of the rms height of the infinite surface. Expected values are integrals over the spectrum."
+    "Poon & Bhushan (1995), in Bhushan (1998, fig. 32), scanned disk substrates by AFM on squares of different size with 256 × 256 points "
+    "each. The rms height grows with "
+    "the size of the scan and is constant beyond 16 µm, from which they infer a longest wavelength of 16 µm; the correlation length keeps "
+    "growing, which they attribute to the sampling interval that grows with the scan. Here windows of a random surface of known spectrum "
+    "are scanned in the same way: "
+    "roll-off at 16 µm, Hurst exponent 0.8, shortest wave 50 nm; heights in units of the rms height of the infinite surface. Expected "
+    "values are integrals over the spectrum."
 )
 
 READING = (
-    "The rms height saturates at one to two roll-off wavelengths: what was read as the longest wavelength of the surface is its roll-off. Well below the roll-off the correlation "
+    "The rms height saturates at one to two roll-off wavelengths: what was interpreted as the longest wavelength of the surface is its "
+    "roll-off. Well below the roll-off the correlation "
     "length is a fifth of the scan **for every sampling interval**: a levelled window of a self-affine surface has no other length. At 16 µm it is still "
-    "a fifth to a third below its limit, which needs three roll-off wavelengths; that is the growth which was observed. The sampling interval plays no part: it "
-    "is far below the correlation length throughout. Slopes do depend on it: with the number of points kept, they fall as the scan grows."
+    "a fifth to a third below its limit, which needs three roll-off wavelengths; that is the growth which was observed. The sampling "
+    "interval is not the cause: it is far below the correlation length throughout. Slopes do depend on it: with the number of points kept, "
+    "they fall as the scan grows."
 )
 
 
@@ -124,7 +129,8 @@ def page(count: int = 20, sides: tuple[float, ...] = SIDES) -> Page:
         about=ABOUT,
         parts=(
             Table(
-                f"{count} scans of each size, plane removed; β_e is the 1/e length along x, mean and deviation of one scan; slopes over those of the continuous surface:",
+                f"{count} scans of each size, plane removed; β_e is the 1/e length along x, mean and deviation of one scan; slopes over "
+                "those of the continuous surface:",
                 ("scan (µm)", "pixel (nm)", "σ expected", "σ", "β_e (µm)", "β_e / scan", "peak to valley", "rms slope"),
                 tuple(rows),
             ),

@@ -19,7 +19,8 @@ PIXEL = SIDE / POINTS
 
 ABOUT = (
     "Rough surfaces in the studies of Peng (2001) and Bhushan (1998) are generated with an rms height of 1 nm and a correlation length of 0.5 µm at which "
-    "the autocorrelation has fallen to 0.1, on 20 µm × 20 µm with 256 × 256 points. What such a surface must show follows from the autocorrelation at "
+    "the autocorrelation has fallen to 0.1, on 20 µm × 20 µm with 256 × 256 points. The expected roughness parameters of such a surface "
+    "follow from the autocorrelation at "
     "lags of a few pixels; here surfaces are generated and characterised as measured maps."
 )
 

@@ -43,7 +43,7 @@ def test_page_belongs_to_the_script(name):
     """Title and claims; numbers are those of more surfaces and points."""
     page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")
     assert written.startswith(f"# {page.title}\n")
-    claims = written[written.index("## What is claimed") :]
+    claims = written[written.index("## Claims and checks") :]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
     assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
     assert {row[-1] for row in rows[1:]} == {"yes"}
