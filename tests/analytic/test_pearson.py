@@ -32,6 +32,7 @@ BESIDE_LINES = [
     (1.0, 4.9704),
     (2.0, 9.3),
     (1e-4, 3.0),
+    (1e-11, 3.0),
     (3.0, 20.0),
 ]
 U_SHAPED = [(0.0, 1.3), (1.0, 2.3)]
@@ -138,6 +139,11 @@ def test_moments_of_the_excess_are_integrals_of_each_other(skewness, above):
     slope = float(np.diff(law.excess_moment(2.0, [d - step, d + step]))[0]) / (2.0 * step)
     assert slope == pytest.approx(-2.0 * float(law.excess_moment(1.0, d)), rel=1e-6)  # F_m' = -m F_(m-1)
     assert float(law.excess_moment(0.0, d)) == pytest.approx(float(law.survival(d)), rel=1e-9)
+
+
+def test_small_probabilities_next_to_the_line_of_type_three():
+    law, p = Pearson(0.5, 3.375 - 1e-8), np.array([1e-22, 1e-18, 1e-12])  # a beta distribution with a shape above 1e8
+    np.testing.assert_allclose(law.cdf(law.quantile(p)), p, rtol=1e-9)
 
 
 def test_all_types_are_met():

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,11 +18,7 @@ from numpy.typing import ArrayLike
 from . import require
 from .arrays import RealArray
 from .errors import InputError
-from .pearson_beta import BetaCurve, BetaPrimeCurve
-from .pearson_curves import Curve, MirroredCurve, NormalCurve
-from .pearson_gamma import GammaCurve, InverseGammaCurve
-from .pearson_iv import StudentLikeCurve
-from .quadrature import partial_moment
+from .quadrature import LogDensity, partial_moment
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
@@ -31,7 +27,13 @@ TYPES = ("normal", "I", "II", "III", "IV", "V", "VI", "VII")
 """Types of the system in the order of their numbers."""
 
 _ON_LINE = 1e-11  # relative distance from a line between two types below which that of the line serves
+_SYMMETRIC = 1e-8  # |skewness| taken for zero: that is the error made, and the one of rounding if it were not
 _TABLE_STEP, _TABLE_REACH = 0.02, 10.0  # quantiles at normal numbers, between which a cubic spline is good to 1e-8
+_PANEL, _ORDER = 0.125, 10  # type IV: panels in t = arsinh x and Gauss points in each; twice as many change nothing
+_REACH = 190.0  # the tails fall at least as x^-6, that is below exp(-745), the least positive number
+_NEAREST = 1e-100  # distance from the end of type V below which its density is zero
+_LEAST = 1e-300  # probabilities below are taken for this one
+_NEWTON = 4  # steps, each of which squares an error that starts below 1e-2
 
 
 @dataclass(frozen=True)
@@ -89,9 +91,10 @@ class Pearson:
     def type(self) -> str:
         """Type of the curve, one of ``TYPES``."""
         c0, _, c2, _ = self._scaled
+        symmetric = abs(self.skewness) <= _SYMMETRIC
         if abs(c2) <= _ON_LINE * c0:
-            return "normal" if self.skewness == 0.0 else "III"
-        if self.skewness == 0.0:
+            return "normal" if symmetric else "III"
+        if symmetric:
             return "II" if c2 < 0.0 else "VII"
         if c2 < 0.0:
             return "I"
@@ -107,7 +110,8 @@ class Pearson:
     @property
     def support(self) -> tuple[float, float]:
         """Bounds between which the density is positive, infinite where there is none."""
-        return self._curve.low, self._curve.high
+        low, high = self._curve.low, self._curve.high
+        return (-high, -low) if self.skewness < 0.0 else (low, high)
 
     def pdf(self, x: ArrayLike) -> RealArray:
         """Density at ``x`` (any shape), zero outside of the support."""
@@ -115,20 +119,23 @@ class Pearson:
         low, high = self.support
         inside = (given > low) & (given < high)
         safe = np.where(inside, given, 0.0)
-        density: RealArray = np.where(inside, np.exp(self._curve.log_density(safe, safe - low, high - safe)), 0.0)
+        density: RealArray = np.where(inside, np.exp(self._log_density(safe, safe - low, high - safe)), 0.0)
         return density
 
     def cdf(self, x: ArrayLike) -> RealArray:
         """Probability of values below ``x`` (any shape), relatively accurate where it is small."""
-        return self._curve.lower(np.asarray(x, dtype=np.float64))
+        given, law = np.asarray(x, dtype=np.float64), self._curve.law
+        return np.asarray(law.sf(-given) if self.skewness < 0.0 else law.cdf(given))
 
     def survival(self, x: ArrayLike) -> RealArray:
         """Probability of values above ``x`` (any shape), relatively accurate where it is small."""
-        return self._curve.upper(np.asarray(x, dtype=np.float64))
+        given, law = np.asarray(x, dtype=np.float64), self._curve.law
+        return np.asarray(law.cdf(-given) if self.skewness < 0.0 else law.sf(given))
 
     def quantile(self, probability: ArrayLike) -> RealArray:
         """x below which values lie with the given ``probability``, between 0 and 1 (any shape)."""
-        return self._curve.at_lower(np.asarray(probability, dtype=np.float64))
+        given, law = np.asarray(probability, dtype=np.float64), self._curve.law
+        return np.asarray(-law.isf(given) if self.skewness < 0.0 else law.ppf(given))
 
     def of_normal(self, normal: ArrayLike) -> RealArray:
         """The number of this distribution for each standard ``normal`` number (any shape); increasing.
@@ -151,7 +158,7 @@ class Pearson:
             If m is not between -1 and 4; higher moments do not exist for all types.
         """
         require.between(order, -1.0, 4.0, "order of the moment of the excess")
-        return partial_moment(self._curve.log_density, self.support, order, np.asarray(level, dtype=np.float64))
+        return partial_moment(self._log_density, self.support, order, np.asarray(level, dtype=np.float64))
 
     @property
     def _scaled(self) -> tuple[float, float, float, float]:
@@ -161,30 +168,22 @@ class Pearson:
         return c0, c1, 2.0 * b2 - 3.0 * b1 - 6.0, 10.0 * b2 - 12.0 * b1 - 18.0
 
     @cached_property
-    def _curve(self) -> Curve:
-        curve = self._curve_of_positive_skewness()
-        return MirroredCurve(curve) if self.skewness < 0.0 else curve
+    def _curve(self) -> _Curve:
+        """The curve of the skewness without its sign; the distribution of negative skewness is that of -x."""
+        return _curve(self.type, *self._scaled)
 
-    def _curve_of_positive_skewness(self) -> Curve:
-        c0, c1, c2, delta = self._scaled
-        if self.type == "normal":
-            return NormalCurve()
-        if self.type == "III":
-            return GammaCurve(c0 / delta, c1 / delta)
-        if self.type in ("IV", "VII"):
-            return StudentLikeCurve(c0 / delta, c1 / delta, c2 / delta)
-        if self.type == "V":
-            return InverseGammaCurve(c1 / delta, c2 / delta)
-        far = -0.5 * (c1 + math.sqrt(max(0.0, c1**2 - 4.0 * c0 * c2))) / c2  # a sum of one sign: no digits cancel
-        a1, a2 = sorted((far, c0 / (c2 * far)))
-        m1, m2 = (delta * a1 + c1) / (c2 * (a2 - a1)), -(delta * a2 + c1) / (c2 * (a2 - a1))
-        return BetaPrimeCurve(a1, a2, m1, m2) if self.type == "VI" else BetaCurve(a1, a2, m1, m2)
+    def _log_density(self, x: RealArray, from_low: RealArray, from_high: RealArray) -> RealArray:
+        if self.skewness < 0.0:
+            return self._curve.relative(-x, from_high, from_low) - self._curve.log_norm
+        return self._curve.relative(x, from_low, from_high) - self._curve.log_norm
 
     def _at_normal(self, normal: RealArray) -> RealArray:
         from scipy.special import ndtr
 
-        tail = ndtr(-np.abs(normal))
-        return np.where(normal < 0.0, self._curve.at_lower(tail), self._curve.at_upper(tail))
+        law, tail, mirrored = self._curve.law, ndtr(-np.abs(normal)), self.skewness < 0.0
+        of_low = (normal < 0.0) != mirrored
+        x = np.where(of_low, law.ppf(tail), law.isf(tail))
+        return -x if mirrored else x
 
     @cached_property
     def _table(self) -> CubicSpline:
@@ -211,3 +210,209 @@ def require_possible(skewness: float, kurtosis: float) -> None:
             f"kurtosis of the heights must be at least 1 + skewness² = {least:.4g}, as that of every distribution, "
             f"but is {kurtosis:.4g}. It is 3, not 0, for Gaussian heights."
         )
+
+
+# The curves, of positive skewness. Distribution functions and most quantiles are SciPy's; its densities lose 1e-8 where shape
+# parameters reach 1e6 (skewness 1e-3 on the line of type III), whereas ln f(x)/f(0) with a norm by quadrature keeps its digits.
+
+
+class _Law(Protocol):
+    """Distribution function and quantiles from below and from above, as ``scipy.stats`` names them."""
+
+    def cdf(self, x: RealArray, /) -> RealArray: ...
+    def sf(self, x: RealArray, /) -> RealArray: ...
+    def ppf(self, q: RealArray, /) -> RealArray: ...
+    def isf(self, q: RealArray, /) -> RealArray: ...
+
+
+@dataclass(frozen=True, eq=False)
+class _Curve:
+    """A distribution ``law``, ``relative`` = ln f(x)/f(0) and the ends."""
+
+    law: _Law
+    relative: LogDensity
+    low: float = -math.inf
+    high: float = math.inf
+
+    @cached_property
+    def log_norm(self) -> float:
+        """Logarithm of the integral of f(x)/f(0); without a lower end, of the part above 0 and of that below, mirrored."""
+        if math.isfinite(self.low):
+            return math.log(partial_moment(self.relative, (self.low, self.high), 0.0, np.array(self.low)))
+        ends, zero = (-math.inf, math.inf), np.zeros(())
+        above = partial_moment(self.relative, ends, 0.0, zero)
+        return math.log(above + partial_moment(lambda x, low, high: self.relative(-x, high, low), ends, 0.0, zero))
+
+
+def _curve(kind: str, c0: float, c1: float, c2: float, delta: float) -> _Curve:
+    """Curve of the type ``kind`` with the coefficients c0/delta, c1/delta >= 0 and c2/delta."""
+    from scipy import stats
+
+    law: _Law
+    if kind == "normal":
+        return _Curve(stats.norm(), lambda x, *_: -0.5 * x**2)
+    if kind == "III":  # (x - low)^(shape - 1) exp(-x/scale)
+        shape, low, scale = c0 * delta / c1**2, -c0 / c1, c1 / delta
+        law = stats.gamma(shape, low, scale)
+        return _Curve(law, lambda x, y, _: (shape - 1.0) * _log_ratio(x, y, -low) - x / scale, low)
+    if kind == "IV":
+        four = _TypeIV(c0 / delta, c1 / delta, c2 / delta)
+        return _Curve(four, lambda x, *_: four.relative(x))
+    if kind == "V":
+        return _type_v(c1 / delta, c2 / delta)
+    if kind == "VII":  # (1 + c2 x²/c0)^-m
+        m = 0.5 * delta / c2
+        law = stats.t(2.0 * m - 1.0, scale=math.sqrt(c0 / c2 / (2.0 * m - 1.0)))
+        return _Curve(law, lambda x, *_: -m * np.log1p(c2 / c0 * x**2))
+    far = -0.5 * (c1 + math.sqrt(max(0.0, c1**2 - 4.0 * c0 * c2))) / c2  # a sum of one sign: no digits cancel
+    a1, a2 = sorted((far, c0 / (c2 * far)))
+    width = a2 - a1
+    m1, m2 = (delta * a1 + c1) / (c2 * width), -(delta * a2 + c1) / (c2 * width)
+    if kind == "VI":  # (x - a1)^m1 (x - a2)^m2 above a2 > a1
+        law = _Beta(m2 + 1.0, -m1 - m2 - 1.0, a2, width, prime=True)
+        return _Curve(law, lambda x, y, _: m1 * _log_ratio(x, y + width, -a1) + m2 * _log_ratio(x, y, -a2), a2)
+    law = _Beta(m1 + 1.0, m2 + 1.0, a1, width)  # (x - a1)^m1 (a2 - x)^m2
+    return _Curve(law, lambda x, y, rest: m1 * _log_ratio(x, y, -a1) + m2 * _log_ratio(-x, rest, a2), a1, a2)
+
+
+def _type_v(c1: float, c2: float) -> _Curve:
+    """y^-(shape + 1) exp(-b/y), y = x - low."""
+    from scipy import stats
+
+    shape, low = 1.0 / c2 - 1.0, -0.5 * c1 / c2
+    b = -(low + c1) / c2
+
+    def relative(x: RealArray, from_low: RealArray, _from_high: RealArray) -> RealArray:
+        y = np.maximum(from_low, _NEAREST)
+        return -b / low * (x / y) - (shape + 1.0) * _log_ratio(x, y, -low)
+
+    return _Curve(stats.invgamma(shape, low, b), relative, low)
+
+
+def _log_ratio(x: RealArray, from_end: RealArray, distance: float) -> RealArray:
+    """ln(1 + x/distance) = ln(from_end/distance), the form of it that keeps its digits."""
+    near = np.abs(x) < 0.5 * distance
+    with np.errstate(divide="ignore"):
+        far = np.log(np.where(near, 1.0, from_end) / distance)
+    values: RealArray = np.where(near, np.log1p(np.where(near, x, 0.0) / distance), far)
+    return values
+
+
+class _Beta:
+    """Types I and II, where z = (x - low)/width has a beta distribution of p and q, and VI, where z/(1 - z) is that ratio."""
+
+    def __init__(self, p: float, q: float, low: float, width: float, *, prime: bool = False) -> None:
+        from scipy import stats
+
+        law = stats.betaprime(p, q, low, width) if prime else stats.beta(p, q, low, width)
+        self.cdf, self.sf = law.cdf, law.sf
+        self.p, self.q, self.low, self.width, self.prime = p, q, low, width, prime
+
+    def ppf(self, q: RealArray, /) -> RealArray:
+        """The x below which values have the probability ``q``."""
+        return self._x(*_beta_quantiles(self.p, self.q, q))
+
+    def isf(self, q: RealArray, /) -> RealArray:
+        """The x above which values have the probability ``q``."""
+        return self._x(*_beta_quantiles(self.q, self.p, q)[::-1])
+
+    def _x(self, z: RealArray, rest: RealArray) -> RealArray:
+        if self.prime:
+            with np.errstate(divide="ignore"):
+                return np.asarray(self.low + self.width * z / rest)
+        return np.where(z < rest, self.low + self.width * z, self.low + self.width - self.width * rest)
+
+
+def _beta_quantiles(a: float, b: float, probability: RealArray) -> tuple[RealArray, RealArray]:
+    """z below which a number with the beta distribution of a, b lies, and 1 - z; by the first term of the series at small z.
+
+    SciPy's inverses are nan or far off for some probabilities below 1e-15 (a = 1.03, b = 0.44), where that term is all that counts.
+    """
+    from scipy.special import betainccinv, betaincinv, betaln
+
+    with np.errstate(divide="ignore"):
+        first = np.exp((np.log(probability) + math.log(a) + float(betaln(a, b))) / a)
+    z = np.where(first * max(1.0, b) < 1e-9, first, betaincinv(a, b, probability))
+    return z, np.asarray(betainccinv(b, a, probability))
+
+
+@dataclass(frozen=True)
+class _TypeIV:
+    """(1 + u²)^(-m) exp(-ν arctan u), u = (x - λ)/a, m = 1/(2 c2), λ = -c1/(2 c2), a² = c0/c2 - λ², ν = (c1 + λ)/(c2 a).
+
+    Its distribution function is integrated over t, x = sinh t, in which the algebraic tails are exponential ones.
+    """
+
+    c0: float
+    c1: float
+    c2: float
+
+    def cdf(self, x: RealArray, /) -> RealArray:
+        """Probability below ``x``."""
+        values: RealArray = self._below(np.arcsinh(x)) / self._sums[-1]
+        return values
+
+    def sf(self, x: RealArray, /) -> RealArray:
+        """Probability above ``x``."""
+        return self._mirrored.cdf(-x)
+
+    def ppf(self, q: RealArray, /) -> RealArray:
+        """The x below which values have the probability ``q``."""
+        x, low = np.empty(q.shape), q <= 0.5
+        x[low] = self._in_lower_half(q[low])
+        x[~low] = -self._mirrored._in_lower_half(np.maximum(1.0 - q[~low], 0.0))
+        return x
+
+    def isf(self, q: RealArray, /) -> RealArray:
+        """The x above which values have the probability ``q``."""
+        return -self._mirrored.ppf(q)
+
+    def relative(self, x: RealArray) -> RealArray:
+        """ln f(x)/f(0); the arctangents at x and 0 are taken together, which leaves digits where m and ν are large."""
+        shift = 0.5 * self.c1 / self.c2
+        a = math.sqrt(self.c0 / self.c2 - shift**2)
+        turn = np.arctan2(2.0 * a * self.c2 * x, 2.0 * self.c0 + self.c1 * x)
+        power = np.log1p(x * (self.c1 + self.c2 * x) / self.c0) / (2.0 * self.c2)
+        values: RealArray = -power - (self.c1 - shift) / (self.c2 * a) * turn
+        return values
+
+    @cached_property
+    def _mirrored(self) -> _TypeIV:
+        return _TypeIV(self.c0, -self.c1, self.c2)
+
+    @cached_property
+    def _edges(self) -> RealArray:
+        return np.linspace(-_REACH, _REACH, round(2.0 * _REACH / _PANEL) + 1)
+
+    @cached_property
+    def _sums(self) -> RealArray:
+        """∫ f(x)/f(0) dx below each edge."""
+        return np.concatenate([[0.0], np.cumsum(self._integral(self._edges[:-1], self._edges[1:]))])
+
+    def _integral(self, start: RealArray, end: RealArray) -> RealArray:
+        """∫ f(x)/f(0) dx over t from ``start`` to ``end``, within one panel."""
+        points, weights = np.polynomial.legendre.leggauss(_ORDER)
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
+        values: RealArray = half * (self._weight(middle[..., None] + half[..., None] * points) @ weights)
+        return values
+
+    def _weight(self, t: RealArray) -> RealArray:
+        """f(x)/f(0) dx/dt."""
+        values: RealArray = np.exp(self.relative(np.sinh(t)) + np.logaddexp(t, -t) - math.log(2.0))
+        return values
+
+    def _below(self, t: RealArray) -> RealArray:
+        """∫ f(x)/f(0) dx below ``t``."""
+        t = np.clip(t, -_REACH, _REACH)
+        panel = np.clip(((t + _REACH) / _PANEL).astype(np.intp), 0, self._edges.size - 2)
+        values: RealArray = self._sums[panel] + self._integral(self._edges[panel], t)
+        return values
+
+    def _in_lower_half(self, probability: RealArray) -> RealArray:
+        """The x below which values have a ``probability`` (n,) of at most a half: Newton's method for its logarithm."""
+        p, known = np.maximum(probability, _LEAST), self._sums > _LEAST**1.02
+        t: RealArray = np.interp(np.log(p), np.log(self._sums[known] / self._sums[-1]), self._edges[known])
+        for _ in range(_NEWTON):
+            below = self._below(t)
+            t = t - np.log(below / self._sums[-1] / p) * below / self._weight(t)
+        return np.where(probability > 0.0, np.sinh(t), -math.inf)

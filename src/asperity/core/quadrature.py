@@ -32,8 +32,9 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
     return (low + half * (x + 1.0)).reshape(shape), (half * w).reshape(shape)
 
 
-# Moments of the part of a distribution above a level: ∫ (s - D)^m f(s) ds over s > D.
-
+# Moments of the part of a distribution above a level: ∫ (s - D)^m f(s) ds over s > D. scipy.integrate.tanhsinh (1.17) over the
+# same pieces stops early at some levels of some curves (errors up to 8e-10 at rtol = 1e-13, against 1e-12 here); made as exact
+# by minlevel = 5 it takes two to six times as long.
 
 _STEP = 0.02  # of the trapezoidal rule over τ; half of it changes no moment by more than 1e-11 of itself
 _REACH = 6.5  # |τ| beyond which a node lies within 1e-400 of its end
