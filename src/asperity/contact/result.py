@@ -23,7 +23,7 @@ from .couplings.protocol import Contact, Memory
 from .couplings.sliding import GrossSliding
 from .problem import ContactProblem
 from .state import InterfaceState
-from .stiffness import normal_stiffness
+from .solvers.active_set.linear_system import normal_stiffness
 
 PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""

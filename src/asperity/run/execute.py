@@ -18,8 +18,8 @@ from ..contact.path import LoadPath, predicted, steps
 from ..contact.result import ContactResult
 from ..contact.sliding import solve_sliding
 from ..contact.solve import Keep, solve
+from ..contact.solvers.active_set.linear_system import normal_stiffness
 from ..contact.state import InterfaceState
-from ..contact.stiffness import normal_stiffness
 from ..contact.wet import solve_wet
 from ..core.engine import CpuEngine
 from ..core.errors import AsperityError, InputError

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..core.arrays import ComplexArray, RealArray
-from ..core.engine.cpu import FEW, Blocks
+from ..core.engine.cpu import SERIAL_BELOW, Blocks
 from ..core.errors import InputError
 from ..core.interpolation import Panels, panels
 from ..core.spectral import PaddedTransform, RealTransform, SplitTransform, fast_length, thread_count, wrapped
@@ -187,9 +187,9 @@ class PeriodicPlanes:
         lines = int(np.count_nonzero(self._waves()[0] < _limit(plane)))
         between = self._room(len(means), lines)
         fields = out or [np.empty(shape, self.dtype) for _ in means]
-        alone = shape[0] * shape[1] < FEW
-        self._blocks.share(self._first, lines, make, means, between, alone=alone)
-        self._blocks.share(self._second, shape[0], between, fields, alone=alone)
+        alone = shape[0] * shape[1] < SERIAL_BELOW
+        self._blocks.share(self._first, lines, make, means, between, serial=alone)
+        self._blocks.share(self._second, shape[0], between, fields, serial=alone)
         return fields
 
     def _room(self, count: int, lines: int) -> ComplexArray:

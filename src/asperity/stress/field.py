@@ -344,7 +344,7 @@ class _Search:
         self._components = tuple(vars(self._flat).values())
         count = -(-self._flat.xx.size // self._size)
         found = np.empty((count, len(self._kernels.BOUNDS)))
-        blocks.share(self._kernels.block_bounds, count, self._components, found, alone=count < 64)
+        blocks.share(self._kernels.block_bounds, count, self._components, found, serial=count < 64)
         self._bounds = dict(zip(self._kernels.BOUNDS, found.T, strict=True))
         self._margin = 16.0 * float(np.finfo(self._flat.xx.dtype).eps * np.abs(found).max())  # rounding of the bounds
 

@@ -12,7 +12,7 @@ from contact_cases import elastic, rough
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
-from asperity.contact.solvers.active_set.cells import COARSEST, coarsened, nested_start
+from asperity.contact.solvers.active_set.solver import COARSEST, coarsened, nested_start
 from asperity.contact.solvers.by_name import default_solver
 from asperity.contact.solvers.protocol import relative_error
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -76,25 +76,61 @@ def test_steps_go_on_in_the_same_arrays_and_count_their_work(boundary: Any, cap:
 
 @BOUNDARIES
 @pytest.mark.parametrize("cap", [np.inf, 0.3])
+@pytest.mark.parametrize("precision", ["mixed", "single"])
+def test_the_same_steps_follow_from_a_copied_state_to_the_bit(boundary: Any, cap: float, precision: Any) -> None:
+    """Wherever in a run the copy is made, and although the run goes on in between, in work arrays that both share."""
+    qp, solver = replace(posed((70, 66), boundary), cap=cap), ActiveSet(precision=precision)
+    state, copies = solver.init(qp, None), []
+    for _ in range(6):
+        copies.append(state.copy())
+        state = solver.step(qp, state)
+    for made_after, branch in enumerate(copies):
+        for _ in range(made_after, 6):
+            branch = solver.step(qp, branch)
+        np.testing.assert_array_equal(branch.pressure, state.pressure)
+        np.testing.assert_array_equal(branch.deflection, state.deflection)
+        assert (branch.error, branch.iterations, branch.applications, branch.extra_pairs) == (
+            state.error,
+            state.iterations,
+            state.applications,
+            state.extra_pairs,
+        )
+
+
+def test_steps_leave_a_copied_state_alone_and_refuse_one_used_up() -> None:
+    qp, solver = posed((40, 36)), ActiveSet()
+    state = solver.step(qp, solver.init(qp, None))
+    kept = state.copy()
+    pressure, deflection = kept.pressure.copy(), kept.deflection.copy()
+    solver.step(qp, solver.step(qp, state))
+    np.testing.assert_array_equal(kept.pressure, pressure)
+    np.testing.assert_array_equal(kept.deflection, deflection)
+    for use_again in (lambda: solver.step(qp, state), state.copy):
+        with pytest.raises(asp.InputError, match=r"must be the latest of its run.* state\.copy\(\)"):
+            use_again()
+
+
+@BOUNDARIES
+@pytest.mark.parametrize("cap", [np.inf, 0.3])
 @pytest.mark.parametrize("control", [FixedMean(0.05), FixedOffset(1.0)], ids=["load", "position"])
 def test_the_reported_error_is_that_of_the_fields(boundary: Any, cap: float, control: Any) -> None:
-    """Of what presses, and the share that pulls added; the deflection is that of the pressure at every step."""
+    """Of the positive pressures, plus tension over load; the deflection is that of the pressure at every step."""
     qp = replace(posed((40, 36), boundary), cap=cap, constraint=control)
     for precision, rounding in (("mixed", 2.0**-22), ("double", 1e-12)):
         solver = ActiveSet(precision=precision)  # type: ignore[arg-type]
-        state, pulls = solver.init(qp, None), []
+        state, tensions = solver.init(qp, None), []
         for _ in range(4):
             exact = qp.operator.apply(state.pressure)
             largest = float(np.abs(exact).max())
             pressing = np.maximum(state.pressure, 0.0)
-            pulls.append((pressing - state.pressure).sum() / pressing.sum())
-            expected = relative_error(qp, pressing, exact) + pulls[-1]
+            tensions.append((pressing - state.pressure).sum() / pressing.sum())
+            expected = relative_error(qp, pressing, exact) + tensions[-1]
             assert state.error == pytest.approx(expected, rel=1e-6, abs=rounding * largest / qp.height_scale)
             np.testing.assert_allclose(state.deflection, exact, atol=rounding * largest)
             if control == FixedMean(0.05):
                 assert state.pressure.mean() == pytest.approx(0.05, rel=rounding)
             state = solver.step(qp, state)
-        assert (max(pulls) > 0.0) == np.isinf(cap)  # with a cap no step is free
+        assert (max(tensions) > 0.0) == np.isinf(cap)  # with a cap all steps are clipped
 
 
 @BOUNDARIES
@@ -109,25 +145,27 @@ def test_answers_keep_their_bounds_and_load_whenever_a_run_ends(boundary: Any) -
 @BOUNDARIES
 def test_monotone_steps_lead_to_the_same_answer_with_more_products(boundary: Any) -> None:
     qp = posed((128, 120), boundary)
-    free, monotone = (run(ActiveSet(tolerance=1e-9, monotone=flag), qp) for flag in (False, True))
-    scale = float(free.state.pressure.max())
+    unclipped, monotone = (run(ActiveSet(tolerance=1e-9, monotone=flag), qp) for flag in (False, True))
+    scale = float(unclipped.state.pressure.max())
     # errors of 1e-9 leave a pressure within some 1e-6, see the accuracy table of the benchmarks
-    np.testing.assert_allclose(free.state.pressure, monotone.state.pressure, atol=1e-5 * scale)
-    pairs = [s.state.applications * qp.operator.pairs_per_application + s.state.extra_pairs for s in (free, monotone)]
+    np.testing.assert_allclose(unclipped.state.pressure, monotone.state.pressure, atol=1e-5 * scale)
+    pairs = [
+        s.state.applications * qp.operator.pairs_per_application + s.state.extra_pairs for s in (unclipped, monotone)
+    ]
     assert pairs[0] < pairs[1]
 
 
-def test_free_steps_end_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With first steps ten times too long none of them helps: careful ones take over, and the answer is found."""
-    monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP", 8.0)
+def test_unclipped_steps_end_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With first steps ten times too long none of them helps: clipped ones take over, and the answer is found."""
+    monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP_LENGTH", 8.0)
     qp = posed((64, 60))
     state, solver = ActiveSet().init(qp, None), ActiveSet(tolerance=1e-9)
-    frees = 0
+    unclipped = 0
     while state.error > solver.tolerance:
         state = solver.step(qp, state)
-        frees += int(state.memory.idle is not None)  # type: ignore[attr-defined]
+        unclipped += int(state.memory.unsuccessful is not None)  # type: ignore[attr-defined]
         assert state.iterations < 60
-    assert 3 <= frees < state.iterations
+    assert 3 <= unclipped < state.iterations
     assert state.pressure.min() >= 0.0
 
 
@@ -155,7 +193,7 @@ def test_coarser_problems_cover_the_same_area_and_keep_means(shape: tuple[int, i
     cut = qp.profile[: even[0], : even[1]]
     assert restricted(cut).mean() == pytest.approx(cut.mean(), abs=1e-13)
     halved = restricted(cut)
-    flat = qp.operator.engine.refined(halved, halved, cut, 0.0)
+    flat = qp.operator.engine.prolonged(halved, halved, cut, 0.0)
     np.testing.assert_array_equal(restricted(flat), np.maximum(halved, 0.0))
 
 

@@ -6,20 +6,20 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.contact.solvers.active_set import linear_system as workspace
-from asperity.contact.solvers.active_set.cells import Waves, hierarchies, pixel_compliance, waves_of
+from asperity.contact.solvers.active_set import linear_system
+from asperity.contact.solvers.active_set.cells import CoarseCorrection, coarse_correction, hierarchies, pixel_compliance
 from asperity.contact.solvers.active_set.linear_system import (
-    Bench,
-    Effort,
+    LinearSystem,
     NestedCells,
     RestrictedInverse,
-    System,
-    bench,
-    correction,
+    ScaledOperator,
+    Stopping,
+    conjugate_gradients,
     preconditioner,
 )
+from asperity.contact.solvers.active_set.solver import free_set
 from asperity.core.arrays import RealArray
-from asperity.core.engine import Engine, Face, Hierarchy
+from asperity.core.engine import Engine, FreeSet, Hierarchy
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
 
 BODY = HalfSpace(2.0)
@@ -121,23 +121,23 @@ def on_set(
     compliance: Compliance = BODY,
     boundary: asp.Boundary | None = None,
     engine: Engine | None = None,
-) -> tuple[Bench, Face]:
+) -> tuple[ScaledOperator, FreeSet]:
     operator = asp.prepare_operator(compliance, grid(inside.shape), boundary or asp.Periodic(), engine=engine)
-    tools = bench(operator, "float64", 1.0)
+    scaled = ScaledOperator.of(operator, "float64", 1.0)
     zero = np.zeros(inside.shape)
-    return tools, operator.engine.survey(inside, zero, zero, None).face(0.0, 1.0, "float64")
+    return scaled, free_set(operator.engine.survey(inside, zero, zero, None), 0.0, 1.0, "float64")
 
 
 def steps_to(
     inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.Boundary | None = None
 ) -> float:
     """FFT pairs of the grid to reduce the residual of a rough right side."""
-    tools, face = on_set(inside, compliance, boundary)
-    r, _ = face.pick(np.random.default_rng(0).standard_normal(inside.shape).cumsum(axis=0))
+    scaled, free = on_set(inside, compliance, boundary)
+    r, _ = free.gather(np.random.default_rng(0).standard_normal(inside.shape).cumsum(axis=0))
     r -= r.mean()
-    found = correction(System(tools, face, centred=True), r, Effort(reduction, 200))
+    found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=True), r, Stopping(reduction, 200))
     assert found.reached
-    return found.pairs / tools.operator.pairs_per_application
+    return found.pairs / scaled.operator.pairs_per_application
 
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.4, 0.9])
@@ -164,28 +164,28 @@ def film(ratio: float, thickness: float = 4.0) -> Compliance:
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
 @pytest.mark.parametrize(("ratio", "thickness"), [(0.1, 4.0), (2.0, 4.0), (10.0, 4.0), (10.0, 10.0)])
 def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.Boundary) -> None:
-    """A factor 0.44 a step at worst, 1e-6 in 17 steps; a twentieth more pairs for waves."""
+    """A factor 0.44 a step at worst, 1e-6 in 17 steps; a twentieth more pairs for the coarse correction."""
     assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, film(ratio, thickness), boundary) <= 17.0 * 1.06
 
 
 def test_the_inverse_of_cells_is_symmetric_and_positive() -> None:
     rng = np.random.default_rng(2)
     inside = rough_set((48, 40), 0.3, 11)
-    tools, face = on_set(inside)
-    cells = NestedCells(tools, face)
-    a, b = (face.pick(rng.standard_normal(inside.shape))[0] for _ in range(2))
-    ab = cells.solve(b, a, face.zeros()).second
-    ba = cells.solve(a, b, face.zeros()).second
+    scaled, free = on_set(inside)
+    cells = NestedCells(scaled, free)
+    a, b = (free.gather(rng.standard_normal(inside.shape))[0] for _ in range(2))
+    ab = cells.solve(b, a, free.zeros()).second
+    ba = cells.solve(a, b, free.zeros()).second
     assert ab == pytest.approx(ba, rel=1e-12)
-    assert cells.solve(a, a, face.zeros()).first > 0.0
+    assert cells.solve(a, a, free.zeros()).first > 0.0
 
 
-def without_waves(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workspace, "waves_of", lambda operator: None)
+def without_correction(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(linear_system, "coarse_correction", lambda operator: None)
 
 
-def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Surfaces with a tenth in contact took 17 to 19 pairs for 19 and 20, the cost of waves included; here two together."""
+def test_the_coarse_correction_saves_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Surfaces with a tenth in contact took 17 to 19 pairs for 19 and 20, the cost of the correction included; here two together."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=128.0, shortest_wavelength=8.0
     )
@@ -193,61 +193,63 @@ def test_waves_save_pairs_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> Non
     solver, pairs = asp.solvers.ActiveSet(tolerance=1e-6), [0.0, 0.0]
     for number in range(2):
         if number:
-            without_waves(monkeypatch)
+            without_correction(monkeypatch)
         for seed in (1, 3):
             problem = asp.ContactProblem(asp.generate.gaussian(grid((512, 512)), spectrum, seed=seed), coated)
             pairs[number] += asp.solve(problem, asp.MeanPressure(0.4), solver=solver).certificate.fft_pairs
     assert pairs[0] < 0.95 * pairs[1]
 
 
-def waves_on(shape: tuple[int, int], compliance: Compliance, spacing: tuple[float, float] = (1.0, 1.0)) -> Waves | None:
+def correction_on(
+    shape: tuple[int, int], compliance: Compliance, spacing: tuple[float, float] = (1.0, 1.0)
+) -> CoarseCorrection | None:
     boundary = asp.Periodic() if min(shape) > 1 else asp.FreeLine()
-    return waves_of(asp.prepare_operator(compliance, grid(shape, spacing), boundary))
+    return coarse_correction(asp.prepare_operator(compliance, grid(shape, spacing), boundary))
 
 
-def test_waves_are_for_steep_compliances_on_grids_that_their_cells_divide() -> None:
+def test_the_coarse_correction_is_for_steep_compliances_on_grids_that_their_cells_divide() -> None:
     stiff = film(10.0)
-    found = waves_on((64, 96), stiff)
+    found = correction_on((64, 96), stiff)
     assert found is not None
     assert found.pairs == 4.0 / 64.0
     assert found.form.cells == found.form.padded == (8, 12)
     assert found.form.kernel.min() >= 0.0
     for gentle in (BODY, film(0.5), film(2.0)):
-        assert waves_on((64, 96), gentle) is None
+        assert correction_on((64, 96), gentle) is None
     for shape in ((65, 96), (64, 92), (24, 64), (512, 1)):
-        assert waves_on(shape, stiff) is None
-    assert waves_on((64, 64), stiff, (1.0, 3.0)) is None
-    free = waves_of(asp.prepare_operator(stiff, grid((65, 90)), asp.Free()))
+        assert correction_on(shape, stiff) is None
+    assert correction_on((64, 64), stiff, (1.0, 3.0)) is None
+    free = coarse_correction(asp.prepare_operator(stiff, grid((65, 90)), asp.Free()))
     assert free is not None
     assert free.form.cells == (9, 13)  # room for cells that begin up to seven points outside
 
 
-def test_the_inverse_with_waves_is_nearly_symmetric_and_positive() -> None:
+def test_the_inverse_with_coarse_correction_is_nearly_symmetric_and_positive() -> None:
     """It is the same matrix for all loads but for the length of the inner step, which they decide: measured 2e-5."""
     rng = np.random.default_rng(2)
     inside = rough_set((64, 64), 0.3, 11)
-    tools, face = on_set(inside, film(10.0))
-    cells = NestedCells(tools, face)
-    a, b = (face.pick(rng.standard_normal(inside.shape))[0] for _ in range(2))
-    ab, aa = cells.solve(b, a, face.zeros()).second, cells.solve(a, a, face.zeros()).first
-    ba, bb = cells.solve(a, b, face.zeros()).second, cells.solve(b, b, face.zeros()).first
+    scaled, free = on_set(inside, film(10.0))
+    cells = NestedCells(scaled, free)
+    a, b = (free.gather(rng.standard_normal(inside.shape))[0] for _ in range(2))
+    ab, aa = cells.solve(b, a, free.zeros()).second, cells.solve(a, a, free.zeros()).first
+    ba, bb = cells.solve(a, b, free.zeros()).second, cells.solve(b, b, free.zeros()).first
     assert abs(ab - ba) < 1e-3 * np.sqrt(aa * bb)
     assert min(aa, bb) > 0.0
 
 
-def test_waves_do_not_depend_on_the_number_of_threads() -> None:
+def test_the_coarse_correction_does_not_depend_on_the_number_of_threads() -> None:
     inside = rough_set((256, 256), 0.3, 5)
     r, found = np.random.default_rng(6).standard_normal(inside.shape), []
     for threads in (1, 2, 3):
-        tools, face = on_set(inside, film(10.0), engine=asp.CpuEngine(threads))
-        picked, _ = face.pick(r)
-        found.append(NestedCells(tools, face).solve(picked, picked, face.zeros()).vector)
+        scaled, free = on_set(inside, film(10.0), engine=asp.CpuEngine(threads))
+        picked, _ = free.gather(r)
+        found.append(NestedCells(scaled, free).solve(picked, picked, free.zeros()).vector)
     assert np.array_equal(found[0], found[1])
     assert np.array_equal(found[0], found[2])
 
 
 def test_full_contact_is_left_to_the_inverse_that_is_exact_there() -> None:
-    tools, face = on_set(np.ones((32, 32)))
-    assert isinstance(preconditioner(tools, face), RestrictedInverse)
+    scaled, free = on_set(np.ones((32, 32)))
+    assert isinstance(preconditioner(scaled, free), RestrictedInverse)
     assert steps_to(np.ones((32, 32)), 1e-10) <= 4.0
     assert isinstance(preconditioner(*on_set(rough_set((32, 32), 0.5, 1))), NestedCells)

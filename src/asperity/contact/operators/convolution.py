@@ -1,8 +1,9 @@
-"""From pressure to deflection by transforms, periodic and free."""
+"""From pressure to deflection on a grid: prepared once, applied many times by transforms, periodic and free."""
 
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,76 +15,132 @@ from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, wrapped
 from ...solids.compliance.halfspace import Compliance
 from ..boundary import Boundary, Free, FreeLine, Periodic
-from .protocol import Octaves, displacement
 
-# Dense forms of the two convolutions, for small grids and as reference for the fast ones.
-
-
-LARGEST_DENSE = 4096
-"""Largest number of points for a dense matrix (134 MB); its factorisations take seconds."""
+# What a solver may ask of an operator.
 
 
-def _offsets(n: int) -> NDArray[np.int_]:
-    return np.arange(n)[:, None] - np.arange(n)[None, :]
+_OCTAVES_AHEAD = 8
+"""Octaves computed in advance beyond the largest wavenumber asked for: from the coarsest grid of 64² points up to 16384²."""
 
 
-def circulant_matrix(response: RealArray) -> RealArray:
-    """Matrix (n, n) of the periodic convolution with ``response`` (nx, ny) to a unit load at node (0, 0).
+class Octaves:
+    """Compliance at the few wavenumbers, an octave apart, that preconditioners of all grids need; values are kept.
+
+    Few values cost as much as one: 3 ms for 32 sublayers, twenty times in one solve at 1024² if nothing is kept.
+    """
+
+    def __init__(self, compliance: Compliance) -> None:
+        self._compliance = compliance
+        self._known: dict[float, float] = {}
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
+        keys = [_key(q) for q in wavenumber]
+        if not all(key in self._known for key in keys):
+            ahead = float(np.max(wavenumber)) * 2.0 ** np.arange(1, _OCTAVES_AHEAD + 1)
+            asked = np.concatenate([wavenumber, ahead])
+            found = np.asarray(self._compliance.spectral(asked), dtype=float)
+            self._known.update((_key(q), float(c)) for q, c in zip(asked, found, strict=True))
+        return np.array([self._known[key] for key in keys])
+
+
+def _key(wavenumber: float) -> float:
+    """Equal for wavenumbers that differ by rounding."""
+    return float(f"{wavenumber:.9e}")
+
+
+class Operator(Protocol):
+    """Linear, symmetric, positive semi-definite map from pressure (Pa) to normal displacement (m) on a grid."""
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of pressure and displacement."""
+
+    @property
+    def compliance(self) -> Compliance:
+        """Solid it was prepared for."""
+
+    @property
+    def octaves(self) -> Octaves:
+        """Its values at a few wavenumbers, shared with the operators of coarser grids."""
+
+    @property
+    def boundary(self) -> Boundary:
+        """Boundary it was prepared for."""
+
+    @property
+    def zero_mean_mode(self) -> bool:
+        """Whether a uniform pressure gives no displacement (periodic half-space: its datum is the mean)."""
+
+    @property
+    def pairs_per_application(self) -> float:
+        """Cost of one application in real FFT pairs of the grid."""
+
+    @property
+    def engine(self) -> Engine:
+        """Machine that applies it."""
+
+    @property
+    def kernel(self) -> RealArray:
+        """Compliance (m/Pa) on the half spectrum of the grid or of its padded form; the largest entry sets the scale."""
+
+    @property
+    def padded(self) -> tuple[int, int]:
+        """Shape of the grid whose half spectrum ``kernel`` holds."""
+
+    @property
+    def coarsened(self) -> Operator:
+        """Operator of the same solid on half as many points per side."""
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared application, divided by ``scale``, on arrays of the engine in the precision ``dtype``."""
+
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` approximates the inverse of the operator over ``scale``.
+
+        ``fast`` is the prepared application of the same precision and scale, to be shared where it serves.
+        """
+
+    def apply(self, pressure: RealArray) -> RealArray:
+        """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa; a new array."""
+
+    def matrix(self) -> RealArray:
+        """Dense symmetric matrix (n, n) in m/Pa over the n = nx·ny points in C order; for small grids only."""
+
+
+def prepare_operator(
+    compliance: Compliance, grid: Grid, boundary: Boundary, *, engine: Engine | None = None
+) -> Operator:
+    """Pressure-displacement operator, to be held by the caller and reused in further solves of the same problem.
+
+    Parameters
+    ----------
+    compliance
+        Solid, usually ``problem.compliance``.
+    grid
+        Grid of pressure and displacement, ``problem.grid``.
+    boundary
+        ``Periodic()``, ``Free()`` or ``FreeLine()``, ``problem.boundary``.
+    engine
+        Machine to compute on; the CPU with ASPERITY_THREADS or all cores by default.
 
     Raises
     ------
     InputError
-        If the grid has more than ``LARGEST_DENSE`` points.
+        If the boundary is none of them, or the grid is no line where it must be.
     """
-    nx, ny = _small(response)
-    i, j = _offsets(nx) % nx, _offsets(ny) % ny
-    matrix: RealArray = response[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
-    return matrix
+    if isinstance(boundary, Periodic):
+        return PeriodicOperator(compliance, grid, engine=engine)
+    if isinstance(boundary, Free | FreeLine):
+        return FreeOperator(compliance, grid, boundary, engine=engine)
+    raise InputError(f"boundary of an operator must be Periodic(), Free() or FreeLine(), but is {boundary!r}.")
 
 
-def toeplitz_matrix(influence: RealArray) -> RealArray:
-    """Matrix (n, n) of the free convolution with even ``influence`` (nx, ny) at non-negative offsets.
-
-    Raises
-    ------
-    InputError
-        If the grid has more than ``LARGEST_DENSE`` points.
-    """
-    nx, ny = _small(influence)
-    i, j = np.abs(_offsets(nx)), np.abs(_offsets(ny))
-    matrix: RealArray = influence[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
-    return matrix
-
-
-def _small(kernel: RealArray) -> tuple[int, int]:
-    nx, ny = kernel.shape
-    if nx * ny > LARGEST_DENSE:
-        raise InputError(
-            f"grid of a dense method must have at most {LARGEST_DENSE} points, but has {nx} x {ny} = {nx * ny}. "
-            "Use ConjugateGradient() on larger grids."
-        )
-    return nx, ny
-
-
-# Coarser grids and the fields on them, for first guesses.
-
-
-def coarse_grid(grid: Grid) -> Grid:
-    """Grid of half as many points per side (rounded up) on the same area."""
-    shape = (-(-grid.shape[0] // 2), -(-grid.shape[1] // 2))
-    return Grid(shape, (grid.size[0] / shape[0], grid.size[1] / shape[1]))
-
-
-def restricted(field: RealArray) -> RealArray:
-    """Means of 2 x 2 points of ``field``; at an odd end the last point counts twice."""
-    for axis in (0, 1):
-        n = field.shape[axis]
-        pairs = (
-            np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis),
-            np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis),
-        )
-        field = 0.5 * (pairs[0] + pairs[1])
-    return field
+def displacement(operator: Operator, pressure: RealArray) -> RealArray:
+    """New array (nx, ny) of the displacement (m) that ``operator`` gives under ``pressure`` (Pa), in double precision."""
+    engine = operator.engine
+    field, out = engine.array(pressure, "float64"), engine.zeros(operator.grid.shape, "float64")
+    return engine.numpy(operator.convolution("float64").apply(field, out))
 
 
 # Periodic contact: multiplication by the compliance in Fourier space.
@@ -256,3 +313,73 @@ class FreeOperator:
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa."""
         return toeplitz_matrix(self._influence)
+
+
+# Coarser grids and the fields on them, for first guesses.
+
+
+def coarse_grid(grid: Grid) -> Grid:
+    """Grid of half as many points per side (rounded up) on the same area."""
+    shape = (-(-grid.shape[0] // 2), -(-grid.shape[1] // 2))
+    return Grid(shape, (grid.size[0] / shape[0], grid.size[1] / shape[1]))
+
+
+def restricted(field: RealArray) -> RealArray:
+    """Means of 2 x 2 points of ``field``; at an odd end the last point counts twice."""
+    for axis in (0, 1):
+        n = field.shape[axis]
+        pairs = (
+            np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis),
+            np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis),
+        )
+        field = 0.5 * (pairs[0] + pairs[1])
+    return field
+
+
+# Dense forms of the two convolutions, for small grids and as reference for the fast ones.
+
+
+LARGEST_DENSE = 4096
+"""Largest number of points for a dense matrix (134 MB); its factorisations take seconds."""
+
+
+def _offsets(n: int) -> NDArray[np.int_]:
+    return np.arange(n)[:, None] - np.arange(n)[None, :]
+
+
+def circulant_matrix(response: RealArray) -> RealArray:
+    """Matrix (n, n) of the periodic convolution with ``response`` (nx, ny) to a unit load at node (0, 0).
+
+    Raises
+    ------
+    InputError
+        If the grid has more than ``LARGEST_DENSE`` points.
+    """
+    nx, ny = _small(response)
+    i, j = _offsets(nx) % nx, _offsets(ny) % ny
+    matrix: RealArray = response[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    return matrix
+
+
+def toeplitz_matrix(influence: RealArray) -> RealArray:
+    """Matrix (n, n) of the free convolution with even ``influence`` (nx, ny) at non-negative offsets.
+
+    Raises
+    ------
+    InputError
+        If the grid has more than ``LARGEST_DENSE`` points.
+    """
+    nx, ny = _small(influence)
+    i, j = np.abs(_offsets(nx)), np.abs(_offsets(ny))
+    matrix: RealArray = influence[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    return matrix
+
+
+def _small(kernel: RealArray) -> tuple[int, int]:
+    nx, ny = kernel.shape
+    if nx * ny > LARGEST_DENSE:
+        raise InputError(
+            f"grid of a dense method must have at most {LARGEST_DENSE} points, but has {nx} x {ny} = {nx * ny}. "
+            "Use ConjugateGradient() on larger grids."
+        )
+    return nx, ny

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ...core.arrays import RealArray
 from ...core.engine import Engine
 from ...core.progress import NoProgress, Progress
 from ...core.status import Outcome, Status
-from ..operators.protocol import Operator
+from ..operators import Operator
 
 
 @dataclass(frozen=True)
@@ -67,11 +67,27 @@ class ContactQP:
 class SolverState:
     """One iterate, everything needed to continue from it.
 
-    ``pressure`` feasible pressure (Pa), unless a method says that it leaves the bounds on the way; ``deflection`` K·pressure
-    (m); ``error`` its relative optimality error (see ``optimality.relative_error``); ``iterations`` and operator
-    ``applications`` so far, and ``extra_pairs``, FFT pairs of the size of the grid that went into other work
-    (preconditioner, coarser grids); ``exhausted`` when the method cannot improve the iterate; ``memory`` what the method
-    carries from step to step; ``engine`` whose arrays pressure and deflection are, None for NumPy arrays.
+    Its arrays may be borrowed: ``ActiveSet`` goes on in them, so that a state is good for one step, and after that
+    step must not be used any more. ``copy`` gives a state of its own arrays, from which the same steps follow, to the bit.
+
+    Attributes
+    ----------
+    pressure
+        Feasible pressure (Pa), unless a method says that it leaves the bounds on the way.
+    deflection
+        K·pressure (m).
+    error
+        Relative optimality error, see ``relative_error``.
+    iterations, applications
+        Steps, and applications of the operator, so far.
+    extra_pairs
+        FFT pairs of the size of the grid that went into other work (preconditioner, coarser grids).
+    exhausted
+        Whether the method cannot improve the iterate.
+    memory
+        What the method carries from step to step; frozen, or ``Borrowing``.
+    engine
+        Whose arrays pressure and deflection are; None for NumPy arrays.
     """
 
     pressure: RealArray
@@ -84,13 +100,27 @@ class SolverState:
     memory: object = None
     engine: Engine | None = None
 
+    def copy(self) -> SolverState:
+        """State of its own arrays, which steps from this one leave alone, for restarts and branches of a run."""
+        if isinstance(self.memory, Borrowing):
+            return self.memory.copied(self)
+        return replace(self, pressure=self.pressure.copy(), deflection=self.deflection.copy())
+
     @property
     def finished(self) -> SolverState:
-        """The same as NumPy arrays, without the buffers of the method."""
+        """The same as NumPy arrays, without the memory of the method: a result, and a start for ``init``."""
         if self.engine is None:
             return replace(self, memory=None)
         pressure, deflection = self.engine.numpy(self.pressure), self.engine.numpy(self.deflection)
         return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None)
+
+
+@runtime_checkable
+class Borrowing(Protocol):
+    """Memory of a method whose steps change the arrays of the state they are given."""
+
+    def copied(self, state: SolverState) -> SolverState:
+        """``state``, whose memory this is, with arrays of its own."""
 
 
 class Solver(Protocol):
@@ -118,7 +148,7 @@ class Solver(Protocol):
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """Next state (a direct method solves the whole problem in one step).
 
-        ``state`` is left unchanged, but a method may go on in its arrays, and must say so.
+        A method may go on in the arrays of ``state``, which is then used up (see ``SolverState.copy``), and must say so.
         """
 
 
@@ -179,11 +209,12 @@ def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:
 
 # How far a feasible pressure is from the solution: multiplier, duality gap and the customary relative error.
 #
-# All functions take r = K p - h (m) and the level lambda (m); the gap of the bodies is r - lambda.
+# All functions take r = K p - h (m) and the plane level lambda (m), the multiplier of the load; the gap of the bodies is
+# r - lambda.
 
 
 def level(qp: ContactQP, pressure: RealArray, r: RealArray) -> float:
-    """Level lambda = -offset (m) of the contacting plane.
+    """Plane level lambda = -offset (m): the multiplier of the prescribed load.
 
     Prescribed for ``FixedOffset``; else the pressure-weighted mean of r over the points strictly between the bounds.
     Where there is none (every pressure at a bound), the middle of the interval the conditions leave open.
@@ -253,6 +284,7 @@ def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) ->
 
 
 _SWEEPS = 100
+"""Rescalings at most; each puts more points at their cap, and a handful suffices."""
 
 
 def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:

@@ -3,11 +3,13 @@
 from .array_api import ArrayEngine
 from .cpu import CpuEngine
 from .protocol import (
+    SQUARE_SIDE,
     Cells,
-    CellWaves,
+    Clipped,
+    CoarseCompliance,
     Convolution,
     Engine,
-    Face,
+    FreeSet,
     Hierarchy,
     Load,
     Merge,
@@ -18,13 +20,15 @@ from .protocol import (
 )
 
 __all__ = [
+    "SQUARE_SIDE",
     "ArrayEngine",
-    "CellWaves",
     "Cells",
+    "Clipped",
+    "CoarseCompliance",
     "Convolution",
     "CpuEngine",
     "Engine",
-    "Face",
+    "FreeSet",
     "Hierarchy",
     "Load",
     "Merge",

@@ -1,4 +1,4 @@
-"""Engine of any array-API library, such as CuPy on a GPU: whole-array passes, working sets as masks."""
+"""Engine of any array-API library, such as CuPy on a GPU: whole-array passes, free sets as masks."""
 
 from __future__ import annotations
 
@@ -12,8 +12,21 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..errors import InputError
-from .neighbourhood import SIDE, entering_levels
-from .protocol import NEAR_CAP, Cells, CellWaves, Convolution, Face, Hierarchy, Load, Merge, Products, Totals, Violation
+from .protocol import (
+    NEAR_CAP,
+    SQUARE_SIDE,
+    Cells,
+    Clipped,
+    CoarseCompliance,
+    Convolution,
+    FreeSet,
+    Hierarchy,
+    Load,
+    Merge,
+    Products,
+    Totals,
+    Violation,
+)
 
 # An array-API library with the few operations that need to know the device.
 
@@ -88,12 +101,12 @@ def compat() -> Any:
     return import_module("array_api_compat")
 
 
-# Working set of the array-API engine: a mask; vectors are arrays that are zero outside it.
+# Free set of the array-API engine: a mask; vectors are arrays that are zero outside it.
 
 
 @dataclass(frozen=True, eq=False)
-class ArrayFace:
-    """Working set ``inside``; ``start`` is its residual."""
+class ArrayFreeSet:
+    """Free set ``inside``; ``start`` is its residual."""
 
     library: Library
     inside: Any
@@ -108,32 +121,20 @@ class ArrayFace:
         mean = self.library.numbers([self._sum(self.start)])[0] / self.size
         return self.library.select(self.inside, self.start - mean)
 
-    def copied(self, vector: Any) -> Any:
-        """``vector``, which nothing changes in place."""
-        return vector
-
     def zeros(self) -> Any:
         """Vector of zeros."""
         return self.library.xp.zeros_like(self.start)
 
-    def lay(self, values: Any, field: Any, added: float | None = None) -> None:
-        """Lay ``values`` out in the field, or add to it."""
-        field[...] = values if added is None else field + float(added) * values
+    def copy(self, vector: Any) -> Any:
+        """``vector``, which nothing changes in place."""
+        return vector
 
-    def press(self, p: Any, factor: float, scale: float) -> Any:
-        """p = factor max(p, 0) and the change over scale."""
-        value = self.library.select(self.inside & (p > 0.0), float(factor) * p)
-        change = self.library.select(self.inside, value - p) / float(scale)
-        self._put(value, p)
-        return self.library.xp.astype(change, self.start.dtype)
+    def gather(self, values: Any) -> tuple[Any, float]:
+        """``values`` on the set and their sum."""
+        vector = self.library.select(self.inside, values)
+        return vector, self.library.numbers([self._sum(vector)])[0]
 
-    def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """Lay ``values`` - ``old`` out in the field."""
-        change = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
-        field[...] = change
-        return change, self.library.numbers([self._sum(change * r)])[0]
-
-    def gather(self, field: Any, a: Any, b: Any, out: Any) -> Products:
+    def gather_products(self, field: Any, a: Any, b: Any, out: Any) -> Products:
         """Vector of ``field``."""
         return self.products(self.library.select(self.inside, field), a, b)
 
@@ -142,35 +143,47 @@ class ArrayFace:
         sums = [self._sum(vector), self._sum(vector * a), self._sum(vector * b)]
         return Products(vector, *self.library.numbers(sums))
 
-    def direct(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """(z - mean) + ratio t, laid out in the field."""
+    def scatter(self, values: Any, field: Any) -> None:
+        """field = values."""
+        field[...] = values
+
+    def scatter_add(self, values: Any, factor: float, field: Any) -> None:
+        """field += factor values."""
+        field[...] = field + float(factor) * values
+
+    def scatter_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """field = values - old."""
+        change = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
+        field[...] = change
+        return change, self.library.numbers([self._sum(change * r)])[0]
+
+    def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """(z - mean) + ratio t, also set in the field."""
         t = self.library.select(self.inside, (z - float(mean)) + float(ratio) * t)
         field[...] = t
         return t, self.library.numbers([self._sum(t * r)])[0]
 
-    def advance(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
+    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
         """d + length t and r - length (kt - mean)."""
         r = self.library.select(self.inside, r - float(length) * (kt - float(mean)))
         return d + float(length) * t, r
 
-    def pick(self, values: Any) -> tuple[Any, float]:
-        """``values`` on the face and their sum."""
-        picked = self.library.select(self.inside, values)
-        return picked, self.library.numbers([self._sum(picked)])[0]
-
-    def blend(self, old: Any, share: float, values: Any) -> None:
-        """values = old + share (values - old)."""
-        self._put(old + float(share) * (values - old), values)
-
-    def shift(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
+    def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
         """p += scale d."""
         library = self.library
         self._put(p + float(scale) * library.xp.astype(d, p.dtype), p)
-        lacking = library.select(self.inside & (p < 0.0), -p)
-        below, lack = library.numbers([library.count(lacking > 0.0), self._sum(lacking)])
-        return int(below), lack
+        tensions = library.select(self.inside & (p < 0.0), -p)
+        tensile, tension = library.numbers([library.count(tensions > 0.0), self._sum(tensions)])
+        return int(tensile), tension
 
-    def move(self, p: Any, d: Any, scale: float, cap: Any) -> tuple[Load, int]:
+    def clear_tension(self, p: Any, factor: float, scale: float) -> Any:
+        """p = factor max(p, 0) and the change over scale."""
+        value = self.library.select(self.inside & (p > 0.0), float(factor) * p)
+        change = self.library.select(self.inside, value - p) / float(scale)
+        self._put(value, p)
+        return self.library.xp.astype(change, self.start.dtype)
+
+    def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         """p += scale d, clipped."""
         library = self.library
         moved = p + float(scale) * library.xp.astype(d, p.dtype)
@@ -179,10 +192,10 @@ class ArrayFace:
             value = library.xp.minimum(value, bound(library, cap, p))
         clipped = self.inside & (value != moved)
         self._put(value, p)
-        return self._load(p, cap), int(library.numbers([library.count(clipped)])[0])
+        return Clipped(self._load(p, cap), int(library.numbers([library.count(clipped)])[0]))
 
-    def scale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
-        """p = factor p + shift below the cap, clipped."""
+    def rescale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
+        """factor p + shift below the cap, clipped."""
         moved = float(factor) * p + float(shift)
         if cap is not None:
             most = bound(self.library, cap, p)
@@ -190,6 +203,10 @@ class ArrayFace:
             moved = self.library.xp.where(p < most, moved, p)
         self._put(moved, p)
         return self._load(p, cap)
+
+    def interpolate(self, old: Any, share: float, values: Any) -> None:
+        """values = old + share (values - old)."""
+        self._put(old + float(share) * (values - old), values)
 
     def _put(self, vector: Any, values: Any) -> None:
         values[...] = self.library.xp.where(self.inside, vector, values)
@@ -209,56 +226,56 @@ class ArrayFace:
 
 
 class ArrayCells:
-    """Inverse of nested cells on a working set, exact without ``waves`` (see ``cell_kernels`` for the step with them)."""
+    """Inverse of nested cells on a free set; see ``cell_kernels`` for the coarse correction."""
 
     def __init__(
         self,
         library: Library,
         hierarchies: tuple[Hierarchy, Hierarchy],
-        waves: CellWaves | None,
+        coarse: CoarseCompliance | None,
         product: Convolution | None,
         dtype: str,
     ) -> None:
         self._library = library
         self._hierarchies = hierarchies
-        self._waves = waves
+        self._coarse = coarse
         self._product = product
         self._dtype = dtype
-        self._stiff: tuple[tuple[list[Any], list[Any]], ...] = ()
+        self._factors: tuple[tuple[list[Any], list[Any]], ...] = ()
 
-    def restrict(self, face: Face) -> None:
-        """Prepare for the points of ``face``."""
-        assert isinstance(face, ArrayFace)
+    def factorise(self, free: FreeSet) -> None:
+        """g and T of all cells for the points of ``free``."""
+        assert isinstance(free, ArrayFreeSet)
         xp = self._library.xp
-        unit = xp.astype(face.inside, getattr(xp, self._dtype))
-        self._stiff = tuple(
-            self._stiffened(hierarchy.merges, xp.roll(unit, hierarchy.roll, axis=(0, 1)))
+        unit = xp.astype(free.inside, getattr(xp, self._dtype))
+        self._factors = tuple(
+            self._factorised(hierarchy.merges, xp.roll(unit, hierarchy.roll, axis=(0, 1)))
             for hierarchy in self._hierarchies
         )
 
-    def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
+    def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         """Inverse times ``r``."""
-        assert isinstance(face, ArrayFace)
-        z = r - self._library.select(face.inside, self._mean_deflection(self._stiff, r))
-        return face.products(z, r, other)
+        assert isinstance(free, ArrayFreeSet)
+        z = r - self._library.select(free.inside, self._mean_deflection(self._factors, r))
+        return free.products(z, r, other)
 
-    def relieved(self, face: Face, r: Any, loaded: Face, change: Any, factor: float) -> Any:
+    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any, factor: float) -> Any:
         """r - factor times the deflection of nested cells."""
-        assert isinstance(face, ArrayFace)
+        assert isinstance(free, ArrayFreeSet)
         ones: tuple[tuple[list[Any], list[Any]], ...]
         ones = tuple(([1.0] * len(hierarchy.merges), []) for hierarchy in self._hierarchies)
-        return r - float(factor) * self._library.select(face.inside, self._mean_deflection(ones, change))
+        return r - float(factor) * self._library.select(free.inside, self._mean_deflection(ones, change))
 
-    def _mean_deflection(self, stiff: tuple[tuple[list[Any], list[Any]], ...], load: Any) -> Any:
+    def _mean_deflection(self, factors: tuple[tuple[list[Any], list[Any]], ...], load: Any) -> Any:
         """Mean over the hierarchies of the deflection of the points by the cells they lie in."""
         roll, deflection = self._library.xp.roll, self._library.xp.zeros_like(load)
-        for hierarchy, (g, units) in zip(self._hierarchies, stiff, strict=True):
+        for hierarchy, (g, units) in zip(self._hierarchies, factors, strict=True):
             back = (-hierarchy.roll[0], -hierarchy.roll[1])
             moved = self._deflected(hierarchy.merges, g, units, roll(load, hierarchy.roll, axis=(0, 1)))
             deflection = deflection + roll(moved, back, axis=(0, 1))
         return deflection / float(len(self._hierarchies))
 
-    def _stiffened(self, merges: tuple[Merge, ...], passed: Any) -> tuple[list[Any], list[Any]]:
+    def _factorised(self, merges: tuple[Merge, ...], passed: Any) -> tuple[list[Any], list[Any]]:
         """g = 1 / (1 + w T) and T on every level of a hierarchy, from the sums ``passed`` up by single points."""
         levels, units = [], []
         for merge in merges:
@@ -268,23 +285,23 @@ class ArrayCells:
         return levels, units
 
     def _deflected(self, merges: tuple[Merge, ...], g: list[Any], units: list[Any], passed: Any) -> Any:
-        """Deflection of points by the cells they lie in under the loads ``passed`` up by them; without ``units`` no waves."""
-        if self._waves is None or not units:
+        """Deflection of points by the cells they lie in under the loads ``passed`` up by them; coarse-corrected with ``units``."""
+        if self._coarse is None or not units:
             return self._by_cells(merges, g, passed)
-        depth, sums, shapes = self._waves.depth, [], []
+        depth, sums, shapes = self._coarse.depth, [], []
         for merge, stiff in zip(merges[:depth], g, strict=False):
             shapes.append(passed.shape)
             sums.append(self._summed(passed, merge))
             passed = stiff * sums[-1]
-        deflection = self._by_waves(merges[depth - 1 :], g[depth - 1 :], units[depth - 1], sums[-1])
+        deflection = self._coarse_corrected(merges[depth - 1 :], g[depth - 1 :], units[depth - 1], sums[-1])
         for level in range(depth - 1, -1, -1):
             deflection = _spread(self._library.xp, deflection, merges[level], shapes[level])
             if level > 0:
                 deflection = g[level - 1] * (deflection + merges[level - 1].weight * sums[level - 1])
         return deflection
 
-    def _by_waves(self, merges: tuple[Merge, ...], g: list[Any], unit: Any, total: Any) -> Any:
-        """Deflection of the cells of the level of the waves, the first of those given, under the loads ``total``."""
+    def _coarse_corrected(self, merges: tuple[Merge, ...], g: list[Any], unit: Any, total: Any) -> Any:
+        """Deflection of the cells of the coarse level, the first of those given, under the loads ``total``."""
         xp, sum_of = self._library.xp, self._library.xp.sum
         guess = self._of_level(merges, g, total)
         residual = guess - self._convolved(total - unit * guess)
@@ -301,9 +318,9 @@ class ArrayCells:
 
     def _convolved(self, loads: Any) -> Any:
         """True deflection of cells under ``loads``."""
-        assert self._waves is not None
+        assert self._coarse is not None
         assert self._product is not None
-        (nx, ny), out = loads.shape, self._library.zeros(self._waves.cells, self._dtype)
+        (nx, ny), out = loads.shape, self._library.zeros(self._coarse.cells, self._dtype)
         out[:nx, :ny] = loads
         return self._product.apply(out, out)[:nx, :ny]
 
@@ -367,39 +384,49 @@ class ArraySurvey:
         """Survey of an iterate."""
         return cls(library, _totals(library, p, u, h, cap), p, u, h, cap)
 
-    def face(self, level: float, scale: float, dtype: str) -> ArrayFace:
-        """Working set at ``level``."""
-        library, p, cap = self.library, self.p, self.cap
-        r, movable = self.u - self.h, p > 0.0
-        capped = movable & (p >= bound(library, cap, p)) if cap is not None else movable & ~movable
-        movable = movable & ~capped
-        low, high = self._levels(movable, r, level)
-        entering = ((p == 0.0) & (r < low)) | (capped & (r > high))
+    @cached_property
+    def squares(self) -> RealArray:
+        """Number of points strictly between the bounds, their sum of r and of r², in each square."""
+        r, movable = self.u - self.h, self._movable
+        sums = [
+            self._in_squares(self.library.xp.astype(movable, r.dtype)),
+            self._in_squares(self.library.select(movable, r)),
+            self._in_squares(self.library.select(movable, r * r)),
+        ]
+        return np.stack(sums, axis=-1)
+
+    @property
+    def _capped(self) -> Any:
+        loaded = self.p > 0.0
+        return loaded & (self.p >= bound(self.library, self.cap, self.p)) if self.cap is not None else loaded & ~loaded
+
+    @property
+    def _movable(self) -> Any:
+        return (self.p > 0.0) & ~self._capped
+
+    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> ArrayFreeSet:
+        """Free set by the ``levels`` of the squares."""
+        library, xp, (nx, ny) = self.library, self.library.xp, self.p.shape
+        on_device = (library.array(levels[..., bound_of], "float64") for bound_of in (0, 1))
+        low, high = (
+            xp.repeat(xp.repeat(values, SQUARE_SIDE, axis=0), SQUARE_SIDE, axis=1)[:nx, :ny] for values in on_device
+        )
+        r, movable = self.u - self.h, self._movable
+        entering = ((self.p == 0.0) & (r < low)) | (self._capped & (r > high))
         inside = movable | entering
         start = (float(level) - r) * (1.0 / float(scale))
-        start = library.select(inside, library.xp.astype(start, getattr(library.xp, dtype)))
+        start = library.select(inside, xp.astype(start, getattr(xp, dtype)))
         size, arrived = library.numbers([library.count(inside), library.count(entering)])
-        return ArrayFace(library, inside, start, int(size), int(arrived))
-
-    def _levels(self, mask: Any, r: Any, level: float) -> list[Any]:
-        """The two levels by which points enter, from ``r`` on the ``mask`` near each point."""
-        library, xp, (nx, ny) = self.library, self.library.xp, r.shape
-        sums = [
-            self._in_squares(xp.astype(mask, r.dtype)),
-            self._in_squares(library.select(mask, r)),
-            self._in_squares(library.select(mask, r * r)),
-        ]
-        levels = entering_levels(np.stack(sums, axis=-1), level)
-        arrays = (library.array(levels[..., side], "float64") for side in (0, 1))
-        return [xp.repeat(xp.repeat(values, SIDE, axis=0), SIDE, axis=1)[:nx, :ny] for values in arrays]
+        return ArrayFreeSet(library, inside, start, int(size), int(arrived))
 
     def _in_squares(self, values: Any) -> RealArray:
-        """Sums over squares of SIDE x SIDE points."""
+        """Sums over squares of SQUARE_SIDE points a side."""
         library, (nx, ny) = self.library, values.shape
-        bands, squares = -(-nx // SIDE), -(-ny // SIDE)
-        whole = library.zeros((bands * SIDE, squares * SIDE), "float64")
+        bands, squares = -(-nx // SQUARE_SIDE), -(-ny // SQUARE_SIDE)
+        whole = library.zeros((bands * SQUARE_SIDE, squares * SQUARE_SIDE), "float64")
         whole[:nx, :ny] = values
-        return library.numpy(library.xp.sum(library.xp.reshape(whole, (bands, SIDE, squares, SIDE)), axis=(1, 3)))
+        blocks = library.xp.reshape(whole, (bands, SQUARE_SIDE, squares, SQUARE_SIDE))
+        return library.numpy(library.xp.sum(blocks, axis=(1, 3)))
 
 
 def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
@@ -453,6 +480,10 @@ class ArrayEngine:
 
     field = zeros
 
+    def copy(self, values: Any) -> Any:
+        """New array equal to ``values``."""
+        return self._library.xp.asarray(values, copy=True)
+
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution."""
         return _Convolution(self._library, kernel, shape, shape, dtype)
@@ -464,15 +495,21 @@ class ArrayEngine:
         return _Convolution(self._library, kernel, shape, padded, dtype)
 
     def cells(
-        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+        self,
+        shape: tuple[int, int],
+        hierarchies: tuple[Hierarchy, Hierarchy],
+        coarse: CoarseCompliance | None,
+        dtype: str,
     ) -> Cells:
         """Nested cells."""
         product = None
-        if waves is not None:
-            product = _Convolution(self._library, waves.kernel, waves.cells, waves.padded, dtype)
-        return ArrayCells(self._library, hierarchies, waves, product, dtype)
+        if coarse is not None:
+            product = _Convolution(self._library, coarse.kernel, coarse.cells, coarse.padded, dtype)
+        return ArrayCells(self._library, hierarchies, coarse, product, dtype)
 
-    def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
+    def prolonged(
+        self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
+    ) -> RealArray:
         """Pressure on the points of ``heights`` from a coarser one."""
         xp, fine = self._library.xp, self.array(heights, "float64")
         nx, ny = fine.shape
@@ -506,7 +543,7 @@ class ArrayEngine:
         """values += factor field."""
         values[...] = values + float(factor) * self._library.xp.astype(field, values.dtype)
 
-    def release(self, face: Face, field: Any) -> None:
+    def clear_field(self, free: FreeSet, field: Any) -> None:
         """Zero everywhere."""
         field[...] = 0.0
 

@@ -1,4 +1,4 @@
-"""Compiled sweeps over nested cells: loads summed up the levels, deflections spread down again.
+"""Compiled sweeps over nested cells: loads summed up the levels, deflections prolonged down again.
 
 The compliance of nested cells is B = 1 + sum over cells of w 1 1^T, in units of the deflection of a point under its own
 load. Its inverse on any set of points follows from the Sherman-Morrison formula, cell by cell: with S the sum over the
@@ -7,8 +7,9 @@ the deflection D = g (D of its parent + w S).
 
 ``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
 the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets; last, how far the points are
-moved along x and y, round the grid, before they form cells. Level 0 are the points.
-Cells are stored with a rim of empty ones (g = s = 0), so the edges are no special case.
+rolled along x and y, round the grid, before they form cells. Level 0 are the points. ``s`` holds the sums S on the way up
+and the deflections D on the way down. Cells are stored with a rim of empty ones (g = s = 0), so the edges are no special
+case.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL
 
 
 @compiled
-def collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
+def sum_points(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
     """First level of cells: s = sum of the values of its points; unit values where ``values`` is empty."""
     unit = values.size == 0
     one = s.dtype.type(1.0)
@@ -42,7 +43,7 @@ def collect(level, shape, rows, index, values, s):  # type: ignore[no-untyped-de
 
 
 @compiled
-def _sum_up(below, level, g, s):  # type: ignore[no-untyped-def]
+def _restrict_level(below, level, g, s):  # type: ignore[no-untyped-def]
     """s of a level = sum of g s over the parts of its cells."""
     for cell in range(level[ROWS]):
         base = level[START] + cell * level[STRIDE]
@@ -66,7 +67,7 @@ def _sum_up(below, level, g, s):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _spread_down(above, level, weight, g, s):  # type: ignore[no-untyped-def]
+def _prolong_level(above, level, weight, g, s):  # type: ignore[no-untyped-def]
     """s = g (deflection of the parent + weight s), the parent's standing in its own s. On the rim g, and so s, is 0."""
     for cell in range(level[ROWS]):
         parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
@@ -83,43 +84,43 @@ def _spread_down(above, level, weight, g, s):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def rise(levels, first, last, g, s):  # type: ignore[no-untyped-def]
-    """s of the levels beyond the ``first`` up to the ``last``."""
+def restrict(levels, first, last, g, s):  # type: ignore[no-untyped-def]
+    """Sums s of the levels beyond the ``first`` up to the ``last``."""
     for depth in range(first + 1, last + 1):
-        _sum_up(levels[depth - 1], levels[depth], g, s)
+        _restrict_level(levels[depth - 1], levels[depth], g, s)
 
 
 @compiled
-def fall(levels, weights, first, last, g, s):  # type: ignore[no-untyped-def]
+def prolong(levels, weights, first, last, g, s):  # type: ignore[no-untyped-def]
     """Deflections, in s, of the levels below the ``first`` down to the ``last``."""
     for depth in range(first - 1, last - 1, -1):
-        _spread_down(levels[depth + 1], levels[depth], weights[depth], g, s)
+        _prolong_level(levels[depth + 1], levels[depth], weights[depth], g, s)
 
 
 @compiled
-def bounce(levels, weights, depth, g, s):  # type: ignore[no-untyped-def]
-    """Deflections, in s, of the level ``depth`` under its sums s: up to the coarsest, which has no parent, and down."""
+def cycle(levels, weights, depth, g, s):  # type: ignore[no-untyped-def]
+    """Deflections, in s, of the level ``depth`` under its sums s: one cycle up to the coarsest level and down again."""
     last = levels.shape[0] - 1
-    rise(levels, depth, last, g, s)
+    restrict(levels, depth, last, g, s)
     top = levels[last]
     for cell in range(top[ROWS]):
         base = top[START] + cell * top[STRIDE]
         for j in range(base, base + top[COLUMNS]):
             s[j] *= g[j] * weights[last]
-    fall(levels, weights, last, depth, g, s)
+    prolong(levels, weights, last, depth, g, s)
 
 
 @compiled
-def stiffen(span, levels, weights, shape, rows, index, nothing, g, s):  # type: ignore[no-untyped-def]
-    """g = 1 / (1 + w T) in the hierarchies of the span, for the points of ``index`` that begin each row at ``rows``."""
+def factorise(span, levels, weights, shape, rows, index, nothing, g, s):  # type: ignore[no-untyped-def]
+    """g = 1 / (1 + w T) in the hierarchies of the span, for the points ``index``, those of row i from ``rows[i]`` on."""
     for hierarchy in range(span[0], span[1]):
         last = levels.shape[1] - 1
         for depth in range(1, last + 1):
             level = levels[hierarchy, depth]
             if depth == 1:
-                collect(level, shape, rows, index, nothing, s)
+                sum_points(level, shape, rows, index, nothing, s)
             else:
-                _sum_up(levels[hierarchy, depth - 1], level, g, s)
+                _restrict_level(levels[hierarchy, depth - 1], level, g, s)
             weight = weights[depth]
             for cell in range(level[ROWS]):
                 base = level[START] + cell * level[STRIDE]
@@ -128,15 +129,15 @@ def stiffen(span, levels, weights, shape, rows, index, nothing, g, s):  # type: 
 
 
 @compiled
-def deflect(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
+def cell_deflections(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
     """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads ``values``."""
     for hierarchy in range(span[0], span[1]):
-        collect(levels[hierarchy, 1], shape, rows, index, values, s)
-        bounce(levels[hierarchy], weights, 1, g, s)
+        sum_points(levels[hierarchy, 1], shape, rows, index, values, s)
+        cycle(levels[hierarchy], weights, 1, g, s)
 
 
 @compiled
-def _above(row, level, shape):  # type: ignore[no-untyped-def]
+def _row_of_cells(row, level, shape):  # type: ignore[no-untyped-def]
     """Where the cells of the level that hold points of this row begin."""
     moved = row + level[ROLL_X]
     moved -= shape[0] if moved >= shape[0] else 0
@@ -144,14 +145,14 @@ def _above(row, level, shape):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
+def subtract_deflections(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
     """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
     half = s.dtype.type(0.5)
     one, two = levels[0, 1], levels[1, 1]
     merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
     end_one, end_two = shape[1] + one[OFFSET_Y], shape[1] + two[OFFSET_Y]
     for row in range(span[0], span[1]):
-        base_one, base_two = _above(row, one, shape), _above(row, two, shape)
+        base_one, base_two = _row_of_cells(row, one, shape), _row_of_cells(row, two, shape)
         shift_one = one[OFFSET_Y] + one[ROLL_Y] - row * shape[1]
         shift_two = two[OFFSET_Y] + two[ROLL_Y] - row * shape[1]
         total = 0.0
@@ -173,21 +174,21 @@ def relieve(span, levels, shape, rows, index, values, other, s, out, sums):  # t
         sums[row, 2] = with_other
 
 
-# Compiled sweeps over nested cells that end at the cells of one level, whose true compliance is a convolution A.
+# Coarse correction: sweeps that end at the cells of one level, whose true compliance is a convolution A.
 #
 # With S and T what the levels below pass up for given and for unit loads, the loads f on the cells follow from
 # (1/T + A) f = S/T, and the deflections are d = A f = (S - f)/T. Nested cells from there on up give a guess d0 and hence
 # f0 = S - T d0, whose residual is d0 - A f0; one step of conjugate gradients follows, preconditioned by nested cells again.
 #
-# ``tower`` holds what ``cell_kernels`` has of one hierarchy (levels, weights, g and s) and the number of the level; ``fields``
-# for each cell of the level T, d0, the direction t of the step over T, and what goes into a product with A and comes out of it.
+# ``hierarchy`` holds levels, weights, g, s of one hierarchy as above, and the number of the level; ``fields`` for each cell
+# of the level T, d0, the direction t of the step over T, the argument of a product with A, and the product.
 
 
 UNIT, GUESS, STEP, FIELD, RESPONSE = range(5)
 
 
 @compiled
-def take(level, s, unit):  # type: ignore[no-untyped-def]
+def copy_level(level, s, unit):  # type: ignore[no-untyped-def]
     """unit = s of the level."""
     for cell in range(level[ROWS]):
         base = level[START] + cell * level[STRIDE]
@@ -196,14 +197,14 @@ def take(level, s, unit):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def begin(tower, shape, rows, index, values, fields):  # type: ignore[no-untyped-def]
-    """Guess by nested cells under the loads ``values`` of points; f0 goes into a product."""
-    levels, weights, g, s, depth = tower
+def coarse_guess(hierarchy, shape, rows, index, values, fields):  # type: ignore[no-untyped-def]
+    """Guess d0 by nested cells under the loads ``values`` of points; f0 is the argument of a product."""
+    levels, weights, g, s, depth = hierarchy
     unit, guess, field = fields[UNIT], fields[GUESS], fields[FIELD]
-    collect(levels[1], shape, rows, index, values, s)
-    rise(levels, 1, depth, g, s)
-    take(levels[depth], s, field)
-    bounce(levels, weights, depth, g, s)
+    sum_points(levels[1], shape, rows, index, values, s)
+    restrict(levels, 1, depth, g, s)
+    copy_level(levels[depth], s, field)
+    cycle(levels, weights, depth, g, s)
     level = levels[depth]
     for cell in range(level[ROWS]):
         base = level[START] + cell * level[STRIDE]
@@ -213,9 +214,9 @@ def begin(tower, shape, rows, index, values, fields):  # type: ignore[no-untyped
 
 
 @compiled
-def improve(tower, fields):  # type: ignore[no-untyped-def]
-    """A f0 came out of the product, t goes into the next; its product with the residual is returned."""
-    levels, weights, g, s, depth = tower
+def coarse_direction(hierarchy, fields):  # type: ignore[no-untyped-def]
+    """From the product A f0 the direction t, the argument of the next; its product with the residual is returned."""
+    levels, weights, g, s, depth = hierarchy
     unit, guess, step, field, response = fields[UNIT], fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
     level = levels[depth]
     for cell in range(level[ROWS]):
@@ -224,7 +225,7 @@ def improve(tower, fields):  # type: ignore[no-untyped-def]
             residual = guess[cell, j] - response[cell, j]
             step[cell, j] = residual
             s[base + j] = unit[cell, j] * residual
-    bounce(levels, weights, depth, g, s)
+    cycle(levels, weights, depth, g, s)
     product = 0.0
     for cell in range(level[ROWS]):
         base = level[START] + cell * level[STRIDE]
@@ -239,9 +240,9 @@ def improve(tower, fields):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def finish(tower, fields, product):  # type: ignore[no-untyped-def]
-    """A t came out of the product: deflections d0 - length t / T, spread down to the finest cells."""
-    levels, weights, g, s, depth = tower
+def coarse_step(hierarchy, fields, product):  # type: ignore[no-untyped-def]
+    """From the product A t the deflections d0 - length t / T, prolonged down to the finest cells."""
+    levels, weights, g, s, depth = hierarchy
     guess, step, field, response = fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
     level = levels[depth]
     curvature = 0.0
@@ -253,4 +254,4 @@ def finish(tower, fields, product):  # type: ignore[no-untyped-def]
         base = level[START] + cell * level[STRIDE]
         for j in range(level[COLUMNS]):
             s[base + j] = guess[cell, j] - length * step[cell, j]
-    fall(levels, weights, depth, 1, g, s)
+    prolong(levels, weights, depth, 1, g, s)

@@ -1,4 +1,4 @@
-"""Engine of the CPU: FFT library with threads, compiled fused passes on blocks, vectors compressed to the working set."""
+"""Engine of the CPU: FFT library with threads, compiled fused passes on blocks, vectors compressed to the free set."""
 
 from __future__ import annotations
 
@@ -14,13 +14,24 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from .neighbourhood import SIDE, entering_levels
-from .protocol import Cells, CellWaves, Convolution, Face, Hierarchy, Load, Products, Totals, Violation
+from .protocol import (
+    SQUARE_SIDE,
+    Cells,
+    Clipped,
+    CoarseCompliance,
+    Convolution,
+    FreeSet,
+    Hierarchy,
+    Load,
+    Products,
+    Totals,
+    Violation,
+)
 
 # Threads for compiled passes: fixed blocks of work, shared out evenly.
 
 
-FEW = 1 << 17
+SERIAL_BELOW = 1 << 17
 """Points below which handing work to another thread costs more than it saves. Two threads on grids of 256² points took
 half as long again as one, on 512² they make no difference, above they gain (two-core virtual machine)."""
 
@@ -34,22 +45,22 @@ class Blocks:
 
     @cached_property
     def kernels(self) -> Any:
-        """Passes over whole arrays and over working sets."""
+        """Passes over whole arrays and over free sets."""
         return import_module(".kernels", __package__)
 
     @cached_property
     def cell_kernels(self) -> Any:
-        """Sweeps over nested cells, also those that end at a convolution."""
+        """Sweeps over nested cells, with and without coarse correction."""
         return import_module(".cell_kernels", __package__)
 
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
         blocks = -(-size // self.kernels.BLOCK)
-        self.share(kernel, blocks, *arguments, alone=size < FEW)
+        self.share(kernel, blocks, *arguments, serial=size < SERIAL_BELOW)
 
-    def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, alone: bool) -> None:
-        """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless it is to run ``alone``."""
-        if self._pool is None or alone:
+    def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, serial: bool) -> None:
+        """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless ``serial``."""
+        if self._pool is None or serial:
             kernel((0, parts), *arguments)
             return
         shares = min(self.threads, parts)
@@ -67,18 +78,18 @@ class Blocks:
         return partial
 
 
-# Working set of the CPU engine: indices of its points, vectors as compressed arrays.
+# Free set of the CPU engine: indices of its points, vectors as compressed arrays.
 
 
 ROW_PAD = 16
-"""Gap in floats between the rows of a field in single precision."""
+"""Gap in floats (one cache line) between the rows of a field in single precision, see ``CpuEngine.field``."""
 
 _NO_CAP = np.full(1, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
-class CpuFace:
-    """Working set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual."""
+class CpuFreeSet:
+    """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual."""
 
     blocks: Blocks
     shape: tuple[int, int]
@@ -97,12 +108,12 @@ class CpuFace:
         return np.searchsorted(self.index, np.arange(self.shape[0] + 1, dtype=np.int64) * self.shape[1])
 
     @cached_property
-    def _apart(self) -> Any:
+    def _index_in_padded_rows(self) -> Any:
         return self.index + self.index // self.shape[1] * self.index.dtype.type(ROW_PAD)
 
     def place(self, field: RealArray) -> Any:
         """Indices of the points in the memory of ``field``."""
-        return self.index if field.flags.c_contiguous else self._apart
+        return self.index if field.flags.c_contiguous else self._index_in_padded_rows
 
     def residual(self, *, centred: bool) -> RealArray:
         """Residual vector."""
@@ -110,76 +121,79 @@ class CpuFace:
             self.start[...] -= self.start.mean(dtype=np.float64)
         return self.start
 
-    def copied(self, vector: RealArray) -> RealArray:
-        """Copy of ``vector``."""
-        return vector.copy()
-
     def zeros(self) -> RealArray:
         """Vector of zeros."""
         return np.zeros_like(self.start)
 
-    def lay(self, values: RealArray, field: RealArray, added: float | None = None) -> None:
-        """Lay ``values`` out in the field, or add to it."""
-        if added is None:
-            self._run("scatter", self.place(field), values, memory(field))
-        else:
-            self._run("scatter_more", self.place(field), values, values.dtype.type(added), memory(field))
+    def copy(self, vector: RealArray) -> RealArray:
+        """Copy of ``vector``."""
+        return vector.copy()
 
-    def press(self, p: RealArray, factor: float, scale: float) -> RealArray:
-        """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
-        self._run("press", self.index, p.ravel(), factor, scale, self.start)
-        return self.start
+    def gather(self, values: RealArray) -> tuple[RealArray, float]:
+        """Vector of ``values`` and its sum."""
+        out = np.empty(self.size, values.dtype)
+        return out, self._sums("gather", 1, self.index, values.ravel(), out)[0]
 
-    def lay_change(self, old: RealArray, values: RealArray, r: RealArray, field: RealArray) -> tuple[RealArray, float]:
-        """Lay ``values`` - ``old`` out in the field."""
-        change = np.empty_like(r)
-        arguments = (self.index, self.place(field), old, values.ravel(), r, change, memory(field))
-        return change, self._sums("lay_change", 1, *arguments)[0]
-
-    def gather(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
+    def gather_products(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
         """Vector of ``field`` in ``out``."""
-        total, first, second = self._sums("gather", 3, self.place(field), memory(field), a, b, out)
+        total, first, second = self._sums("gather_products", 3, self.place(field), memory(field), a, b, out)
         return Products(out, total, first, second)
 
-    def direct(
+    def scatter(self, values: RealArray, field: RealArray) -> None:
+        """field = values."""
+        self._run("scatter", self.place(field), values, memory(field))
+
+    def scatter_add(self, values: RealArray, factor: float, field: RealArray) -> None:
+        """field += factor values."""
+        self._run("scatter_add", self.place(field), values, values.dtype.type(factor), memory(field))
+
+    def scatter_change(
+        self, old: RealArray, values: RealArray, r: RealArray, field: RealArray
+    ) -> tuple[RealArray, float]:
+        """field = values - old."""
+        change = np.empty_like(r)
+        arguments = (self.index, self.place(field), old, values.ravel(), r, change, memory(field))
+        return change, self._sums("scatter_change", 1, *arguments)[0]
+
+    def update_direction(
         self, z: RealArray, mean: float, ratio: float, t: RealArray, r: RealArray, field: RealArray
     ) -> tuple[RealArray, float]:
-        """t = (z - mean) + ratio t in place, laid out in the field."""
+        """t = (z - mean) + ratio t in place, and field = t."""
         kind = t.dtype.type
         arguments = (self.place(field), z, kind(mean), kind(ratio), t, r, memory(field))
-        return t, self._sums("direct", 1, *arguments)[0]
+        return t, self._sums("update_direction", 1, *arguments)[0]
 
-    def advance(
+    def update_solution(
         self, length: float, t: RealArray, kt: RealArray, mean: float, d: RealArray, r: RealArray
     ) -> tuple[RealArray, RealArray]:
         """d += length t and r -= length (kt - mean) in place."""
         kind = t.dtype.type
-        self._run("advance", kind(length), t, kt, kind(mean), d, r)
+        self._run("update_solution", kind(length), t, kt, kind(mean), d, r)
         return d, r
 
-    def pick(self, values: RealArray) -> tuple[RealArray, float]:
-        """Vector of ``values`` and its sum."""
-        out = np.empty(self.size, values.dtype)
-        return out, self._sums("pick", 1, self.index, values.ravel(), out)[0]
-
-    def blend(self, old: RealArray, share: float, values: RealArray) -> None:
-        """values = old + share (values - old)."""
-        self._run("blend", self.index, old, share, values.ravel())
-
-    def shift(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
+    def add_unclipped(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
         """p += scale d."""
-        below, lack = self._sums("shift", 2, self.index, p.ravel(), d, scale)
-        return int(below), lack
+        tensile, tension = self._sums("add_unclipped", 2, self.index, p.ravel(), d, scale)
+        return int(tensile), tension
 
-    def move(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> tuple[Load, int]:
+    def clear_tension(self, p: RealArray, factor: float, scale: float) -> RealArray:
+        """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
+        self._run("clear_tension", self.index, p.ravel(), factor, scale, self.start)
+        return self.start
+
+    def add_clipped(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> Clipped:
         """p += scale d, clipped."""
-        total, movable, below, clipped = self._sums("move", 4, self.index, p.ravel(), d, scale, bound(cap))
-        return Load(total, movable, int(below)), int(clipped)
+        total, movable, below, number = self._sums("add_clipped", 4, self.index, p.ravel(), d, scale, bound(cap))
+        return Clipped(Load(total, movable, int(below)), int(number))
 
-    def scale(self, p: RealArray, factor: float, shift: float, cap: RealArray | None) -> Load:
+    def rescale(self, p: RealArray, factor: float, shift: float, cap: RealArray | None) -> Load:
         """p = factor p + shift below the cap, clipped."""
-        total, movable, below = self._sums("scale", 3, self.index, p.ravel(), factor, shift, bound(cap))
+        total, movable, below = self._sums("rescale", 3, self.index, p.ravel(), factor, shift, bound(cap))
         return Load(total, movable, int(below))
+
+    def interpolate(self, old: RealArray, share: float, values: RealArray) -> None:
+        """values = old + share (values - old)."""
+        self._run("interpolate", self.index, old, share, values.ravel())
 
     def _run(self, kernel: str, *arguments: Any) -> None:
         self.blocks.run(getattr(self.blocks.kernels, kernel), self.size, *arguments)
@@ -204,7 +218,7 @@ def bound(cap: RealArray | None) -> RealArray:
 
 
 class CpuCells:
-    """Exact inverse of nested cells on a working set (see ``cell_kernels``), a hierarchy per thread."""
+    """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
 
     def __init__(
         self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
@@ -217,37 +231,39 @@ class CpuCells:
         self.s = np.zeros(size, dtype)
         self._nothing = np.empty(0, dtype)
 
-    def restrict(self, face: Face) -> None:
-        """Prepare for the points of ``face``."""
-        self._sweep("stiffen", face, self._nothing)
+    def factorise(self, free: FreeSet) -> None:
+        """g of all cells for the points of ``free``."""
+        self._sweep("factorise", free, self._nothing)
 
-    def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+    def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``."""
-        self._sweep("deflect", face, r)
-        return self.at_points(face, r, other, out)
+        self._sweep("cell_deflections", free, r)
+        return self.at_points(free, r, other, out)
 
-    def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
+    def predicted_residual(
+        self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
+    ) -> RealArray:
         """r - factor times the deflection of the cells, which pass everything on: g = 1, and 0 on the rims."""
         for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
             self.g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
-        self._sweep("deflect", loaded, change * change.dtype.type(factor))
-        return np.asarray(self.at_points(face, r, r, np.empty_like(r)).vector)
+        self._sweep("cell_deflections", loaded, change * change.dtype.type(factor))
+        return np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
 
-    def at_points(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+    def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """``r`` less the deflections of the finest cells that lie in s."""
-        assert isinstance(face, CpuFace)
+        assert isinstance(free, CpuFreeSet)
         sums = np.zeros((self._shape[0], 3))
-        arguments = (self.levels, self._shape, face.rows, face.index, r, other, self.s, out, sums)
-        relieve = self._blocks.cell_kernels.relieve
-        self._blocks.share(relieve, self._shape[0], *arguments, alone=face.size < FEW)
+        arguments = (self.levels, self._shape, free.rows, free.index, r, other, self.s, out, sums)
+        subtract = self._blocks.cell_kernels.subtract_deflections
+        self._blocks.share(subtract, self._shape[0], *arguments, serial=free.size < SERIAL_BELOW)
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
-    def _sweep(self, kernel: str, face: Face, values: RealArray) -> None:
-        assert isinstance(face, CpuFace)
-        arguments = (self.levels, self.weights, self._shape, face.rows, face.index, values, self.g, self.s)
+    def _sweep(self, kernel: str, free: FreeSet, values: RealArray) -> None:
+        assert isinstance(free, CpuFreeSet)
+        arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, self.g, self.s)
         call = getattr(self._blocks.cell_kernels, kernel)
-        self._blocks.share(call, len(self.levels), *arguments, alone=self.g.size < FEW)
+        self._blocks.share(call, len(self.levels), *arguments, serial=self.g.size < SERIAL_BELOW)
 
 
 def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
@@ -270,51 +286,53 @@ def merged(n: int, pairs: bool, offset: int) -> int:
     return ((n - 1 + offset) >> 1) + 1 if pairs else n
 
 
-# Nested cells of the CPU engine that end at a convolution.
+# Nested cells of the CPU engine with a coarse correction by convolution.
 
 
-class CpuWaves:
-    """Inverse of nested cells with waves on a working set (see ``cell_kernels``), a hierarchy and a product per thread."""
+class CpuCorrectedCells:
+    """Inverse of nested cells with coarse correction (see ``cell_kernels``), a hierarchy and a product per thread."""
 
     def __init__(
-        self, blocks: Blocks, cells: CpuCells, waves: CellWaves, products: tuple[Convolution, ...], dtype: str
+        self, blocks: Blocks, cells: CpuCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
     ) -> None:
         self._blocks = blocks
         self._cells = cells
-        self._depth = waves.depth
+        self._depth = coarse.depth
         self._products = products
-        self._fields = np.zeros((len(products), 5, *waves.cells), dtype)
+        self._fields = np.zeros((len(products), 5, *coarse.cells), dtype)
 
-    def restrict(self, face: Face) -> None:
-        """Prepare for the points of ``face``."""
-        self._cells.restrict(face)
+    def factorise(self, free: FreeSet) -> None:
+        """g of all cells and T of the coarse ones for the points of ``free``."""
+        self._cells.factorise(free)
         kernels = self._blocks.cell_kernels
         for levels, fields in zip(self._cells.levels, self._fields, strict=True):
-            kernels.take(levels[self._depth], self._cells.s, fields[kernels.UNIT])
+            kernels.copy_level(levels[self._depth], self._cells.s, fields[kernels.UNIT])
 
-    def solve(self, face: Face, r: RealArray, other: RealArray, out: RealArray) -> Products:
+    def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, nearly."""
-        assert isinstance(face, CpuFace)
-        self._blocks.share(self._deflect, len(self._products), face, r, alone=self._cells.g.size < FEW)
-        return self._cells.at_points(face, r, other, out)
+        assert isinstance(free, CpuFreeSet)
+        self._blocks.share(self._deflect, len(self._products), free, r, serial=self._cells.g.size < SERIAL_BELOW)
+        return self._cells.at_points(free, r, other, out)
 
-    def relieved(self, face: Face, r: RealArray, loaded: Face, change: RealArray, factor: float) -> RealArray:
-        """r - factor times the deflection of nested cells, which is near enough."""
-        return self._cells.relieved(face, r, loaded, change, factor)
+    def predicted_residual(
+        self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
+    ) -> RealArray:
+        """r - factor times the deflection of nested cells without coarse correction, which is near enough."""
+        return self._cells.predicted_residual(free, r, loaded, change, factor)
 
-    def _deflect(self, span: tuple[int, int], face: CpuFace, r: RealArray) -> None:
+    def _deflect(self, span: tuple[int, int], free: CpuFreeSet, r: RealArray) -> None:
         """Deflections of the finest cells of the hierarchies of the span."""
         kernels: Any = self._blocks.cell_kernels
         cells = self._cells
         for number in range(*span):
-            tower = cells.levels[number], cells.weights, cells.g, cells.s, self._depth
+            hierarchy = cells.levels[number], cells.weights, cells.g, cells.s, self._depth
             fields, apply = self._fields[number], self._products[number].apply
             field, response = fields[kernels.FIELD], fields[kernels.RESPONSE]
-            kernels.begin(tower, face.shape, face.rows, face.index, r, fields)
+            kernels.coarse_guess(hierarchy, free.shape, free.rows, free.index, r, fields)
             apply(field, response)
-            product = kernels.improve(tower, fields)
+            product = kernels.coarse_direction(hierarchy, fields)
             apply(field, response)
-            kernels.finish(tower, fields, product)
+            kernels.coarse_step(hierarchy, fields, product)
 
 
 class CpuEngine:
@@ -337,8 +355,12 @@ class CpuEngine:
         """Array of zeros."""
         return np.zeros(shape, dtype)
 
+    def copy(self, values: RealArray) -> RealArray:
+        """New array equal to ``values``."""
+        return np.array(values)
+
     def field(self, shape: tuple[int, int], dtype: str) -> RealArray:
-        """Field of zeros; rows in single precision are apart by some more than their length.
+        """Field of zeros; in single precision with a gap of ``ROW_PAD`` between rows.
 
         Rows of 2^k floats map to the same cache lines, which doubles the time of ducc0's last transform back.
         """
@@ -357,44 +379,52 @@ class CpuEngine:
 
     def _threads_for(self, shape: tuple[int, int]) -> int:
         """Threads for transforms of this ``shape``."""
-        return self.threads if shape[0] * shape[1] >= FEW else 1
+        return self.threads if shape[0] * shape[1] >= SERIAL_BELOW else 1
 
     def cells(
-        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+        self,
+        shape: tuple[int, int],
+        hierarchies: tuple[Hierarchy, Hierarchy],
+        coarse: CoarseCompliance | None,
+        dtype: str,
     ) -> Cells:
-        """Nested cells. Two hierarchies work side by side, so their transforms share the threads."""
+        """Nested cells. Two hierarchies are swept side by side, so their transforms share the threads."""
         cells = CpuCells(self.blocks, shape, hierarchies, dtype)
-        if waves is None:
+        if coarse is None:
             return cells
         threads = max(1, self.threads // len(hierarchies))
-        parts = waves.cells, waves.padded
+        parts = coarse.cells, coarse.padded
         transform = RealTransform(parts[0], threads) if parts[0] == parts[1] else PaddedTransform(*parts, threads)
-        alone = Blocks(1)
-        products = tuple(_Convolution(alone, transform, waves.kernel, dtype) for _ in hierarchies)
-        return CpuWaves(self.blocks, cells, waves, products, dtype)
+        serial = Blocks(1)
+        products = tuple(_Convolution(serial, transform, coarse.kernel, dtype) for _ in hierarchies)
+        return CpuCorrectedCells(self.blocks, cells, coarse, products, dtype)
 
-    def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
+    def prolonged(
+        self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
+    ) -> RealArray:
         """Pressure on the points of ``heights`` from a coarser one."""
         out = np.empty_like(heights)
         fine = _read_only(heights).reshape(heights.shape)
         arguments = (coarse, coarse_heights, fine, stiffness, out)
-        self.blocks.share(self.blocks.kernels.refine, len(out), *arguments, alone=out.size < FEW)
+        self.blocks.share(self.blocks.kernels.prolong_pressure, len(out), *arguments, serial=out.size < SERIAL_BELOW)
         return out
 
     def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> CpuSurvey:
         """Survey of an iterate."""
         nx, ny = p.shape
         flat = p.ravel(), u.ravel(), _read_only(h)
-        squares = np.zeros((-(-nx // SIDE), -(-ny // SIDE), 3))
+        squares = np.zeros((-(-nx // SQUARE_SIDE), -(-ny // SQUARE_SIDE), 3))
         s = np.zeros((len(squares), 3 if cap is None else 7))
-        kernels, alone = self.blocks.kernels, p.size < FEW
+        kernels, serial = self.blocks.kernels, p.size < SERIAL_BELOW
         if cap is None:
-            self.blocks.share(kernels.survey, len(s), *flat, ny, SIDE, s, squares, alone=alone)
+            self.blocks.share(kernels.survey, len(s), *flat, ny, SQUARE_SIDE, s, squares, serial=serial)
             pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
             lowest = float(s[:, 2].min())
             totals = Totals(pressure, work, pressure, work, lowest, -np.inf, lowest)
         else:
-            self.blocks.share(kernels.survey_capped, len(s), *flat, bound(cap), ny, SIDE, s, squares, alone=alone)
+            self.blocks.share(
+                kernels.survey_capped, len(s), *flat, bound(cap), ny, SQUARE_SIDE, s, squares, serial=serial
+            )
             pressure, work, weight, weighted = (float(v) for v in s[:, :4].sum(axis=0))
             bounds = float(s[:, 4].min()), float(s[:, 5].max()), float(s[:, 6].min())
             totals = Totals(pressure, work, weight, weighted, *bounds)
@@ -411,10 +441,10 @@ class CpuEngine:
         row, stride = field.shape[1], field.strides[0] // field.itemsize
         self.blocks.run(self.blocks.kernels.add, values.size, memory(field), row, stride, factor, values.ravel())
 
-    def release(self, face: Face, field: RealArray) -> None:
-        """Zero on the face."""
-        assert isinstance(face, CpuFace)
-        self.blocks.run(self.blocks.kernels.clear, face.size, face.place(field), memory(field))
+    def clear_field(self, free: FreeSet, field: RealArray) -> None:
+        """field = 0 on the set."""
+        assert isinstance(free, CpuFreeSet)
+        self.blocks.run(self.blocks.kernels.clear_field, free.size, free.place(field), memory(field))
 
 
 @dataclass(frozen=True, eq=False)
@@ -430,26 +460,27 @@ class CpuSurvey:
     cap: RealArray | None
     squares: RealArray
 
-    def face(self, level: float, scale: float, dtype: str) -> CpuFace:
-        """Working set at ``level``."""
+    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> CpuFreeSet:
+        """Free set by the ``levels`` of the squares."""
         kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
-        levels = entering_levels(self.squares, level)
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
+        flat = self.p, self.u, self.h
         if self.cap is None:
             loaded = self.squares[..., 0]
-            self._share(kernels.mark_elastic, self.p, self.u, self.h, row, SIDE, levels, loaded, mask, counts)
+            self._share(kernels.mark_free_elastic, *flat, row, SQUARE_SIDE, levels, loaded, mask, counts)
         else:
-            self._share(kernels.mark_face, self.p, self.u, self.h, bound(self.cap), row, SIDE, levels, mask, counts)
+            self._share(kernels.mark_free, *flat, bound(self.cap), row, SQUARE_SIDE, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
         index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=dtype)
-        self._share(kernels.fill_face, self.u, self.h, level, scale, SIDE // 8 * row, mask, starts, index, residual)
-        return CpuFace(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
+        words = SQUARE_SIDE // 8 * row  # of eight points of the mask, in a band of squares
+        self._share(kernels.fill_free, self.u, self.h, level, scale, words, mask, starts, index, residual)
+        return CpuFreeSet(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:
-        self.blocks.share(kernel, len(self.squares), *arguments, alone=self.p.size < FEW)
+        self.blocks.share(kernel, len(self.squares), *arguments, serial=self.p.size < SERIAL_BELOW)
 
 
 class _Convolution:

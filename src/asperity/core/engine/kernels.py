@@ -1,6 +1,6 @@
-"""Fused, compiled passes over whole flat arrays. Each works on a span (first, last) of fixed blocks and releases the lock.
+"""Fused, compiled passes over whole flat arrays, then over the points of a free set.
 
-Sums are kept per block and added up in a fixed order by the caller, so results do not depend on the number of threads.
+Each works on a span (first, last) of fixed blocks and releases the lock. Sums are kept per block and added up in a fixed order by the caller, so results do not depend on the number of threads.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numba import njit
 from .protocol import NEAR_CAP
 
 BLOCK = 1 << 14
-"""Elements per block."""
+"""Elements per block: what a thread takes at a time, 128 KiB of float64, small enough for the second-level cache."""
 
 compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
@@ -147,10 +147,10 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 
 @compiled
-def mark_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # type: ignore[no-untyped-def]
-    """``mark_face`` without a cap; ``loaded`` holds the number of loaded points per square.
+def mark_free_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # type: ignore[no-untyped-def]
+    """``mark_free`` without a cap; ``loaded`` holds the number of loaded points per square.
 
-    Row by row, and one number decides: what is so simple vectorises, five times as fast.
+    Row by row and with one comparison per point the loop vectorises, which is five times as fast.
     """
     line = np.empty(row)
     for band in range(span[0], span[1]):
@@ -171,10 +171,11 @@ def mark_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # typ
 
 
 @compiled
-def mark_face(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
-    """Mask of the working set by two ``levels`` of each square, for points at 0 and at the cap; per band: number of its points, and of those entering it.
+def mark_free(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
+    """Mask of the free set by two ``levels`` of each square, for points at 0 and at the cap.
 
-    Without branches: which points belong is as random as the surface, and a processor cannot guess it.
+    Per band: number of its points, and of those entering it. Without branches, which would be mispredicted: membership is as
+    random as the surface.
     """
     each = 1 if cap.size > 1 else 0
     for band in range(span[0], span[1]):
@@ -197,7 +198,7 @@ def mark_face(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ign
 
 
 @compiled
-def fill_face(span, u, h, level, scale, length, mask, starts, index, residual):  # type: ignore[no-untyped-def]
+def fill_free(span, u, h, level, scale, length, mask, starts, index, residual):  # type: ignore[no-untyped-def]
     """Indices of the points of the mask in order, and (level - r) / scale there; a band has ``length`` words of the mask."""
     words = mask.view(np.uint64)
     for band in range(span[0], span[1]):
@@ -215,8 +216,8 @@ def fill_face(span, u, h, level, scale, length, mask, starts, index, residual): 
 
 
 @compiled
-def refine(span, coarse, coarse_heights, heights, stiffness, out):  # type: ignore[no-untyped-def]
-    """Rows of the span of out: coarse where 0, else coarse + stiffness (heights - coarse heights), but not below 0."""
+def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # type: ignore[no-untyped-def]
+    """Rows of the span of out: 0 where coarse is, else coarse + stiffness (heights - coarse heights), at least 0."""
     for i in range(span[0], span[1]):
         for j in range(out.shape[1]):
             p = coarse[i >> 1, j >> 1]
@@ -224,13 +225,11 @@ def refine(span, coarse, coarse_heights, heights, stiffness, out):  # type: igno
             out[i, j] = max(value, 0.0) if p > 0.0 else 0.0
 
 
-# Fused, compiled passes over the points of a working set, at ``index`` in flat arrays or ``place`` in a field.
-#
-# As in ``kernels`` each works on a span of fixed blocks and leaves sums per block.
+# Passes over the points of a free set, at ``index`` in flat arrays or ``place`` in a field.
 
 
 @compiled
-def clear(span, index, field):  # type: ignore[no-untyped-def]
+def clear_field(span, index, field):  # type: ignore[no-untyped-def]
     """field[index] = 0."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         field[index[k]] = 0.0
@@ -244,14 +243,14 @@ def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def scatter_more(span, index, values, factor, field):  # type: ignore[no-untyped-def]
+def scatter_add(span, index, values, factor, field):  # type: ignore[no-untyped-def]
     """field[index] += factor values."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         field[index[k]] += factor * values[k]
 
 
 @compiled
-def press(span, index, p, factor, scale, change):  # type: ignore[no-untyped-def]
+def clear_tension(span, index, p, factor, scale, change):  # type: ignore[no-untyped-def]
     """p[index] = factor max(p, 0); change = what that adds to p over scale."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         old = np.float64(p[index[k]])
@@ -261,7 +260,7 @@ def press(span, index, p, factor, scale, change):  # type: ignore[no-untyped-def
 
 
 @compiled
-def lay_change(span, index, place, old, values, r, change, field, sums):  # type: ignore[no-untyped-def]
+def scatter_change(span, index, place, old, values, r, change, field, sums):  # type: ignore[no-untyped-def]
     """field[place] = change = values[index] - old; per block: sum change·r."""
     for b in range(span[0], span[1]):
         product = 0.0
@@ -274,7 +273,7 @@ def lay_change(span, index, place, old, values, r, change, field, sums):  # type
 
 
 @compiled
-def gather(span, index, field, a, b, values, sums):  # type: ignore[no-untyped-def]
+def gather_products(span, index, field, a, b, values, sums):  # type: ignore[no-untyped-def]
     """values = field[index]; per block: sum values, sum values·a, sum values·b."""
     for block in range(span[0], span[1]):
         total = 0.0
@@ -292,7 +291,7 @@ def gather(span, index, field, a, b, values, sums):  # type: ignore[no-untyped-d
 
 
 @compiled
-def direct(span, index, z, mean, ratio, t, r, field, sums):  # type: ignore[no-untyped-def]
+def update_direction(span, index, z, mean, ratio, t, r, field, sums):  # type: ignore[no-untyped-def]
     """t = (z - mean) + ratio t, and field[index] = t; per block: sum t·r."""
     for block in range(span[0], span[1]):
         product = 0.0
@@ -305,7 +304,7 @@ def direct(span, index, z, mean, ratio, t, r, field, sums):  # type: ignore[no-u
 
 
 @compiled
-def advance(span, length, t, kt, mean, d, r):  # type: ignore[no-untyped-def]
+def update_solution(span, length, t, kt, mean, d, r):  # type: ignore[no-untyped-def]
     """d += length t; r -= length (kt - mean)."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, t.size)):
         d[k] += length * t[k]
@@ -313,7 +312,7 @@ def advance(span, length, t, kt, mean, d, r):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def pick(span, index, values, out, sums):  # type: ignore[no-untyped-def]
+def gather(span, index, values, out, sums):  # type: ignore[no-untyped-def]
     """out = values[index]; per block: their sum."""
     for b in range(span[0], span[1]):
         total = 0.0
@@ -324,23 +323,23 @@ def pick(span, index, values, out, sums):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def shift(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
-    """p[index] += scale d; per block: number of points then below 0, and by how much in all."""
+def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
+    """p[index] += scale d; per block: number of tensile points then, and the sum of their tension."""
     for b in range(span[0], span[1]):
-        below = 0
-        lack = 0.0
+        tensile = 0
+        tension = 0.0
         for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
             i = index[k]
             value = p[i] + scale * np.float64(d[k])
             p[i] = value
-            below += int(value < 0.0)
-            lack += max(-value, 0.0)
-        sums[b, 0] = below
-        sums[b, 1] = lack
+            tensile += int(value < 0.0)
+            tension += max(-value, 0.0)
+        sums[b, 0] = tensile
+        sums[b, 1] = tension
 
 
 @compiled
-def move(span, index, p, d, scale, cap, sums):  # type: ignore[no-untyped-def]
+def add_clipped(span, index, p, d, scale, cap, sums):  # type: ignore[no-untyped-def]
     """p[index] += scale d, clipped to [0, cap]; per block: sum p, sum p below the cap, number below it, number clipped."""
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
     for b in range(span[0], span[1]):
@@ -365,7 +364,7 @@ def move(span, index, p, d, scale, cap, sums):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def scale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-def]
+def rescale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-def]
     """p[index] = factor p + shift where below the cap, clipped to it; per block: sum p, sum and number below the cap."""
     each = 1 if cap.size > 1 else 0
     for b in range(span[0], span[1]):
@@ -390,7 +389,7 @@ def scale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-
 
 
 @compiled
-def blend(span, index, old, share, values):  # type: ignore[no-untyped-def]
+def interpolate(span, index, old, share, values):  # type: ignore[no-untyped-def]
     """values[index] = old + share (values[index] - old)."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         i = index[k]

@@ -1,6 +1,8 @@
 """What a contact solver asks of the machine it runs on: convolutions and fused passes over arrays.
 
-Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of an array-API library elsewhere.
+Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of an array-API library elsewhere. In all
+passes p is the pressure (Pa), u the deflection K p (m), h the heights (m), r = u - h, and a negative p (a tensile point,
+see the solver) counts as 0.
 """
 
 from __future__ import annotations
@@ -11,12 +13,17 @@ from typing import Any, NamedTuple, Protocol
 from ..arrays import RealArray
 
 NEAR_CAP = 1.0 - 1e-14
-"""Share of its cap from which on a pressure that is scaled counts as being at the cap."""
+"""Share of its cap from which on a pressure that is rescaled counts as being at the cap: some 50 roundings of float64,
+fewer than the 1e-14 of the load to which the load is restored."""
+
+SQUARE_SIDE = 16
+"""Points along the side of the squares in which a survey sums up residuals; a multiple of 8. Stiff films bend over a few
+pixels: squares of 64 points take three times the steps (film of E 10, h 4 pixels)."""
 
 
 @dataclass(frozen=True)
 class Totals:
-    """Sums over one iterate, with r = u - h: p; p·r; p and p·r strictly between the bounds; and bounds of the level.
+    """Sums over one iterate: p; p·r; p and p·r strictly between the bounds; and bounds of the plane level.
 
     ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf);
     without a cap, where it matters only if nothing is loaded, min r.
@@ -42,15 +49,22 @@ class Violation:
 
 @dataclass(frozen=True)
 class Load:
-    """Sums over the points of a working set: p; p strictly between the bounds; and the number of points below the cap."""
+    """Sums over a free set: p; p strictly below the cap; and the number of points below the cap."""
 
     pressure: float
     movable: float
     below: int
 
 
+class Clipped(NamedTuple):
+    """After a step clipped to the bounds: the ``load`` of the free set, and the ``number`` of points clipped."""
+
+    load: Load
+    number: int
+
+
 class Products(NamedTuple):
-    """Vector of a working set, its sum, and its products with two others."""
+    """Vector of a free set, its sum, and its products with two others."""
 
     vector: Any
     total: float
@@ -62,7 +76,7 @@ class Products(NamedTuple):
 class Merge:
     """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
 
-    ``offset_x`` and ``offset_y`` (0 or 1) say whether the first cell stands alone; ``weight`` is the deflection that a
+    ``offset_x`` and ``offset_y`` (0 or 1) say whether the first cell stays single; ``weight`` is the deflection that a
     unit load on a merged cell adds to all of its points, over that of a point under its own load.
     """
 
@@ -75,16 +89,18 @@ class Merge:
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """Nested cells from single points up by ``merges``, of points moved by ``roll`` before; what leaves at one end enters at
-    the other, so that cells reach over the borders of a periodic grid."""
+    """Nested cells from single points up by ``merges``, after the points have been rolled by ``roll`` along x and y.
+
+    Rolled points re-enter at the other end, so that cells of a periodic grid reach over its borders.
+    """
 
     merges: tuple[Merge, ...]
     roll: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True, eq=False)
-class CellWaves:
-    """True compliance of pressures constant on the cells of level ``depth``, in place of constants from there on up.
+class CoarseCompliance:
+    """True compliance of pressures constant on the cells of level ``depth``, which replaces the levels from there on up.
 
     ``kernel`` is the half spectrum, on the grid ``padded``, of a convolution of fields of the shape ``cells`` (at least
     that of the level): deflection by unit loads on cells, as in ``Merge``, beyond what the levels below give. It is not
@@ -107,8 +123,11 @@ class Convolution(Protocol):
         """Divide by the kernel instead; the mean mode, whose kernel may be zero, by twice the largest entry."""
 
 
-class Face(Protocol):
-    """Working set: the points whose pressure may move. Vectors of a face are opaque to the solver."""
+class FreeSet(Protocol):
+    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver.
+
+    A *field* is an array over the whole grid that goes into or comes out of a convolution.
+    """
 
     @property
     def size(self) -> int:
@@ -119,86 +138,98 @@ class Face(Protocol):
         """Number of points that enter from a bound."""
 
     def residual(self, *, centred: bool) -> Any:
-        """Vector (level - r) / scale, freed of its mean if ``centred``."""
-
-    def copied(self, vector: Any) -> Any:
-        """Copy of ``vector`` that may be overwritten."""
+        """Vector (level - r) / scale, less its mean if ``centred``."""
 
     def zeros(self) -> Any:
         """Vector of zeros."""
 
-    def lay(self, values: Any, field: Any, added: float | None = None) -> None:
-        """Lay the vector ``values`` out in the field of the convolution; or add ``added`` times it to what lies there."""
+    def copy(self, vector: Any) -> Any:
+        """Copy of ``vector`` that may be overwritten."""
 
-    def press(self, p: Any, factor: float, scale: float) -> Any:
-        """Set p on the face to factor times p where it is positive, else to 0; the change over ``scale`` as a vector.
+    def gather(self, values: Any) -> tuple[Any, float]:
+        """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
+
+    def gather_products(self, field: Any, a: Any, b: Any, out: Any) -> Products:
+        """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
+
+    def scatter(self, values: Any, field: Any) -> None:
+        """Set ``field`` on the set to the vector ``values``."""
+
+    def scatter_add(self, values: Any, factor: float, field: Any) -> None:
+        """Add ``factor`` times the vector ``values`` to ``field``."""
+
+    def scatter_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """Vector ``values`` - ``old``, also set in the field, and its product with r.
+
+        ``old`` is what ``gather`` gave of the array ``values`` before a change.
+        """
+
+    def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
+        """Vector (z - mean) + ratio t, also set in the field, and its product with r; ``t`` may be overwritten."""
+
+    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
+        """Vectors d + length t and r - length (kt - mean); ``d`` and ``r`` may be overwritten."""
+
+    def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
+        """p + scale d on the set, in place; the number of tensile points then, and the sum of their tension -p."""
+
+    def clear_tension(self, p: Any, factor: float, scale: float) -> Any:
+        """Set p on the set to factor times its positive part; the change over ``scale`` as a vector.
 
         The residual vector may be overwritten.
         """
 
-    def lay_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """Vector ``values`` - ``old``, also laid out in the field, and its product with r.
+    def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
+        """p + scale d on the set, clipped to [0, cap], in place."""
 
-        ``old`` is what ``pick`` gave of the array ``values`` before a change.
-        """
-
-    def gather(self, field: Any, a: Any, b: Any, out: Any) -> Products:
-        """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
-
-    def direct(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """Vector (z - mean) + ratio t, laid out in the field, and its product with r; ``t`` may be overwritten."""
-
-    def advance(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
-        """Vectors d + length t and r - length (kt - mean); ``d`` and ``r`` may be overwritten."""
-
-    def pick(self, values: Any) -> tuple[Any, float]:
-        """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
-
-    def blend(self, old: Any, share: float, values: Any) -> None:
-        """Set the array ``values`` on the face to old + share (values - old)."""
-
-    def shift(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
-        """p + scale d on the face, in place; the number of points then below 0, and by how much in all."""
-
-    def move(self, p: Any, d: Any, scale: float, cap: Any) -> tuple[Load, int]:
-        """p + scale d on the face, clipped to [0, cap], in place; the load, and the number of points clipped."""
-
-    def scale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
+    def rescale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
         """factor p + shift where p is below the cap, clipped to it, in place; the load afterwards."""
+
+    def interpolate(self, old: Any, share: float, values: Any) -> None:
+        """Set the array ``values`` on the set to old + share (values - old)."""
 
 
 class Cells(Protocol):
-    """A compliance of nested cells and its inverse on a working set; the mean over two hierarchies.
+    """A compliance of nested cells and its inverse on a free set; the mean over two hierarchies.
 
-    The inverse is exact without waves; with them but for the loads on their cells, found by one step of conjugate gradients.
+    The inverse is exact without coarse correction; with it, up to the loads on its cells, which one step of conjugate
+    gradients finds.
     """
 
-    def restrict(self, face: Face) -> None:
-        """Prepare for the points of ``face``."""
+    def factorise(self, free: FreeSet) -> None:
+        """Prepare the inverse for the points of ``free``."""
 
-    def solve(self, face: Face, r: Any, other: Any, out: Any) -> Products:
+    def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where that can be."""
 
-    def relieved(self, face: Face, r: Any, loaded: Face, change: Any, factor: float) -> Any:
-        """Vector r - factor times the deflection of the cells that the points of ``face`` lie in.
+    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any, factor: float) -> Any:
+        """Vector r - factor times the deflection of the cells that the points of ``free`` lie in.
 
-        ``change`` is the load, a vector of the face ``loaded``. What single points deflect under their own load is left out.
-        Afterwards the inverse must be prepared again.
+        ``change`` is the load, a vector of the set ``loaded``. The deflection of single points under their own load is left
+        out. Afterwards the inverse must be factorised again.
         """
 
 
 class Survey(Protocol):
-    """One iterate seen as a whole."""
+    """Sums over one iterate, and the free set chosen by them."""
 
     @property
     def totals(self) -> Totals:
-        """Sums over it."""
+        """Sums over all points."""
 
-    def face(self, level: float, scale: float, dtype: str) -> Face:
-        """Working set at ``level``, with vectors of the precision ``dtype``.
+    @property
+    def squares(self) -> RealArray:
+        """(bands, squares, 3): number of points strictly between the bounds, their sum of r and of r², in each square.
 
-        Its points are those strictly between the bounds, and those at a bound whose gap is on the wrong side of the
-        level of their neighbourhood (see ``neighbourhood``). Negative pressures count as 0, but do not enter.
+        Squares have ``SQUARE_SIDE`` points a side, those at the last row and column fewer.
+        """
+
+    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> FreeSet:
+        """Free set with the residual (level - r) / scale, its vectors of the precision ``dtype``.
+
+        Its points are those strictly between the bounds, points at zero pressure with r below the first of the
+        ``levels`` (bands, squares, 2) of their square, and points at the cap with r above the second. Tensile points
+        are left out.
         """
 
 
@@ -218,8 +249,11 @@ class Engine(Protocol):
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
         """Array of zeros."""
 
+    def copy(self, values: Any) -> Any:
+        """New array equal to ``values``."""
+
     def field(self, shape: tuple[int, int], dtype: str) -> Any:
-        """Field of zeros for convolutions and faces, in whatever memory layout suits the transforms."""
+        """Field of zeros for convolutions and free sets, in whatever memory layout suits the transforms."""
 
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``."""
@@ -227,14 +261,20 @@ class Engine(Protocol):
     def padded_convolution(
         self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
     ) -> Convolution:
-        """Free convolution: fields of ``shape`` zero-padded to ``padded``, where ``kernel`` lives."""
+        """Free convolution: fields of ``shape`` zero-padded to ``padded``, the grid of ``kernel``."""
 
     def cells(
-        self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], waves: CellWaves | None, dtype: str
+        self,
+        shape: tuple[int, int],
+        hierarchies: tuple[Hierarchy, Hierarchy],
+        coarse: CoarseCompliance | None,
+        dtype: str,
     ) -> Cells:
         """Nested cells on points of ``shape``, for vectors of the precision ``dtype``."""
 
-    def refined(self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> RealArray:
+    def prolonged(
+        self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
+    ) -> RealArray:
         """Pressure on the points of ``heights`` from the one on half as many per side, all NumPy arrays.
 
         Where the ``coarse`` one is not zero, ``stiffness`` times what the coarse heights do not show is added, down to
@@ -250,5 +290,5 @@ class Engine(Protocol):
     def add(self, field: Any, factor: float, values: Any) -> None:
         """Add ``factor`` times a field to the array ``values``."""
 
-    def release(self, face: Face, field: Any) -> None:
-        """Set ``field`` to zero on ``face`` again."""
+    def clear_field(self, free: FreeSet, field: Any) -> None:
+        """Set ``field`` to zero on ``free`` again."""

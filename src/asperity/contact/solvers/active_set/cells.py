@@ -6,35 +6,38 @@ compliance at q = pi / H (the mean over the Haar functions of the cell, to one p
     B = sum over levels l of c(pi / H_l) (P_l - P_l+1),     P_l: means over the cells of level l,
 
 which is a sum of constants over nested cells. Two hierarchies, shifted against each other by a third of a cell at every
-level, hide where the cells meet. On a periodic grid the second is moved round it as a whole, so that its cells reach over
-the borders: at 512² this takes the reduction of the residual per step from 0.37 to 0.28 (0.44 to 0.29 at four times the
-load). Points on both sides of a border still hang together less in the model than they do, and it gives too large a
-deflection to what differs between them; less compliance of each point of its own makes up for that: 0.28 becomes 0.20, and
-on films of E 10, h 4 and 20 pixels 0.43 and 0.40 become 0.39 and 0.34 (shares of 0.5 to 0.7 serve as well).
+level, hide the borders between cells. On a periodic grid the second is rolled round it as a whole, so that its cells reach
+over the borders of the grid: at 512² this takes the reduction of the residual per step from 0.37 to 0.28 (0.44 to 0.29 at
+four times the load).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Protocol, Self
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ....core.arrays import RealArray
-from ....core.engine import CellWaves, Hierarchy, Merge
+from ....core.engine import CoarseCompliance, Hierarchy, Merge
 from ....core.grid import Grid
-from ...operators import prepare_operator
-from ...operators.convolution import restricted
-from ...operators.protocol import Operator
-from ..protocol import ContactQP, FixedMean, Solver, feasible_start, run
+from ...operators import Operator, prepare_operator
 
 _SQUARE = 1.5
+"""Ratio of sides up to which cells merge along both axes; beyond, only along the shorter side, so that ratios stay below 2.
+It does not matter for square pixels."""
 
-OWN_SHARE = 0.6
-"""Share of c(pi / a) that a pixel of side a is given of its own."""
+PIXEL_SHARE = 0.6
+"""Share of c(pi / a) that a pixel of side a is given of its own in the model.
 
-OWN_SHARE_BELOW_WAVES = 0.8
-"""The same where large cells have their true compliance, which leaves fewer borders."""
+Points on both sides of a border between cells are coupled less in the model than in truth, so that it deflects too much by
+what differs between them; a smaller compliance of each point of its own compensates. At 512² the residual falls by 0.20
+instead of 0.28 a step, on films of E 10, h 4 and 20 pixels by 0.39 and 0.34 instead of 0.43 and 0.40. Pairs (cases: see
+``solver``) for 0.4, 0.5, 0.7, 0.8, 1: elastic 15.1, 14.7, 14.9, 14.7, 16.7; free 44.5, 44.5, 43.8, 46.4, 44.2; cap 21.6, 20.0,
+19.6, 19.0, 18.4; tight 25.2, 23.4, 25.2, 24.7, 25.7.
+"""
+
+PIXEL_SHARE_COARSE = 0.8
+"""The same with the coarse correction, which leaves fewer borders. Pairs on films for 0.6, 0.7, 1: 22.2, 22.5, 23.0."""
 
 
 class Spectral(Protocol):
@@ -107,10 +110,10 @@ def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, Rea
     return np.array(sides), np.array(numbers)
 
 
-# True compliance of the larger cells of the preconditioner, where constants over nested cells are too crude.
+# Coarse correction: the true compliance of the larger cells, where constants over nested cells are too crude.
 #
 # Where the compliance falls much more steeply than 1/q, as that of a bending film does (up to q^-4), the smooth deflection
-# under a smooth load is badly given by constants over cells. It is cheap to have it from a convolution on a coarse grid:
+# under a smooth load is poorly represented by constants over cells. A convolution on a coarse grid has it cheaply:
 #
 # B = sum over levels l < n of c(pi / H_l) (P_l - P_l+1) + K_n,
 #
@@ -121,24 +124,32 @@ def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, Rea
 
 
 _DEPTH = 3
+"""Level of the corrected cells, of 8 x 8 points: a product on their grid costs 1/64 of an FFT pair. With 4 x 4 points it would
+cost 1/16, and the four products of a step a quarter of a pair, which is more than they save."""
+
 _STEEP = 3.0
+"""Factor by which the compliance must fall over an octave for the correction to pay (1/q: 2). On a half-space it costs
+pairs: with the threshold below 2 the means at 512² are 15.9 for 13.9, free at 256² 49.8 for 43.8."""
+
 _FEWEST = 4
+"""Corrected cells along a side below which single cells of the ordinary hierarchy serve as well."""
+
 _PRODUCTS = 4
+"""Products with the coarse compliance per use: two for each hierarchy."""
 
 
-@dataclass(frozen=True, eq=False)
-class Waves:
-    """Compliance of cells in the ``form`` an engine takes, and the FFT ``pairs`` of the fine grid for one use of it."""
+class CoarseCorrection(NamedTuple):
+    """True compliance of large cells in the ``form`` an engine takes, and the FFT ``pairs`` of the fine grid for one use."""
 
-    form: CellWaves
+    form: CoarseCompliance
     pairs: float
 
 
-def waves_of(operator: Operator) -> Waves | None:
-    """Compliance of ``operator`` on cells of 8 x 8 points.
+def coarse_correction(operator: Operator) -> CoarseCorrection | None:
+    """True compliance of ``operator`` on cells of 8 x 8 points.
 
     None where it does not fall to a third over any octave beyond them, where pixels are too oblong, and where the grid is
-    too small, a line, or periodic with sides that such cells do not divide.
+    too small, a line, or periodic with sides that are no multiples of such cells.
     """
     grid, periodic, side = operator.grid, all(operator.boundary.wraps), 1 << _DEPTH
     merges = merges_of(grid)
@@ -150,60 +161,10 @@ def waves_of(operator: Operator) -> Waves | None:
     detail = operator.octaves.spectral(np.pi / sides)
     if np.max(detail[_DEPTH:] / detail[_DEPTH - 1 : -1]) < _STEEP:
         return None
-    nx, ny = (n // side if periodic else -(-(n + side - 1) // side) for n in grid.shape)  # the cells may lie anywhere
+    # on a free grid the first cell may begin up to side - 1 points outside
+    nx, ny = (n // side if periodic else -(-(n + side - 1) // side) for n in grid.shape)
     coarse = Grid((nx, ny), (side * grid.spacing[0], side * grid.spacing[1]))
     of_cells = prepare_operator(operator.compliance, coarse, operator.boundary, engine=operator.engine)
     kernel = np.maximum(of_cells.kernel - detail[_DEPTH - 1], 0.0) / (detail[0] * points[_DEPTH])
     pairs = _PRODUCTS * of_cells.pairs_per_application * coarse.n_points / grid.n_points
-    return Waves(CellWaves(_DEPTH, kernel, coarse.shape, of_cells.padded), pairs)
-
-
-# First guesses from coarser grids.
-
-
-COARSEST = 64
-"""Points per side at which there is no coarser grid."""
-
-_TOLERANCE = 0.1
-_LOOSEST = 0.03
-_FINE_STIFFNESS = 0.15
-
-
-class Adjustable(Solver, Protocol):
-    """Solver whose tolerance can be set."""
-
-    def loosened(self, tolerance: float) -> Self:
-        """Same solver for a first guess: with ``tolerance``."""
-
-
-def coarsened(qp: ContactQP) -> ContactQP:
-    """Same problem on half as many points per side."""
-    profile = restricted(qp.profile)
-    cap = restricted(qp.cap) if isinstance(qp.cap, np.ndarray) else qp.cap
-    scale = float(profile.std()) or qp.height_scale
-    return replace(qp, operator=qp.operator.coarsened, profile=profile, cap=cap, height_scale=scale)
-
-
-def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
-    """Feasible pressure (Pa) prolonged from the solution of ``solver`` on the coarser grid, and its FFT pairs.
-
-    The coarse problem is solved to a fraction of the roughness that its grid cannot show. Its pressures are constant on
-    2 x 2 points; what is higher there carries more: ``_FINE_STIFFNESS`` of what alternating pixels would (the
-    roughness of a resolved surface is longer), which saves a tenth of the pairs at 1024² and a quarter at 2048².
-
-    Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
-    """
-    if min(qp.profile.shape) <= COARSEST:
-        return feasible_start(qp, None), 0.0
-    coarse = coarsened(qp)
-    hidden = np.sqrt(max(0.0, 1.0 - (coarse.height_scale / qp.height_scale) ** 2))
-    tolerance = max(min(_TOLERANCE * float(hidden), _LOOSEST), solver.tolerance)
-    state = run(solver.loosened(tolerance), coarse).state
-    pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
-    share = coarse.profile.size / qp.profile.size
-    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid)
-    start = qp.operator.engine.refined(state.pressure, coarse.profile, qp.profile, stiffness)
-    if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
-        return feasible_start(qp, start), pairs * share
-    start *= qp.constraint.mean_pressure / start.mean()
-    return start, pairs * share
+    return CoarseCorrection(CoarseCompliance(_DEPTH, kernel, coarse.shape, of_cells.padded), pairs)
