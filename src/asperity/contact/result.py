@@ -22,8 +22,8 @@ from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Memory
 from .couplings.sliding import GrossSliding
 from .problem import ContactProblem
-from .state import InterfaceState
 from .solvers.active_set.linear_system import normal_stiffness
+from .state import InterfaceState
 
 PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""

@@ -22,7 +22,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ..laws import InterfaceLaw, LimitByDepth, work_density
-from ..operators.protocol import Operator
+from ..operators.convolution import Operator
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
 TOLERANCE = 1e-5

@@ -12,7 +12,7 @@ import numpy as np
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import NoSolutionError
 from ..control import Control, Force, MeanPressure, Unloaded, mean_pressure
-from ..operators.protocol import Operator
+from ..operators.convolution import Operator
 from ..solvers.protocol import ContactQP, Solution, level
 
 Memory: TypeAlias = Mapping[str, RealArray]
