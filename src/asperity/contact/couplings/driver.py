@@ -40,6 +40,9 @@ _FARTHEST = 2.0
 
 _SLOWEST = 0.99
 
+_JOINT_PATIENCE = 12
+"""Rounds without progress after which a position is searched for around the other couplings instead of together with them."""
+
 
 @dataclass(frozen=True)
 class Rounds:
@@ -62,7 +65,7 @@ class Rounds:
         If a number is out of range.
     """
 
-    most: int = 200
+    most: int = 1000
     patience: int = 40
     tolerances: Mapping[str, float] = field(default_factory=dict)
 
@@ -172,36 +175,67 @@ class _Iteration:
         self.loosest, self.finest = min(_LOOSEST, needed), min(solver.tolerance, _FINER * needed)
         self.pressures = [p for p in (posed.earlier, posed.start) if p is not None and p.any()]
         self.residuals: dict[str, list[float]] = {name: [] for name in self.active}
-        self.mixing, self.directions = Mixing(), dict[str, float]()
+        self.mixing, self.searching, self.directions = Mixing(), Mixing(), dict[str, float]()
         self.told = _Told(progress, self.finest, lone=not self.active)
         self.last: Contact | None = None
+        self.memories, self.nested = memories, False
 
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
-        tolerance = self._next_tolerance(np.inf)
+        tolerance = self._next_tolerance(np.inf, self.active)
         lowest, progressed = np.inf, 0
         for count in range(1, self.rounds.most + 1):
             contact = self._solved(self._posed(), tolerance)
             if not contact.solution.status.converged:
                 return self._ended(contact, count, contact.solution.status)
-            for name, coupling in self.couplings.items():
-                self.exchanges[name] = coupling.reply(self.exchanges[name], contact)
-            for name in self.active:
-                self.residuals[name].append(self.exchanges[name].residual)
-            worst = max((self._ratio(name) for name in self.active), default=0.0)
+            moves = self._reply(contact)
+            concerned = [name for name in self.active if moves or name != Position.name]
+            worst = max((self._ratio(name) for name in concerned), default=0.0)
             self.told.round(worst)
             if worst <= 1.0:
                 if tolerance <= self.finest:
                     return self._ended(contact, count, self._converged(contact, count))
                 tolerance = self.finest
                 continue
+            if self.nested and moves:
+                lowest = np.inf
             if worst < _PROGRESS * lowest or self._goes_on():
                 lowest, progressed = min(worst, lowest), count
             elif count - progressed >= self.rounds.patience or any(self.exchanges[name].stuck for name in self.active):
                 break
-            tolerance = self._next_tolerance(worst)
-            self._advance()
+            elif count - progressed >= _JOINT_PATIENCE and not self.nested and Position.name in self.active:
+                lowest, progressed, moves = np.inf, count, False
+                self._nest()
+            tolerance = self._next_tolerance(worst, concerned)
+            self._advance(moves)
         return self._ended(contact, count, self._given_up(count))
+
+    def _reply(self, contact: Contact) -> bool:
+        """Replies of all couplings to ``contact``; whether the position may move, which when nested waits for the others."""
+        for name, coupling in self.couplings.items():
+            if name != Position.name:
+                self.exchanges[name] = coupling.reply(self.exchanges[name], contact)
+        moves = not (self.nested and any(self._ratio(name) > 1.0 for name in self.active if name != Position.name))
+        if moves and Position.name in self.couplings:
+            position = self.couplings[Position.name]
+            self.exchanges[Position.name] = position.reply(self.exchanges[Position.name], contact)
+        for name in self.active:
+            exchange, found = self.exchanges[name], self.residuals[name]
+            if exchange.smooth or not exchange.settled or (found and found[-1] > exchange.tolerance):
+                found.append(exchange.residual)
+        return moves
+
+    def _nest(self) -> None:
+        """From now on settle all others at every load that is tried for the position, whose bracket then holds.
+
+        Joint rounds take a third of the solves, but near full contact of yielding surfaces they may not come to rest.
+        """
+        position = self.couplings[Position.name]
+        assert isinstance(position, Position)
+        nested = replace(position, alone=True)
+        self.couplings[Position.name], self.nested = nested, True
+        self.exchanges[Position.name] = nested.without_bracket(self.exchanges[Position.name])
+        self.mixing.forget()
 
     def _posed(self) -> ContactQP:
         """Discrete problem with the shares of all couplings; those that cannot bear the load are asked for more."""
@@ -240,9 +274,12 @@ class _Iteration:
         """
         self.mixing.forget()
         for name in sorted(self.couplings, key=lambda name: name == Position.name):
+            if Position.name in self.couplings and not self.exchanges[name].smooth:
+                continue  # a hardness that has fallen is not to rise again: the load falls
             rescued = self.couplings[name].rescued(self.exchanges[name], mean)
             if rescued is not None:
                 self.exchanges[name] = rescued
+                self._begin_anew(falls=name == Position.name)
                 return
         error = NoSolutionError(
             f"mean pressure must be at most the mean hardness {bearable:.6g} Pa (force: hardness times nominal area), "
@@ -303,15 +340,15 @@ class _Iteration:
         exchange = self.exchanges[name]
         return 0.0 if exchange.settled else max(exchange.residual / (exchange.tolerance or np.inf), 1.0 + 1e-9)
 
-    def _next_tolerance(self, worst: float) -> float:
-        """Error of the next solve that is small against the residuals then expected, if they go on falling as they do."""
+    def _next_tolerance(self, worst: float, names: Sequence[str]) -> float:
+        """Error of the next solve that is small against the residuals of ``names`` then expected, if they go on falling as they do."""
         if not self.active or any(exchange.exact for exchange in self.exchanges.values()):
             return self.finest
         expected = 0.0
-        for name in self.active:
+        for name in names:
             if not self.exchanges[name].settled:
                 expected = max(expected, self.exchanges[name].residual * max(min(self._rate(name), 1.0), 0.1))
-        near = worst < np.inf and worst * max(self._rate(name) for name in self.active) <= _NEAR
+        near = worst < np.inf and worst * max(self._rate(name) for name in names) <= _NEAR
         return self.finest if near else max(self.finest, min(self.loosest, _SHARE * expected**2))
 
     def _rate(self, name: str) -> float:
@@ -321,19 +358,35 @@ class _Iteration:
             return 0.0 if len(self.residuals[name]) < 2 else 1.0
         return float((found[-1] / found[0]) ** (1.0 / (len(found) - 1)))
 
-    def _advance(self) -> None:
-        """Next unknowns: targets, extrapolated together where they are smooth; settled ones that are not stay."""
-        smooth = [name for name in self.active if self.exchanges[name].smooth]
-        moved = {name: self.exchanges[name].target for name in self.active}
+    def _advance(self, moves: bool) -> None:
+        """Next unknowns: targets, extrapolated together where they are smooth; settled ones that are not stay.
+
+        When nested either the position ``moves`` or all others do.
+        """
+        active = [name for name in self.active if not self.nested or (name == Position.name) == moves]
+        smooth = [name for name in active if self.exchanges[name].smooth]
+        moved = {name: self.exchanges[name].target for name in active}
         if smooth:
             at = tuple(self.exchanges[name].x for name in smooth)
             move = tuple(self.exchanges[name].target - x for name, x in zip(smooth, at, strict=True))
             scales = tuple(self.exchanges[name].scale for name in smooth)
-            moved |= dict(zip(smooth, self.mixing.ahead(at, move, scales), strict=True))
+            mixing = self.searching if self.nested and moves else self.mixing
+            if mixing.places and len(mixing.places[-1]) != len(smooth):
+                mixing.forget()  # one of them has turned out not to be smooth
+            moved |= dict(zip(smooth, mixing.ahead(at, move, scales), strict=True))
         for name, x in moved.items():
             exchange = self.exchanges[name]
             if exchange.smooth or not exchange.settled:
                 self.exchanges[name] = replace(exchange, x=np.clip(x, exchange.lowest, exchange.highest))
+                if name == Position.name and self.nested:
+                    self.mixing.forget()
+                    self._begin_anew(falls=bool(self.exchanges[name].x < exchange.x))
+
+    def _begin_anew(self, *, falls: bool) -> None:
+        """Where the load ``falls``, unknowns that are not smooth start again from the interface before the step: a growing load leads to them."""
+        for name, exchange in self.exchanges.items():
+            if falls and not exchange.smooth:
+                self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
 
     def _converged(self, contact: Contact, count: int) -> Status:
         if not self.active:

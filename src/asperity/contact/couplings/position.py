@@ -131,9 +131,15 @@ class Position(Coupling):
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way back to the largest load known to be too small."""
-        note = replace(exchange.note, high=min(exchange.note.high, float(exchange.x)))
-        low = note.low if np.isfinite(note.low) else float(exchange.x) - _FARTHEST
+        x, note = float(exchange.x), exchange.note
+        low = note.low if x - _FARTHEST < note.low < x - _CLOSED else x - _FARTHEST
+        note = replace(note, low=min(low, note.low), high=min(note.high, x))
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
+
+    def without_bracket(self, exchange: Exchange) -> Exchange:
+        """The same without what was learnt from loads at which other couplings had not settled."""
+        note = replace(exchange.note, low=-np.inf, high=np.inf, misses=())
+        return replace(exchange, residual=np.inf, note=note)
 
     def settled(self, exchange: Exchange) -> str:
         """That it is reached."""
