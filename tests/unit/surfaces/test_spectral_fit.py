@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from reference_data import reference
 from scipy.integrate import quad
@@ -139,15 +139,16 @@ def test_a_fitted_spectrum_generates_surfaces_like_the_first():
 
 
 @given(scale=st.floats(1e-9, 1e3), stretch=st.floats(1e-9, 1e3))
+@example(scale=829.085722219331, stretch=679.0217194641983)  # puts mode (8, 8) on the edge of two rings
 def test_scaling_of_heights_and_lengths(scale, stretch):
     base = fit_spectrum(power_spectrum(realisation("F1", 1)), plateau=True, slopes=1, floor=False).model
     surface = realisation("F1", 1)
     other = asp.Surface(scale * surface.heights, stretch, periodic=True)
     model = fit_spectrum(power_spectrum(other), plateau=True, slopes=1, floor=False).model
-    # the optimum is flat: a relative error of 1e-12 in the likelihood leaves about 1e-6 in its place
-    assert model.level == pytest.approx(scale**2 * stretch**2 * base.level, rel=1e-4)
-    assert model.rolloff_wavelength == pytest.approx(stretch * base.rolloff_wavelength, rel=1e-4)
-    assert model.exponents[0] == pytest.approx(base.exponents[0], rel=1e-4)
+    # the optimum is flat: rounding in the likelihood leaves up to 7e-7 in the parameters (60 random pairs)
+    assert model.level == pytest.approx(scale**2 * stretch**2 * base.level, rel=1e-5)
+    assert model.rolloff_wavelength == pytest.approx(stretch * base.rolloff_wavelength, rel=1e-5)
+    assert model.exponents[0] == pytest.approx(base.exponents[0], rel=1e-5)
 
 
 @pytest.mark.parametrize("plateau", [True, False])

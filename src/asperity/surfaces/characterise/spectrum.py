@@ -217,14 +217,17 @@ def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: boo
     """Edges in rad/m of logarithmic rings from just below the longest wave to the Nyquist circle.
 
     With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not complete, and their mean is that
-    of all directions only where the surface is isotropic.
+    of all directions only where the surface is isotropic. A mode on an edge counts in the ring below, independent of
+    rounding: the edges are 1e-9 above their nominal wavenumbers.
     """
     shortest = 2.0 * np.pi / max(spectrum.grid.size)
     dx, dy = spectrum.grid.spacing
     last = float(np.hypot(np.pi / dx, np.pi / dy)) if corners else spectrum.nyquist
     high = max(last, 2.0 * shortest)
     count = max(2, round(per_decade * np.log10(high / shortest)))
-    return np.geomspace(shortest * (1.0 - _ROUNDING), high * (1.0 + _ROUNDING), count + 1)
+    edges = np.geomspace(shortest, high, count + 1) * (1.0 + _ROUNDING)
+    edges[0] = shortest * (1.0 - _ROUNDING)
+    return edges
 
 
 def _require_parseval(spectral: float, direct: float) -> None:
