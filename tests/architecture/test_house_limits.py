@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from architecture.exemptions import LIMITS
 from architecture.source import Module, library
+from house_size import Size
 
 SOFT_AND_HARD = {
     "file lines": (600, 600),
@@ -118,3 +119,13 @@ def test_sizes_are_counted_as_stated() -> None:
     assert sizes["function lines", "asperity.x.A.grow.inner"] == 2
     assert sizes["parameters", "asperity.x.A.grow"] == 4
     assert sizes["parameters", "asperity.x.A.make"] == 1
+
+
+def test_the_size_of_the_package_is_counted_as_stated() -> None:
+    size = Size()
+    size.add(SAMPLE + "\n\ndef _late():\n    import json\n\n    return json\n\n\n_late()\n")
+    figures = dict(size.rows())
+    assert figures["lines"] == len(SAMPLE.splitlines()) + 9
+    assert (figures["docstrings"], figures["comments"], figures["blank"]) == (2, 1, 5 + 5)
+    assert (figures["functions"], figures["late imports"], figures["private functions with one caller"]) == (6, 1, 1)
+    assert figures["longest function, lines"] == 6
