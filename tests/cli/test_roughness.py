@@ -55,7 +55,7 @@ def test_json_holds_what_python_finds(run: Runner, film: Path) -> None:
     expected = asp.characterise(surface)
     assert found["levelled"] == "quadratic"
     quantities = found["roughness"]["quantities"]
-    assert set(quantities) == {quantity.path for quantity in roughness.QUANTITIES}
+    assert set(quantities) == {quantity.name for quantity in roughness.QUANTITIES}
     for quantity, value in expected.values():
         entry = quantities[quantity.path]
         assert (entry["unit"], entry["label"], entry["symbol"]) == (quantity.unit, quantity.label, quantity.symbol)
