@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import FrozenInstanceError, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,12 @@ from contact_cases import elastic, rough
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
+from asperity.contact.solvers.active_set import cells, linear_system
+from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.solver import COARSEST, coarsened, nested_start
 from asperity.contact.solvers.by_name import default_solver
 from asperity.contact.solvers.protocol import relative_error
+from asperity.core.engine import SQUARE_SIDE
 from asperity.solids.compliance.halfspace import HalfSpace
 
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -200,3 +204,21 @@ def test_coarser_problems_cover_the_same_area_and_keep_means(shape: tuple[int, i
 def test_lines_and_small_grids_have_no_coarser_one() -> None:
     for shape in ((1, 1000), (COARSEST, 500)):
         assert nested_start(posed(shape), ActiveSet())[1] == 0.0
+
+
+def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
+    page = (Path(__file__).parents[3] / "docs/theory/contact.md").read_text(encoding="utf-8")
+    settled, nearly = solver_module._SETTLED_SET, solver_module._NEARLY_SETTLED
+    for phrase in (
+        f"ℓ ← {linear_system._STEP_LENGTH} / (s ĉ₀)",
+        f"$s={cells.PIXEL_SHARE}$",
+        f"({cells.PIXEL_SHARE_COARSE} with the coarse correction below)",
+        f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION},  at most {solver_module._UNSETTLED_STEPS} · ",
+        f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
+        f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
+        f"θ ≥ {solver_module.LEAST_SHARE}:",
+        f"square of {SQUARE_SIDE} pixels",
+        f"${solver_module._FINE_STIFFNESS}/\\hat c_0$",
+        f"the start given, if ε ≤ {solver_module._POOR}",
+    ):
+        assert phrase in page, phrase
