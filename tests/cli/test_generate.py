@@ -9,7 +9,8 @@ import pytest
 from cli.conftest import Runner
 
 import asperity as asp
-from asperity.cli.generator_options import KINDS, explained, keys
+from asperity.cli.generate import options
+from asperity.io.schemas.surfaces import SURFACES
 
 GRID = ("--points", "24x16", "--size", "12um x 8um")
 EXPONENTIAL = ("--spectrum", "exponential", "--rms-height", "5nm", "--correlation-length", "0.6um")
@@ -66,7 +67,7 @@ EXAMPLES = {
 
 
 def test_every_kind_has_an_example() -> None:
-    assert set(EXAMPLES) == set(KINDS)
+    assert set(EXAMPLES) == set(SURFACES)
 
 
 @pytest.mark.parametrize("kind", EXAMPLES)
@@ -84,9 +85,9 @@ def test_every_kind_is_generated_and_comes_back(run: Runner, tmp_path: Path, kin
 def test_every_option_of_every_kind_is_explained(run: Runner, kind: str) -> None:
     result = run("generate", kind, "--help")
     assert result.exit_code == 0
-    unexplained = [key.option for key in keys(KINDS[kind]) if not explained(key)]
+    unexplained = [option.name for option in options(kind) if not option.parameter.help]
     assert unexplained == []
-    assert len({key.parameter for key in keys(KINDS[kind])}) == len(keys(KINDS[kind]))
+    assert len({option.word for option in options(kind)}) == len(options(kind))
 
 
 def test_units_and_values_reach_the_generator(run: Runner, tmp_path: Path) -> None:
@@ -196,4 +197,4 @@ def test_unknown_kind_and_wrong_files(run: Runner, tmp_path: Path) -> None:
         "--points must be one or two numbers"
         in run("generate", "flat", "--points", "4,4", "--size", "1um", "--out", tmp_path / "a.nc").stderr
     )
-    assert all(kind in run("generate", "--help").stdout for kind in KINDS)
+    assert all(kind in run("generate", "--help").stdout for kind in SURFACES)

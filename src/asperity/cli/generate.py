@@ -1,28 +1,39 @@
-"""The command ``generate``: one subcommand for every kind of surface, made from the schema of the documents."""
+"""The command ``generate``: one subcommand for every kind of surface, whose options follow from what makes it."""
 
 from __future__ import annotations
 
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 
+from ..core.parameters import REQUIRED, Parameter, parameters, taken_apart
+from ..core.values import Choice, Number
+from .declared import Given, Option, built, options_of
+
+if TYPE_CHECKING:
+    from ..surfaces.surface import Surface
+
+STREAMED = ("digital_filter", "rough")
+"""Kinds that can be written piece by piece."""
+
 
 class Kinds(TyperGroup):
-    """Subcommands that are built when they are asked for: the schemas they follow are slow to import."""
+    """Subcommands that are made when they are asked for: what they follow from is slow to import."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names of all kinds."""
-        from .generators import KINDS
+        from ..io.schemas.surfaces import SURFACES
 
-        return list(KINDS)
+        return list(SURFACES)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Subcommand of one kind, with dashes or underscores; None if there is none of the name."""
-        from .generators import KINDS, command
+        from ..io.schemas.surfaces import SURFACES
 
         kind = cmd_name.replace("-", "_")
-        return command(kind) if kind in KINDS else None
+        return _command(kind) if kind in SURFACES else None
 
 
 app = typer.Typer(name="generate", cls=Kinds, no_args_is_help=True, add_completion=False)
@@ -37,3 +48,171 @@ def generate() -> None:
 
     asperity generate KIND --help lists the options of a kind.
     """
+
+
+def _command(kind: str) -> Any:
+    """The subcommand of ``kind``."""
+    from ..io.schemas.surfaces import SURFACE_TABLES
+
+    def run(
+        given: Given,
+        out: Annotated[
+            Path, typer.Option("--out", help="File to write: .nc (all that is known of it), .txt, .asc or .npy.")
+        ],
+        plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
+        force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    ) -> None:
+        _run(kind, given, (out, plot, force))
+
+    run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
+    return built(run, options(kind), kind)
+
+
+def options(kind: str) -> list[Option]:
+    """All options of a kind, those of its own first."""
+    from ..io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface
+    from ..surfaces.generate.gaussian import Spectrum
+    from ..surfaces.generate.non_gaussian import Marginal
+
+    model = SURFACE_TABLES[kind]
+    types = {Spectrum: SPECTRUM_TABLES, Marginal: HEIGHTS_TABLES}
+    made = {item.name: (item, types.get(taken_apart(item.annotation)[0])) for item in parameters(model.makes)}
+    parts = {name: (item, tables) for name, (item, tables) in made.items() if tables is not None}
+    found = list(options_of(model, leave=("kind", *AnySurface.model_fields, *parts)))
+    for item, tables in parts.values():
+        found += _part_options(item, tables)
+    if kind in STREAMED:
+        text = "write piece by piece within this memory (2GB), to an .npy file of any size"
+        found.append(Option("--memory", ("memory",), Parameter("memory", str, Number("memory"), None, text)))
+    return found
+
+
+def _part_options(item: Parameter, tables: Any) -> list[Option]:
+    """Options of a table within the table, of whatever kind it may be; its kinds share options of the same name."""
+    from ..io.schemas.surfaces import FileSurface
+
+    kinds = Choice({kind: kind for kind in tables})
+    told = Parameter("kind", str, kinds, REQUIRED, f"kind of the {item.help}")
+    found = {"--" + item.name: Option("--" + item.name, (item.name, "kind"), told, required=True)}
+    for table in tables.values():
+        prefix = "" if item.name in ("spectrum", "heights") else f"{item.name}-"
+        offered = [*options_of(table, (item.name,), leave=("kind", "surface"), prefix=prefix)]
+        if "surface" in table.model_fields:
+            file = {"path": "file", **{key: f"file-{key}" for key in ("channel", "size", "height_unit")}}
+            for option in options_of(FileSurface, (item.name, "surface")):
+                if (key := option.path[-1]) in file:
+                    name = f"--{item.name}-{file[key]}".replace("_", "-")
+                    offered.append(Option(name, option.path, option.parameter))
+        for option in offered:
+            others = ("--rms",) if option.name == "--rms-height" else ()
+            found.setdefault(option.name, Option(option.name, option.path, option.parameter, others=others))
+    return list(found.values())
+
+
+def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None:
+    from ..core.errors import InputError
+    from ..core.settings import validated
+    from ..io.atomic import require_new_files
+    from ..io.schemas.surfaces import SURFACE_TABLES
+    from ..io.surface_files import require_ending, save_surface
+    from .preparing import PreparationOptions, steps
+    from .show import print_files
+
+    out, plot, force = files
+    if plot is not None and plot.suffix.lower() != ".png":
+        raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
+    require_ending(out)
+    written = [path for path in (out, plot) if path is not None]
+    require_new_files(written, overwrite=force)
+    asked = {"kind": kind} | given.table()
+    memory = asked.pop("memory", None)
+    for part in asked.values():
+        if isinstance(part, dict) and "surface" in part:
+            part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(PreparationOptions())}
+    table = validated(SURFACE_TABLES[kind], asked, "command line", given.names)
+    if memory is not None:
+        _stream(table, out, memory, force)
+        written = [out]
+    else:
+        surface = _generated(table)
+        save_surface(surface, out, overwrite=force)
+        _picture(surface, plot, force)
+        _print(surface)
+    print_files(written)
+
+
+def _generated(table: Any) -> Surface:
+    from ..io.build_surface import build_generated
+    from .interrupt import interruptible
+    from .progress import shown
+
+    if table.kind != "rank_ordered":
+        return build_generated(table, Path())
+    with shown("ordering ranks") as bar, interruptible(bar) as progress:
+        return build_generated(table, Path(), progress=progress)
+
+
+def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
+    """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
+    from ..core.units import parse
+    from ..io.build_surface import build_part, table_grid
+    from ..io.surface_files import save_endless, save_gaussian
+    from ..surfaces.generate import endless
+    from .progress import stage
+    from .show import say
+
+    _require_streamable(table)
+    grid = table_grid(table)
+    spectrum = build_part(table.spectrum, Path())
+    if table.kind == "rough":
+        with stage("writing blocks") as progress:
+            limit = parse(memory, "memory", "--memory")
+            save_gaussian(grid, spectrum, out, seed=table.seed, memory=limit, overwrite=force, progress=progress)
+        return
+    moments = {"skewness": table.skewness, "kurtosis": table.kurtosis, "system": table.system}
+    made = endless(spectrum, grid.spacing, seed=table.seed, **moments)
+    bytes_allowed = parse(memory, "memory", "--memory")
+    with stage("writing tiles") as progress:
+        save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)
+    say(f"  {made.origin.history[0]}", "dim")
+
+
+def _require_streamable(table: Any) -> None:
+    from ..core.errors import InputError
+
+    if table.kind == "digital_filter" and table.periodic:
+        raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
+    if table.kind == "rough" and (table.variant != "random" or table.exact_rms or not table.periodic):
+        raise InputError(
+            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory Gaussian surfaces are "
+            "periodic, with random waves. Use digital_filter for a window without period."
+        )
+
+
+def _picture(surface: Surface, plot: Path | None, force: bool) -> None:
+    if plot is not None:
+        from ..plots.contact import save_surface_plot
+
+        save_surface_plot(surface, plot, overwrite=force)
+
+
+def _print(surface: Surface) -> None:
+    from ..core.units import show
+    from ..io.words import surface_text
+    from ..surfaces.characterise.heights import height_parameters
+    from ..surfaces.characterise.slopes import rms_slope
+    from .show import console, say, table
+
+    found = height_parameters(surface)
+    rows = [
+        ("surface", f"{surface.origin.source}: {surface_text(surface)}"),
+        ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
+        ("boundary", "periodic" if surface.periodic else "not periodic"),
+        ("rms height Sq", show(found.Sq, "m")),
+        ("rms slope Sdq", show(rms_slope(surface), "1") if min(surface.shape) > 1 else "of a profile: none"),
+        ("skewness Ssk, kurtosis Sku", f"{found.Ssk:.4g}, {found.Sku:.4g}"),
+        ("peak to valley Sz", show(found.Sz, "m")),
+    ]
+    console().print(table("Generated", rows))
+    for step in surface.origin.history:
+        say(f"  {step}", "dim")

@@ -94,7 +94,7 @@ def parameter(name: str, annotation: Any, default: Any = REQUIRED) -> Parameter 
         None,
     )
     values = values_of(base, marks)
-    if told is None and type(values) is Values:
+    if told is None and not any(isinstance(mark, Values) for mark in marks):
         return None
     told = told or Help("")
     belongs = next((mark.of for mark in marks if isinstance(mark, Help) and mark.of), "")

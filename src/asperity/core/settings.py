@@ -10,13 +10,13 @@ import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Annotated, Any, Literal, Optional, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, Optional, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
 from pydantic.fields import FieldInfo
 
 from .errors import InputError
-from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart
+from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart, values_of
 from .values import Choice, Flag, Number, Several, Values, Whole
 
 T = TypeVar("T", bound="Settings")
@@ -31,6 +31,9 @@ class Settings(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True, defer_build=True
     )
+
+    makes: ClassVar[Callable[..., Any]] = dict
+    """What is called with the values, for the table of a function."""
 
     @model_validator(mode="before")
     @classmethod
@@ -62,13 +65,19 @@ def declared(name: str, field: FieldInfo) -> Parameter:
         annotation = Annotated[annotation, mark]
     default = REQUIRED if field.is_required() else field.default
     extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-    found = parameter(name, annotation, default) or Parameter(name, annotation, Values(), default)
+    found = parameter(name, annotation, default)
+    if found is None:
+        found = Parameter(name, annotation, values_of(*taken_apart(annotation)), default)
     option, of = extra.get("option") or found.option, extra.get("of") or found.of
     return replace(found, help=field.description or found.help, option=str(option) if option else None, of=str(of))
 
 
 def table_of(
-    function: Callable[..., Any], base: type[T], kind: str = "", name: str = "", tables: Mapping[Any, Any] | None = None
+    function: Callable[..., Any],
+    base: type[T],
+    kind: str,
+    *,
+    tables: Mapping[Any, Any] | None = None,
 ) -> type[T]:
     """Table with a key for every declared parameter of a ``function`` or dataclass, beside those of ``base``.
 
@@ -79,26 +88,26 @@ def table_of(
     base
         Table whose keys are added.
     kind
-        Name of the key that tells this table from others, and its only value: ``"kind=sphere"``; empty for none.
-    name
-        Name of the model.
+        Name of the key that tells this table from others, and its only value: ``"kind=sphere"``.
     tables
-        What stands in a document for parameters of types that are no numbers: annotations by type.
+        What stands in a document for parameters of types that are no numbers: annotations by type, None for no key.
 
     A default with a unit, and one that no text can say, stays that of the function: None in the document.
     """
-    made: dict[str, Any] = {}
     tag, _, value = kind.partition("=")
-    if tag:
-        made[tag] = (Literal[value], ...)
+    made: dict[str, Any] = {tag: (Literal[value], ...)}
     for item in parameters(function):
         shown = (tables or {}).get(taken_apart(item.annotation)[0], item.annotation)
+        if shown is None:
+            continue
         plain = isinstance(item.default, bool | int | str | float) and not item.unit and item.default != float("inf")
         default = ... if item.required else item.default if plain else None
         optional = Optional[shown] if default is None else shown  # noqa: UP045  (shown is a value here, no annotation)
         made[item.name] = (optional, setting(default, help=item.help, option=item.option or "", of=item.of))
     doc = inspect.cleandoc(function.__doc__ or "").partition("\n\n")[0]
-    return create_model(name or value, __base__=base, __doc__=doc, __module__=base.__module__, **made)
+    table = create_model(function.__name__, __base__=base, __doc__=doc, __module__=base.__module__, **made)
+    table.makes = staticmethod(function)
+    return table
 
 
 def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> T:

@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from . import units
 from .errors import InputError
@@ -470,6 +470,7 @@ PoissonRatio: TypeAlias = Annotated[float, Number(above=-1.0, most=0.5)]
 Hurst: TypeAlias = Annotated[float, Number(above=0.0, most=1.0)]
 Count: TypeAlias = Annotated[int, Whole(1)]
 Seed: TypeAlias = Annotated[int, Whole(0)]
+Axis: TypeAlias = Literal["x", "y"]
 NonEmpty: TypeAlias = Annotated[str, Text()]
 Size: TypeAlias = Annotated[tuple[float, float], Lengths()]
 Points: TypeAlias = Annotated[tuple[int, int], Numbers()]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,10 +40,9 @@ from asperity import (
 )
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
-from asperity.io.build_generated import FUNCTIONS, build_spectrum
-from asperity.io.build_surface import build_surface
+from asperity.io.build_surface import build_part, build_surface
 from asperity.io.documents import checked, relocated
-from asperity.io.schemas.surfaces import RandomSurface, Shape
+from asperity.io.schemas.surfaces import SURFACE_TABLES, SURFACES
 from asperity.run.build import build, build_control
 from asperity.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
@@ -162,15 +161,11 @@ def test_every_kind_of_surface(surface: dict[str, Any]) -> None:
 
 def test_every_generator_has_a_kind() -> None:
     """What Python can make, a document can ask for, with the same arguments."""
-    models = {
-        model.model_fields["kind"].annotation.__args__[0]: model  # type: ignore[union-attr]
-        for model in (*get_args(Shape), *get_args(RandomSurface))
-    }
     functions = {name for name in generate.__all__ if inspect.isfunction(getattr(generate, name))}
     others = {"endless", "spectrum_of"}  # an endless surface has no grid, and a spectrum is not a surface
-    assert {FUNCTIONS.get(kind, kind) for kind in models} == functions - others
-    for kind, model in models.items():
-        arguments = set(inspect.signature(getattr(generate, FUNCTIONS.get(kind, kind))).parameters)
+    assert set(SURFACES.values()) == {getattr(generate, name) for name in functions - others}
+    for kind, model in SURFACE_TABLES.items():
+        arguments = set(inspect.signature(SURFACES[kind]).parameters)
         keys = set(model.model_fields) - {"kind", "points", "size", "prepare", "mirror", "place"}
         assert keys == arguments - {"grid", "progress"}, kind
 
@@ -189,10 +184,9 @@ def test_spectra_in_si() -> None:
         "gaussian": EXPONENTIAL | {"kind": "gaussian", "correlation_length_y": "700 nm", "drop": 0.5},
     }
     found = {
-        name: build_spectrum(
+        name: build_part(
             checked(table(surface={"kind": "rough", "seed": 1, "spectrum": spectrum, **GRID})).surface.spectrum,
             Path(),
-            no_file,
         )  # type: ignore[union-attr]
         for name, spectrum in table_of.items()
     }
@@ -205,10 +199,6 @@ def test_spectra_in_si() -> None:
     )
     assert found["gaussian"].drop == 0.5  # type: ignore[attr-defined]
     assert found["gaussian"].correlation_length_y == pytest.approx(7e-7)  # type: ignore[attr-defined]
-
-
-def no_file(*_: object) -> Surface:
-    raise AssertionError("no file is named")
 
 
 def test_more_like_a_file(tmp_path: Path) -> None:

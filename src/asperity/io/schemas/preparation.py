@@ -1,142 +1,109 @@
-"""Preparation steps of a surface, carried out in the order in which they stand."""
+"""Preparation steps of a surface, carried out in the order in which they stand: each is a declared function.
+
+The table of a step has the parameters of its function as keys, and ``prepared`` calls it.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
 
 from pydantic import Field, model_validator
 
 from ...core.errors import InputError
-from ...core.settings import Settings, setting
-from ...core.values import Length, LengthRange, Number, Points, Positive, Whole
-from ...surfaces.prepare.level import HIGHEST_DEGREE
-from .values import PlaceOnMap
-
-OddCount: TypeAlias = Annotated[int, Whole(3, odd=True)]
-Degree: TypeAlias = Annotated[int, Whole(0, HIGHEST_DEGREE)]
-Width: TypeAlias = Annotated[float, Number(above=0.0, most=0.5)]
-
-
-class Level(Settings):
-    """Remove a ``form`` (a plane by default) or a polynomial of total ``degree``; ``robust`` leaves out outliers."""
-
-    step: Literal["level"]
-    form: Literal["mean", "plane", "quadratic"] | None = None
-    degree: Degree | None = None
-    robust: bool = False
-
-    @model_validator(mode="after")
-    def _one_form(self) -> Level:
-        if self.degree is not None and self.form is not None:
-            raise InputError(" must give form or degree, but gives both.")
-        return self
+from ...core.parameters import checked
+from ...core.settings import Settings, table_of
+from ...core.values import Length, Whole
+from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
+from ...surfaces.prepare.fill import filled
+from ...surfaces.prepare.filter import filtered, tip_limited
+from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, levelled, line_corrected
+from ...surfaces.surface import Surface
 
 
-class Despike(Settings):
-    """Mask points far from the median of their surroundings, by ``threshold`` standard deviations; fill them afterwards."""
-
-    step: Literal["despike"]
-    threshold: Positive = 6.0
-    window: OddCount = 5
-
-
-class LineCorrect(Settings):
-    """Remove the offsets between the scan lines, which run along the fast ``axis``."""
-
-    step: Literal["line_correct"]
-    axis: Literal["x", "y"] = "x"
+@checked
+def level(
+    surface: Surface,
+    *,
+    form: Annotated[Literal["mean", "plane", "quadratic"] | None, "form to remove; the plane by default"] = None,
+    degree: Annotated[int | None, Whole(0, HIGHEST_DEGREE), "total degree of a polynomial to remove instead"] = None,
+    robust: Annotated[bool, "leave out outliers, such as peaks and pits"] = False,
+) -> Surface:
+    """Remove a ``form`` or a polynomial of total ``degree``; ``robust`` leaves out outliers."""
+    return levelled(surface, (form or "plane") if degree is None else degree, robust=robust)
 
 
-class Filter(Settings):
+@checked
+def filter_waves(
+    surface: Surface,
+    *,
+    short: Annotated[Length | None, "shorter waves are removed"] = None,
+    short_y: Annotated[Length | None, "the same along y, if it differs"] = None,
+    long: Annotated[Length | None, "longer waves are removed"] = None,
+    long_y: Annotated[Length | None, "the same along y, if it differs"] = None,
+    kind: Annotated[Literal["gaussian", "robust", "sharp"], "kind of filter"] = "gaussian",
+    order: Annotated[Literal[0, 1, 2], "of the polynomial fitted around each node"] = 0,
+) -> Surface:
     """Remove the waves shorter than ``short`` and longer than ``long``; ``short_y``, ``long_y`` where y differs from x."""
+    cutoffs = {"short": (short, short_y), "long": (long, long_y)}
+    pairs = {name: (x, x if y is None else y) for name, (x, y) in cutoffs.items() if x is not None}
+    return filtered(surface, short=pairs.get("short"), long=pairs.get("long"), kind=kind, order=order)
 
-    step: Literal["filter"]
-    short: Length | None = None
-    short_y: Length | None = None
-    long: Length | None = None
-    long_y: Length | None = None
-    kind: Literal["gaussian", "robust", "sharp"] = "gaussian"
-    order: Literal[0, 1, 2] = 0
+
+STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
+    {
+        "level": level,
+        "crop": cropped,
+        "resample": resampled,
+        "fill": filled,
+        "despike": despiked,
+        "line_correct": line_corrected,
+        "filter": filter_waves,
+        "tip_limit": tip_limited,
+        "taper": tapered,
+        "periodise": periodised,
+        "slice": sliced,
+    }
+)
+"""What carries out each step."""
+
+_AT_LEAST_ONE = {
+    "crop": (("x", "y"), 'x = ["0 um", "5 um"]'),
+    "filter": (("short", "long"), 'short = "1 um"'),
+}
+_TOGETHER = {"filter": (("short", "short_y"), ("long", "long_y"))}
+
+
+class AnyStep(Settings):
+    """What all steps have: rules on which of their keys go together."""
 
     @model_validator(mode="after")
-    def _something(self) -> Filter:
-        if self.short is None and self.long is None:
-            raise InputError(' must give short or long or both, such as short = "1 um", but gives neither.')
-        for along_x, along_y in (("short", "short_y"), ("long", "long_y")):
-            if getattr(self, along_y) is not None and getattr(self, along_x) is None:
-                raise InputError(f" must give {along_x} together with {along_y}, but gives only {along_y}.")
+    def _keys_go_together(self) -> AnyStep:
+        step, given = getattr(self, "step", ""), self.given()
+        if step in _AT_LEAST_ONE:
+            keys, example = _AT_LEAST_ONE[step]
+            if not any(key in given for key in keys):
+                raise InputError(f" must give {' or '.join(keys)} or both, such as {example}, but gives neither.")
+        if step == "level" and "form" in given and "degree" in given:
+            raise InputError(" must give form or degree, but gives both.")
+        if step == "slice" and ("x" in given) == ("y" in given):
+            both = "both" if "x" in given else "none"
+            raise InputError(f' must give exactly one of x and y, such as y = "middle", but gives {both}.')
+        for key, other in _TOGETHER.get(step, ()):
+            if other in given and key not in given:
+                raise InputError(f" must give {key} together with {other}, but gives only {other}.")
         return self
 
 
-class TipLimit(Settings):
-    """Remove the waves that a tip of this ``radius`` may have shaped."""
-
-    step: Literal["tip_limit"]
-    radius: Length
-
-
-class Crop(Settings):
-    """Keep the rectangle between ``x`` and ``y``, each a pair of lengths from the corner."""
-
-    step: Literal["crop"]
-    x: LengthRange | None = None
-    y: LengthRange | None = None
-
-    @model_validator(mode="after")
-    def _something(self) -> Crop:
-        if self.x is None and self.y is None:
-            raise InputError(' must give x or y or both, such as x = ["0 um", "5 um"], but gives neither.')
-        return self
+def prepared(surface: Surface, step: Any) -> Surface:
+    """``surface`` after one preparation ``step``."""
+    made: Surface = step.makes(surface, **step.given("step"))
+    return made
 
 
-class Resample(Settings):
-    """Change the number of points at constant size."""
-
-    step: Literal["resample"]
-    points: Points
-
-
-class Fill(Settings):
-    """Fill missing points; does nothing where none are missing."""
-
-    step: Literal["fill"]
-    method: Literal["harmonic", "mean", "nearest"] = "harmonic"
-
-
-class Taper(Settings):
-    """Let the heights fall to their mean along the borders; ``width`` is a fraction of the side."""
-
-    step: Literal["taper"]
-    width: Width = 0.1
-
-
-class Periodise(Settings):
-    """Remove the smooth component that carries the jumps between opposite borders."""
-
-    step: Literal["periodise"]
-
-
-class Slice(Settings):
-    """Keep one line, that at ``y`` or that at ``x``, as a surface of one row, for line contact.
-
-    ``length`` is the length along the contact that forces and areas belong to: per metre by default.
-    """
-
-    step: Literal["slice"]
-    x: PlaceOnMap | None = None
-    y: PlaceOnMap | None = None
-    length: Length = setting("1 m")
-
-    @model_validator(mode="after")
-    def _one(self) -> Slice:
-        if (self.x is None) == (self.y is None):
-            given = "none" if self.x is None else "both"
-            raise InputError(f' must give exactly one of x and y, such as y = "middle", but gives {given}.')
-        return self
-
-
-Step: TypeAlias = Annotated[
-    Level | Crop | Resample | Fill | Despike | LineCorrect | Filter | TipLimit | Taper | Periodise | Slice,
-    Field(discriminator="step"),
-]
-"""One preparation step, told apart by the key ``step``."""
+if TYPE_CHECKING:
+    Step: TypeAlias = Any
+else:
+    _TABLES = tuple(table_of(function, AnyStep, f"step={name}") for name, function in STEPS.items())
+    Step = Annotated[Union[_TABLES], Field(discriminator="step")]  # noqa: UP007  (made from a tuple)

@@ -152,7 +152,7 @@ def completed(surface: Surface, fill: str | None, attempt: Attempts) -> Surface:
     """``surface`` with its missing points filled by the method ``fill``, for the spectra; as it is without one."""
     if fill is None or surface.n_missing == 0:
         return surface
-    complete = filled(surface, fill)
+    complete = filled(surface, fill)  # type: ignore[arg-type]  # checked by the function
     step = complete.origin.history[-1]
     attempt.remarks.append(f"For the spectra alone the surface was {step}; all other numbers leave these points out.")
     return complete

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.grid import Grid
+from ...core.parameters import Declared
 from ...core.units import show
+from ...core.values import Fraction, Length
 from .gaussian import clipping_text, embedded_psd
 
 _EXPONENTIAL_DOMAIN = 12.0  # decay lengths a period must hold; at 8 the negative part is 7e-6, at 4 it is 4e-3
@@ -20,23 +21,12 @@ _RANGE = math.log(1e3)  # three 10 % lengths of the exponential: heights whose c
 
 
 @dataclass(frozen=True)
-class ExponentialAutocorrelation:
+class ExponentialAutocorrelation(Declared):
     """Autocovariance σ² exp[-ln(1/drop) sqrt((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
 
     Synthesis is by circulant embedding. ``gaussian`` removes the mean of every realisation, so the expected mean square
     is σ² less the variance of the mean, as for any finite window. Source: Peng & Bhushan (2001) for the 10 % length;
     Dietrich & Newsam (1997) for the embedding.
-
-    Parameters
-    ----------
-    rms_height
-        σ of the infinite surface in m.
-    correlation_length
-        Distance β in m at which the autocorrelation has dropped to ``drop`` (along x if ``correlation_length_y`` is given).
-    drop
-        0.1 by default (β*, the 10 % length); exp(-1) for the 1/e length.
-    correlation_length_y
-        The same along y in m; isotropic if omitted.
 
     Raises
     ------
@@ -44,14 +34,11 @@ class ExponentialAutocorrelation:
         If a value is out of range.
     """
 
-    rms_height: float
-    correlation_length: float
-    drop: float = 0.1
-    correlation_length_y: float | None = None
+    rms_height: Annotated[Length, "rms height"]
+    correlation_length: Annotated[Length, "distance at which the autocorrelation has dropped (along x)"]
+    drop: Annotated[Fraction, "what the autocorrelation has dropped to at the correlation length"] = 0.1
+    correlation_length_y: Annotated[Length | None, "the same along y, if it differs"] = None
     citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997", "PengBhushan2001")
-
-    def __post_init__(self) -> None:
-        _require_lengths(self.rms_height, self.correlation_length, self.drop, self.correlation_length_y)
 
     @property
     def decay_lengths(self) -> tuple[float, float]:
@@ -102,21 +89,18 @@ class ExponentialAutocorrelation:
 
 
 @dataclass(frozen=True)
-class GaussianAutocorrelation:
+class GaussianAutocorrelation(Declared):
     """Autocovariance σ² exp[-ln(1/drop) ((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
 
     The surface is smooth: m2 = 2σ²/b², m4 = 12σ²/b⁴, Nayak's parameter 3, with b the 1/e length. Parameters, mean and
     errors as for ``ExponentialAutocorrelation``.
     """
 
-    rms_height: float
-    correlation_length: float
-    drop: float = 0.1
-    correlation_length_y: float | None = None
+    rms_height: Annotated[Length, "rms height"]
+    correlation_length: Annotated[Length, "distance at which the autocorrelation has dropped (along x)"]
+    drop: Annotated[Fraction, "what the autocorrelation has dropped to at the correlation length"] = 0.1
+    correlation_length_y: Annotated[Length | None, "the same along y, if it differs"] = None
     citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997",)
-
-    def __post_init__(self) -> None:
-        _require_lengths(self.rms_height, self.correlation_length, self.drop, self.correlation_length_y)
 
     @property
     def decay_lengths(self) -> tuple[float, float]:
@@ -164,14 +148,6 @@ class GaussianAutocorrelation:
         return f"Gaussian autocorrelation, rms height {show(self.rms_height, 'm')}, {lengths}" + clipping_text(
             self, grid
         )
-
-
-def _require_lengths(rms_height: float, along_x: float, drop: float, along_y: float | None) -> None:
-    require.positive(rms_height, "rms height (m)")
-    require.positive(along_x, "correlation length (m)")
-    require.between(drop, 0.0, 1.0, "drop that defines the correlation length")
-    if along_y is not None:
-        require.positive(along_y, "correlation length along y (m)")
 
 
 def _along_y(along_x: float, along_y: float | None) -> float:

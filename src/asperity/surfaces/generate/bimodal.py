@@ -7,15 +7,17 @@ three constructions here, all from independent Gaussian fields, cover that class
 from __future__ import annotations
 
 import math
+from typing import Annotated, Literal
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.units import show
+from ...core.values import Density, Fraction, Length, NonNegativeLength, Number, Seed, SignedLength
 from ..surface import Origin, Surface
 from .gaussian import Spectrum, random_field, sub_seeds
 
@@ -23,36 +25,24 @@ _KEYS = ("PengBhushan2000",)
 _MOST_PARTICLES = 10_000_000
 
 
+@checked
 def bimodal(
     grid: Grid,
-    first: Spectrum,
-    second: Spectrum,
+    first: Annotated[Spectrum, "spectrum of the first texture"],
+    second: Annotated[Spectrum, "spectrum of the second texture"],
     *,
-    share: float,
-    separation: float,
-    patches: Spectrum,
-    seed: int,
+    share: Annotated[Fraction, "share of the area of the first texture, on average over realisations"],
+    separation: Annotated[
+        SignedLength, "height of the mean plane of the first texture above that of the second, of either sign"
+    ],
+    patches: Annotated[Spectrum, "spectrum of M, which shapes the patches; its rms height does not matter"],
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
 ) -> Surface:
     """Periodic surface of two textures side by side: patches of the first on ``share`` of the area, the second elsewhere.
 
     h = X where M < Φ⁻¹(share), else Y, with independent Gaussian fields X, Y and M; there are steps at the boundaries.
     With p the share, d the distance of a mean from the common one: <h²> = Σ p (σ² + d²), <h³> = Σ p (d³ + 3 d σ²),
     <h⁴> = Σ p (d⁴ + 6 d² σ² + 3 σ⁴) about the mean.
-
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    first, second
-        Spectra or autocorrelations of the textures, with their rms heights.
-    share
-        Fraction of the area of the first texture, 0 < share < 1 (on average over realisations).
-    separation
-        Height in m of the mean plane of the first texture above that of the second, of either sign.
-    patches
-        Spectrum or autocorrelation of M, which sets size and shape of the patches; its rms height does not matter.
-    seed
-        Whole number >= 0, of three independent streams.
 
     Raises
     ------
@@ -61,9 +51,6 @@ def bimodal(
     """
     from scipy.special import ndtri
 
-    seed = require.integer(seed, 0, "seed of a random surface")
-    share = require.between(share, 0.0, 1.0, "share of the first texture")
-    separation = require.finite(separation, "separation of the textures (m)")
     seeds = sub_seeds(seed, 3)
     texture, other, mask = (random_field(grid, s, n) for s, n in zip((first, second, patches), seeds, strict=True))
     mask /= np.sqrt(np.mean(np.square(mask)))
@@ -75,35 +62,26 @@ def bimodal(
     return _surface(grid, heights, "bimodal", text, (first, second, patches))
 
 
+@checked
 def two_process(
-    grid: Grid, plateau: Spectrum, valleys: Spectrum, *, offset: float, seed: int, keep: str = "lower"
+    grid: Grid,
+    plateau: Annotated[Spectrum, "spectrum of the plateau X"],
+    valleys: Annotated[Spectrum, "spectrum of the valleys Y"],
+    *,
+    offset: Annotated[SignedLength, "mean of the valleys above that of the plateau, of either sign"],
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    keep: Annotated[Literal["lower", "upper"], "which of the two surfaces is kept at each point"] = "lower",
 ) -> Surface:
     """Periodic surface of a second process over a first one: h = min(X, Y), as by honing or wear; max for deposits.
 
     X is the fine texture of the plateau with mean 0, Y the coarse one with mean ``offset``, independent Gaussian
     fields. The material ratio on probability paper is two straight lines; the heights are usually strongly skewed.
 
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    plateau, valleys
-        Spectra or autocorrelations of X and Y.
-    offset
-        Mean of Y less that of X in m, of either sign.
-    seed
-        Whole number >= 0, of two independent streams.
-    keep
-        ``lower`` (min) or ``upper`` (max).
-
     Raises
     ------
     InputError
         If a value is out of range or the grid does not suit a spectrum.
     """
-    seed = require.integer(seed, 0, "seed of a random surface")
-    offset = require.finite(offset, "offset of the second process (m)")
-    require.one_of(keep, ("lower", "upper"), "height that is kept of two processes")
     first, second = (random_field(grid, s, n) for s, n in zip((plateau, valleys), sub_seeds(seed, 2), strict=True))
     heights = (np.minimum if keep == "lower" else np.maximum)(first, second + offset)
     text = (
@@ -113,45 +91,35 @@ def two_process(
     return _surface(grid, heights, "two processes", text, (plateau, valleys))
 
 
+@checked
 def particles(
     grid: Grid,
-    matrix: Spectrum,
+    matrix: Annotated[Spectrum, "spectrum of the matrix"],
     *,
-    density: float,
-    radius: float,
-    radius_deviation: float = 0.0,
-    exposure: float = 2.0,
-    seed: int,
+    density: Annotated[Density, "particles per area, on average: 0.5um**-2"],
+    radius: Annotated[Length, "mean radius of the particles"],
+    radius_deviation: Annotated[NonNegativeLength, "standard deviation of the radii"] = 0.0,
+    exposure: Annotated[
+        float,
+        Number(above=0.0, most=2.0),
+        "height of a particle's top above the matrix in radii: 2 lies on it, 1 is half sunk",
+    ] = 2.0,
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
 ) -> Surface:
     """Periodic surface of spheres in or on a rough matrix: h = max(h_m, z - R + sqrt(R² - r²)).
 
     Places are independent and uniform, so spheres overlap by chance; their number is Poisson distributed. Radii are normal,
     those not positive drawn again. The top of each stands ``exposure`` radii above the matrix at its centre.
 
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    matrix
-        Spectrum or autocorrelation of the matrix.
-    density
-        Mean number of particles per area in 1/m².
-    radius, radius_deviation
-        Mean and standard deviation of the radii in m.
-    exposure
-        Height of a top above the matrix in units of its radius, 0 < exposure <= 2; 2 lies on the matrix, 1 is half sunk.
-    seed
-        Whole number >= 0, of two independent streams.
-
     Raises
     ------
     InputError
         If a value is out of range, there are more than ten million particles, or one is wider than the grid.
     """
-    seed = require.integer(seed, 0, "seed of a random surface")
-    radius = require.positive(radius, "radius of the particles (m)")
-    exposure = require.within(exposure, 0.0, 2.0, "exposure of the particles")
-    _require_particles(grid, density, radius_deviation)
+    if density * grid.area > _MOST_PARTICLES:
+        raise InputError(
+            f"particles must be at most {_MOST_PARTICLES}, but are {density * grid.area:.3g}. Reduce density or area."
+        )
     field_seed, place_seed = sub_seeds(seed, 2)
     heights = random_field(grid, matrix, field_seed)
     ground = heights.copy()
@@ -165,15 +133,6 @@ def particles(
         f"on {matrix.describe(grid)}, seed {seed}"
     )
     return _surface(grid, heights, "particles", text, (matrix,))
-
-
-def _require_particles(grid: Grid, density: float, deviation: float) -> None:
-    count = require.positive(density, "density of the particles (1/m²)") * grid.area
-    if count > _MOST_PARTICLES or not require.finite(deviation, "deviation of the radii (m)") >= 0.0:
-        raise InputError(
-            f"particles must be at most {_MOST_PARTICLES} with a deviation of the radii of 0 or more, but are {count:.3g} "
-            f"with {deviation:g} m. Reduce density or area."
-        )
 
 
 def _radii(draw: np.random.Generator, count: int, mean: float, deviation: float) -> RealArray:

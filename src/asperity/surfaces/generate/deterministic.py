@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Annotated, Literal, TypeAlias
+
 import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.units import show
+from ...core.values import Axis, Length, NonNegativeLength, Number, Positive
 from ..surface import Origin, Surface
 
 # Deterministic shapes: heights positive out of the body, highest point at zero, centred at node (nx//2, ny//2).
@@ -16,7 +20,13 @@ from ..surface import Origin, Surface
 # Johnson, K. L. (1985), Contact Mechanics, chapters 4, 5 and 13, uses the same undeformed profiles.
 
 
-def sphere(grid: Grid, *, radius: float, exact: bool = False) -> Surface:
+@checked
+def sphere(
+    grid: Grid,
+    *,
+    radius: Annotated[Length, "radius R"],
+    exact: Annotated[bool, "the exact sphere instead of its paraboloid"] = False,
+) -> Surface:
     """Sphere of ``radius`` R (m), by default its paraboloid h = -r²/(2R), the profile of Hertz' theory.
 
     With ``exact`` the profile is h = -R + sqrt(R² - r²); paraboloid and sphere differ by about r²/(4R²) of the sag.
@@ -26,7 +36,6 @@ def sphere(grid: Grid, *, radius: float, exact: bool = False) -> Surface:
     InputError
         If the radius is not positive, or with ``exact`` a node lies outside r <= R.
     """
-    radius = require.positive(radius, "sphere radius (m)")
     r_squared = _radius_squared(grid)
     if not exact:
         return _shape(grid, -r_squared / (2.0 * radius), f"paraboloid of a sphere, radius {show(radius, 'm')}")
@@ -40,7 +49,13 @@ def sphere(grid: Grid, *, radius: float, exact: bool = False) -> Surface:
     return _shape(grid, -sag, f"exact sphere, radius {show(radius, 'm')}")
 
 
-def elliptic_paraboloid(grid: Grid, *, radius_x: float, radius_y: float) -> Surface:
+@checked
+def elliptic_paraboloid(
+    grid: Grid,
+    *,
+    radius_x: Annotated[Length, "principal radius along x"],
+    radius_y: Annotated[Length, "principal radius along y"],
+) -> Surface:
     """Elliptic paraboloid h = -x²/(2 Rx) - y²/(2 Ry) with principal radii ``radius_x``, ``radius_y`` (m, positive).
 
     Raises
@@ -48,14 +63,15 @@ def elliptic_paraboloid(grid: Grid, *, radius_x: float, radius_y: float) -> Surf
     InputError
         If a radius is not positive.
     """
-    radius_x = require.positive(radius_x, "paraboloid radius along x (m)")
-    radius_y = require.positive(radius_y, "paraboloid radius along y (m)")
     x, y = grid.centred_coordinates()
     heights = -(x**2) / (2.0 * radius_x) - y**2 / (2.0 * radius_y)
     return _shape(grid, heights, f"elliptic paraboloid, radii {show(radius_x, 'm')} and {show(radius_y, 'm')}")
 
 
-def cylinder(grid: Grid, *, radius: float, axis: str = "y") -> Surface:
+@checked
+def cylinder(
+    grid: Grid, *, radius: Annotated[Length, "radius R"], axis: Annotated[Axis, "direction along which it runs"] = "y"
+) -> Surface:
     """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along y.
 
     Raises
@@ -63,14 +79,17 @@ def cylinder(grid: Grid, *, radius: float, axis: str = "y") -> Surface:
     InputError
         If the radius is not positive or the axis is not ``x`` or ``y``.
     """
-    radius = require.positive(radius, "cylinder radius (m)")
-    require.one_of(axis, ("x", "y"), "cylinder axis")
     x, y = grid.centred_coordinates()
     across = x if axis == "y" else y
     return _shape(grid, -(across**2) / (2.0 * radius), f"parabolic cylinder along {axis}, radius {show(radius, 'm')}")
 
 
-def cone(grid: Grid, *, slope: float) -> Surface:
+Slope: TypeAlias = Annotated[Positive, "tangent of the angle between flank and surface"]
+"""Slope of an indenter."""
+
+
+@checked
+def cone(grid: Grid, *, slope: Slope) -> Surface:
     """Cone h = -slope · r; ``slope`` is the tangent of the angle between flank and surface (dimensionless, positive).
 
     Raises
@@ -78,11 +97,11 @@ def cone(grid: Grid, *, slope: float) -> Surface:
     InputError
         If the slope is not positive.
     """
-    slope = require.positive(slope, "cone slope")
     return _shape(grid, -slope * np.sqrt(_radius_squared(grid)), f"cone, slope {slope:g}")
 
 
-def wedge(grid: Grid, *, slope: float, axis: str = "y") -> Surface:
+@checked
+def wedge(grid: Grid, *, slope: Slope, axis: Annotated[Axis, "direction along which it runs"] = "y") -> Surface:
     """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`.
 
     Raises
@@ -90,13 +109,18 @@ def wedge(grid: Grid, *, slope: float, axis: str = "y") -> Surface:
     InputError
         If the slope is not positive or the axis is not ``x`` or ``y``.
     """
-    slope = require.positive(slope, "wedge slope")
-    require.one_of(axis, ("x", "y"), "wedge axis")
     x, y = grid.centred_coordinates()
     return _shape(grid, -slope * np.abs(x if axis == "y" else y), f"wedge along {axis}, slope {slope:g}")
 
 
-def power_law(grid: Grid, *, exponent: float, radius: float, height: float) -> Surface:
+@checked
+def power_law(
+    grid: Grid,
+    *,
+    exponent: Annotated[Positive, "power n of the distance with which the indenter falls"],
+    radius: Annotated[Length, "distance from the axis"],
+    height: Annotated[Length, "fall of the indenter at the radius"],
+) -> Surface:
     """Indenter h = -height · (r/radius)^n of the ``exponent`` n: 1 a cone, 2 a paraboloid, large n nearly a flat punch.
 
     ``height`` is the sag at the ``radius``, both in m and positive.
@@ -106,14 +130,18 @@ def power_law(grid: Grid, *, exponent: float, radius: float, height: float) -> S
     InputError
         If a value is not positive.
     """
-    exponent = require.positive(exponent, "exponent of a power-law indenter")
-    radius = require.positive(radius, "radius of a power-law indenter (m)")
-    height = require.positive(height, "height of a power-law indenter (m)")
     heights = -height * (_radius_squared(grid) / radius**2) ** (0.5 * exponent)
     return _shape(grid, heights, f"power law, exponent {exponent:g}, height {show(height, 'm')} at {show(radius, 'm')}")
 
 
-def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 0.0) -> Surface:
+@checked
+def flat_punch(
+    grid: Grid,
+    *,
+    radius: Annotated[Length, "radius of the flat end"],
+    depth: Annotated[Length, "depth of the surface around it"],
+    edge_radius: Annotated[NonNegativeLength, "radius R_e of the rounded edge"] = 0.0,
+) -> Surface:
     """Flat-ended circular punch: h = 0 for r <= ``radius`` and h = -``depth`` outside (both m, positive).
 
     The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the problem. With an
@@ -124,8 +152,6 @@ def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 
     InputError
         If radius or depth is not positive, or the edge radius is not between 0 and both.
     """
-    radius = require.positive(radius, "punch radius (m)")
-    depth = require.positive(depth, "punch depth (m)")
     r_squared = _radius_squared(grid)
     text = f"flat punch, radius {show(radius, 'm')}, depth {show(depth, 'm')}"
     heights = np.where(r_squared <= radius**2, 0.0, -depth)
@@ -137,7 +163,14 @@ def flat_punch(grid: Grid, *, radius: float, depth: float, edge_radius: float = 
     return _shape(grid, heights, text)
 
 
-def sinusoid(grid: Grid, *, amplitude: float, wavelength: float, axis: str = "x") -> Surface:
+@checked
+def sinusoid(
+    grid: Grid,
+    *,
+    amplitude: Annotated[Length, "amplitude of the wave"],
+    wavelength: Annotated[Length, "length λ of the wave; the size holds a whole number of them"],
+    axis: Annotated[Axis, "direction along which it runs"] = "x",
+) -> Surface:
     """Wave h = amplitude · [cos(2πx/λ) - 1] along ``axis``, periodic; amplitude and wavelength λ in m, positive.
 
     Against a flat the gap is amplitude · [1 - cos(2πx/λ)] (Johnson 1985, section 13.2).
@@ -147,14 +180,18 @@ def sinusoid(grid: Grid, *, amplitude: float, wavelength: float, axis: str = "x"
     InputError
         If a value is not positive, or the grid is not a whole number of wavelengths sampled at least twice each.
     """
-    amplitude = require.positive(amplitude, "sinusoid amplitude (m)")
-    require.one_of(axis, ("x", "y"), "sinusoid axis")
     wave = _wave(grid, wavelength, "xy".index(axis))
     text = f"sinusoid along {axis}, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
     return _shape(grid, amplitude * (wave - 1.0), text, periodic=True)
 
 
-def bisinusoid(grid: Grid, *, amplitude: float, wavelength: float) -> Surface:
+@checked
+def bisinusoid(
+    grid: Grid,
+    *,
+    amplitude: Annotated[Length, "amplitude of the wave"],
+    wavelength: Annotated[Length, "length λ of the wave; the size holds a whole number of them"],
+) -> Surface:
     """Egg-box h = amplitude · [cos(2πx/λ) + cos(2πy/λ) - 2], periodic; amplitude and wavelength λ in m, positive.
 
     Source: Johnson, Greenwood & Higginson (1985), with the highest points at zero.
@@ -164,7 +201,6 @@ def bisinusoid(grid: Grid, *, amplitude: float, wavelength: float) -> Surface:
     InputError
         If a value is not positive, or a side of the grid is not a whole number of wavelengths.
     """
-    amplitude = require.positive(amplitude, "bisinusoid amplitude (m)")
     heights = amplitude * (_wave(grid, wavelength, 0) + _wave(grid, wavelength, 1) - 2.0)
     text = f"bisinusoid, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
     return _shape(grid, heights, text, periodic=True)
@@ -182,7 +218,6 @@ def _radius_squared(grid: Grid) -> RealArray:
 
 
 def _wave(grid: Grid, wavelength: float, axis: int) -> RealArray:
-    wavelength = require.positive(wavelength, "wavelength (m)")
     size, spacing, name = grid.size[axis], grid.spacing[axis], "xy"[axis]
     waves = round(size / wavelength)
     if waves < 1 or abs(size / wavelength - waves) > 1e-9 * waves:
@@ -208,53 +243,48 @@ def _shape(grid: Grid, heights: RealArray, text: str, *, periodic: bool = False)
 # Regular textures: laser bumps, dimples, pillars and grooves, repeated on a lattice of centres.
 
 
-GROOVES = ("vee", "round", "cosine")
-"""Cross sections of grooves."""
-
-
+@checked
 def laser_bumps(
     grid: Grid,
     *,
-    pitch: tuple[float, float],
-    rim_height: float,
-    rim_radius: float,
-    rim_width: float,
-    depth: float = 0.0,
-    crater_radius: float | None = None,
+    pitch: Annotated[
+        tuple[Length, Length], "distances of the centres along x and y; the size holds a whole number of them"
+    ],
+    rim_height: Annotated[Length, "height h_rim of the rim"],
+    rim_radius: Annotated[NonNegativeLength, "radius r_rim of the rim; 0 makes a dome"],
+    rim_width: Annotated[Length, "width w of the rim"],
+    depth: Annotated[NonNegativeLength, "depth d of the crater"] = 0.0,
+    crater_radius: Annotated[Length | None, "radius w0 of the crater; that of the rim if left out"] = None,
 ) -> Surface:
     """Periodic lattice of laser-textured bumps: a ring-shaped rim around a crater, or a dome for ``rim_radius`` 0.
 
     h = h_rim exp[-(r - r_rim)²/w²] - d exp(-r²/w0²), r from the nearest centre. A description to be fitted to measured
     bumps, not a law. Heights are measured from the surface between the bumps.
 
-    Parameters
-    ----------
-    grid
-        Nodes of the surface; each side a whole number of pitches.
-    pitch
-        Distances (m) of the centres along x and y; centres lie on node (nx // 2, ny // 2) and one pitch apart.
-    rim_height, rim_radius, rim_width
-        h_rim, r_rim >= 0 and w in m.
-    depth, crater_radius
-        d >= 0 and w0 in m; the crater radius is that of the rim if omitted.
-
     Raises
     ------
     InputError
         If a value is out of range, or a side of the grid is not a whole number of pitches.
     """
-    height = require.positive(rim_height, "height of the rim (m)")
-    width = require.positive(rim_width, "width of the rim (m)")
-    rim, crater = _not_negative(rim_radius, "radius of the rim (m)"), _not_negative(depth, "depth of the crater (m)")
-    radius = require.positive(crater_radius or rim or width, "radius of the crater (m)")
+    height, width, rim, crater = rim_height, rim_width, rim_radius, depth
+    radius = crater_radius or rim or width
     r = np.hypot(*_from_centres(grid, pitch))
     heights = height * np.exp(-(((r - rim) / width) ** 2)) - crater * np.exp(-((r / radius) ** 2))
     text = f"laser bumps, rim {show(height, 'm')} high at {show(rim, 'm')}, {show(width, 'm')} wide, crater {show(crater, 'm')} deep"
     return _texture(grid, heights, text, pitch)
 
 
+@checked
 def dimples(
-    grid: Grid, *, pitch: tuple[float, float], radius: float, depth: float, sharpness: float = 1.0, raised: bool = False
+    grid: Grid,
+    *,
+    pitch: Annotated[
+        tuple[Length, Length], "distances of the centres along x and y; the size holds a whole number of them"
+    ],
+    radius: Annotated[Length, "radius a"],
+    depth: Annotated[Length, "depth at the centre"],
+    sharpness: Annotated[float, Number(least=1.0), "exponent p: 1 for Gaussian walls, more for steeper ones"] = 1.0,
+    raised: Annotated[bool, "pillars instead of dimples"] = False,
 ) -> Surface:
     """Periodic lattice of dimples h = -depth exp[-(r/a)^(2p)], or with ``raised`` of pillars of that height.
 
@@ -266,10 +296,6 @@ def dimples(
     InputError
         If a value is out of range, or a side of the grid is not a whole number of pitches.
     """
-    radius = require.positive(radius, "radius of the dimples (m)")
-    depth = require.positive(depth, "depth of the dimples (m)")
-    if not require.finite(sharpness, "sharpness of the dimples") >= 1.0:
-        raise InputError(f"sharpness of the dimples must be at least 1, but is {sharpness:g}.")
     x, y = _from_centres(grid, pitch)
     with np.errstate(over="ignore"):  # far outside a sharp dimple
         shape = np.exp(-(((x**2 + y**2) / radius**2) ** sharpness))
@@ -280,7 +306,16 @@ def dimples(
     )
 
 
-def grooves(grid: Grid, *, pitch: float, width: float, depth: float, section: str = "vee", axis: str = "y") -> Surface:
+@checked
+def grooves(
+    grid: Grid,
+    *,
+    pitch: Annotated[Length, "distance of the grooves; the size holds a whole number of them"],
+    width: Annotated[Length, "width of a groove"],
+    depth: Annotated[Length, "depth at the middle of a groove"],
+    section: Annotated[Literal["vee", "round", "cosine"], "cross section of a groove"] = "vee",
+    axis: Annotated[Axis, "direction along which it runs"] = "y",
+) -> Surface:
     """Periodic grooves along ``axis`` in a flat surface at height zero.
 
     Within half a ``width`` of its middle a groove is ``vee`` shaped, ``round`` (a parabola) or a ``cosine`` that meets the
@@ -291,13 +326,6 @@ def grooves(grid: Grid, *, pitch: float, width: float, depth: float, section: st
     InputError
         If a value is out of range, or the side across the grooves is not a whole number of pitches.
     """
-    pitch, width = (
-        require.positive(pitch, "pitch of the grooves (m)"),
-        require.positive(width, "width of the grooves (m)"),
-    )
-    depth = require.positive(depth, "depth of the grooves (m)")
-    require.one_of(section, GROOVES, "cross section of the grooves")
-    require.one_of(axis, ("x", "y"), "axis of the grooves")
     if width > pitch * (1.0 + 1e-9):
         raise InputError(f"width of the grooves must not exceed their pitch ({pitch:g} m), but is {width:g} m.")
     across = 0 if axis == "y" else 1
@@ -309,9 +337,7 @@ def grooves(grid: Grid, *, pitch: float, width: float, depth: float, section: st
 
 def _from_centres(grid: Grid, pitch: tuple[float, float]) -> tuple[RealArray, RealArray]:
     """Distances x (nx, 1) and y (1, ny) in m from the nearest centre of the lattice."""
-    pair = require.two(pitch, "pitch of a texture (m)", "Write (along x, along y).")
-    along = [require.positive(p, f"pitch of a texture along {a} (m)") for p, a in zip(pair, "xy", strict=True)]
-    return _from_nearest(grid, along[0], 0), _from_nearest(grid, along[1], 1)
+    return _from_nearest(grid, pitch[0], 0), _from_nearest(grid, pitch[1], 1)
 
 
 def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
@@ -326,12 +352,6 @@ def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
     u = grid.centred_coordinates()[axis]
     distance: RealArray = u - period * np.round(u / period)
     return distance
-
-
-def _not_negative(value: float, what: str) -> float:
-    if not require.finite(value, what) >= 0.0:
-        raise InputError(f"{what} must be zero or greater, but is {value:g}.")
-    return float(value)
 
 
 def _texture(grid: Grid, heights: RealArray, text: str, pitch: tuple[float, float]) -> Surface:

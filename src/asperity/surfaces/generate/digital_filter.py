@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -11,12 +12,14 @@ from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.pearson import require_possible
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
+from ...core.values import Positive, Real, Seed
 from ..surface import Origin, Surface
 from .gaussian import BLOCK, Spectrum, block_noise, lattice_eigenvalues
-from .non_gaussian import HeightLaw, height_law
+from .non_gaussian import HeightLaw, System, height_law
 from .power_laws import RmsHeight, mode_sum
 
 # Moving-average kernel of a random surface: each height is a weighted sum of white noise around its node.
@@ -261,15 +264,16 @@ def endless(
     return EndlessSurface(kernel, noise, seed, origin)
 
 
+@checked
 def digital_filter(
     grid: Grid,
-    spectrum: Spectrum,
+    spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: int,
-    skewness: float = 0.0,
-    kurtosis: float = 3.0,
-    system: str = "johnson",
-    periodic: bool = False,
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"] = 0.0,
+    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"] = 3.0,
+    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson",
+    periodic: Annotated[bool, "periodic surface, or a window of an endless one"] = False,
 ) -> Surface:
     """Surface by the digital filter of Hu & Tønder (1992), with given skewness and kurtosis of the heights.
 
@@ -296,7 +300,6 @@ def digital_filter(
     if not periodic:
         made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis, system=system)
         return made.window(grid.shape)
-    seed = require.integer(seed, 0, "seed of a random surface")
     eigenvalues = lattice_eigenvalues(spectrum, grid)
     noise = input_noise(zero_phase_weights(eigenvalues, grid), skewness, kurtosis, system)
     transform = RealTransform(grid.shape, thread_count())

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Protocol, runtime_checkable
+from typing import Annotated, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
+from ...core.values import Seed
 from ..surface import Origin, Surface
 from .power_laws import mean_square, mode_sum
 
@@ -221,14 +222,17 @@ VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", 
 _LARGEST_PARENT = 2**29  # points of the periodic map from which a window is cut: 4 GB of heights
 
 
+@checked
 def gaussian(
     grid: Grid,
-    spectrum: Spectrum,
+    spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: int,
-    variant: str = "random",
-    exact_rms: bool = False,
-    periodic: bool = True,
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    variant: Annotated[
+        Literal["random", "fixed", "nested"], "how waves are drawn; nested shows one surface on grids of any pixel"
+    ] = "random",
+    exact_rms: Annotated[bool, "rescale the surface to the expected rms height"] = False,
+    periodic: Annotated[bool, "periodic surface, or a window of one"] = True,
 ) -> Surface:
     """Gaussian surface with the given power spectrum.
 
@@ -262,8 +266,6 @@ def gaussian(
     InputError
         If the seed is not a whole number >= 0, the variant is unknown or the grid does not suit the spectrum.
     """
-    seed = require.integer(seed, 0, "seed of a random surface")
-    require.one_of(variant, VARIANTS, "variant of a Gaussian surface")
     parent = grid if periodic else parent_grid(grid, spectrum)
     psd = spectrum.lattice_psd(parent)
     target = np.sqrt(mean_square(parent, psd))

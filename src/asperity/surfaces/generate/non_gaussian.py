@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol
+from typing import Annotated, ClassVar, Literal, Protocol, TypeAlias, get_args
 
 import numpy as np
 
@@ -13,8 +13,10 @@ from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import Declared, checked
 from ...core.pearson import Pearson, require_possible
 from ...core.spectral import RealTransform, thread_count
+from ...core.values import Fraction, Positive, Real, Seed
 from ..surface import Origin, Surface
 from .gaussian import CLIP_LIMIT, Spectrum, filtered_noise, lattice_eigenvalues, negative_part
 from .power_laws import mean_square
@@ -219,8 +221,8 @@ def _logistic(u: RealArray) -> RealArray:
 # Distribution of heights with given skewness and kurtosis, of one of the systems that have one for every such pair.
 
 
-SYSTEMS = ("johnson", "pearson")
-"""Systems of distributions; both have every possible pair, but other tails, which is what touches first."""
+System: TypeAlias = Literal["johnson", "pearson"]
+"""System of distributions of heights."""
 
 
 class HeightLaw(Protocol):
@@ -246,7 +248,7 @@ def height_law(skewness: float, kurtosis: float, system: str = "johnson") -> Hei
     InputError
         If no distribution has these moments, only one of two heights, or the system is unknown.
     """
-    if require.one_of(system, SYSTEMS, "system of distributions of the heights") == "pearson":
+    if require.one_of(system, get_args(System), "system of distributions of the heights") == "pearson":
         return Pearson(skewness, kurtosis)
     return johnson(skewness, kurtosis)
 
@@ -265,7 +267,7 @@ class Marginal(Protocol):
 
 
 @dataclass(frozen=True)
-class HeightMoments:
+class HeightMoments(Declared):
     """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's or Pearson's system.
 
     Raises
@@ -274,11 +276,12 @@ class HeightMoments:
         If kurtosis < 1 + skewness², or the system is unknown.
     """
 
-    skewness: float = 0.0
-    kurtosis: float = 3.0
-    system: str = "johnson"
+    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"] = 0.0
+    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"] = 3.0
+    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson"
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         height_law(self.skewness, self.kurtosis, self.system)
 
     @property
@@ -300,10 +303,10 @@ class HeightMoments:
 
 
 @dataclass(frozen=True, eq=False)
-class HeightsOf:
+class HeightsOf(Declared):
     """Heights distributed as those of a measured ``surface``, levelled beforehand; missing points do not count."""
 
-    surface: Surface
+    surface: Annotated[Surface, "measured heights, levelled"]
 
     def sorted_heights(self, count: int) -> RealArray:
         """Quantiles at (k - 1/2)/count, linear between the sorted heights at (k - 1/2)/N."""
@@ -322,7 +325,7 @@ class HeightsOf:
 
 
 @dataclass(frozen=True)
-class TwoLevels:
+class TwoLevels(Declared):
     """Two Gaussian distributions of heights, ``separation`` apart: the upper one on the ``share`` of the area.
 
     ``separation`` of their means and ``upper_deviation`` in units of the standard deviation of the lower one. Equal
@@ -334,14 +337,9 @@ class TwoLevels:
         If the share is not between 0 and 1, or the others are not positive.
     """
 
-    share: float
-    separation: float
-    upper_deviation: float = 1.0
-
-    def __post_init__(self) -> None:
-        require.between(self.share, 0.0, 1.0, "share of the upper level")
-        require.positive(self.separation, "separation of the two levels")
-        require.positive(self.upper_deviation, "deviation of the upper level")
+    share: Annotated[Fraction, "share of the area"]
+    separation: Annotated[Positive, "distance of the two levels in standard deviations of the lower one"]
+    upper_deviation: Annotated[Positive, "standard deviation of the upper level in those of the lower one"] = 1.0
 
     def sorted_heights(self, count: int) -> RealArray:
         """Quantiles at (k - 1/2)/count, by inversion of the distribution function on a fine table."""
@@ -369,15 +367,18 @@ _STEP_TRANSLATION, _REACH_TRANSLATION = 0.005, 12.0  # trapezoidal rule for them
 _TABLE = 20001  # correlations between -1 and 1 at which the map is tabulated; linear interpolation is good to 1e-8
 
 
+@checked
 def translated(
     grid: Grid,
-    spectrum: Spectrum,
+    spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: int,
-    skewness: float,
-    kurtosis: float,
-    system: str = "johnson",
-    predistorted: bool = True,
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"],
+    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"],
+    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson",
+    predistorted: Annotated[
+        bool, "whether the spectrum is that of the heights, or of the Gaussian field they are made of"
+    ] = True,
 ) -> Surface:
     """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T of a system of distributions.
 
@@ -405,7 +406,6 @@ def translated(
     InputError
         If no distribution has these moments, or no Gaussian field has the autocovariance that the translation would need.
     """
-    seed = require.integer(seed, 0, "seed of a random surface")
     law = height_law(skewness, kurtosis, system)
     eigenvalues = lattice_eigenvalues(spectrum, grid)
     square = mean_square(grid, eigenvalues * grid.pixel_area)

@@ -5,47 +5,39 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import Declared
 from ...core.units import show
+from ...core.values import Length, Positive, Psd
 
 # How the amplitude of a spectrum is given: alternatives, of which a spectrum takes one.
 
 
 @dataclass(frozen=True)
-class RmsHeight:
+class RmsHeight(Declared):
     """Amplitude of a spectrum given by the rms height (m) of the surface, about its mean."""
 
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "rms height (m)")
+    value: Annotated[Length, "rms height"]
 
 
 @dataclass(frozen=True)
-class RmsSlope:
+class RmsSlope(Declared):
     """Amplitude of a spectrum given by the rms gradient sqrt(<|∇h|²>) of the surface (spectral, dimensionless)."""
 
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "rms slope")
+    value: Annotated[Positive, "rms slope; one of rms height, rms slope and plateau is given"]
 
 
 @dataclass(frozen=True)
-class PlateauPSD:
+class PlateauPSD(Declared):
     """Amplitude of a spectrum given by its plateau C0 (m⁴)."""
 
-    value: float
-
-    def __post_init__(self) -> None:
-        require.positive(self.value, "plateau of the power spectrum (m^4)")
+    value: Annotated[Psd, "plateau C0 of the spectrum"]
 
 
 Amplitude: TypeAlias = RmsHeight | RmsSlope | PlateauPSD

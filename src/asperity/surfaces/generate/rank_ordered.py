@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated, Literal
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.progress import NoProgress, Progress
 from ...core.spectral import RealTransform, thread_count
+from ...core.values import Count, Positive, Seed
 from ..surface import Origin, Surface
 from .gaussian import Spectrum
 from .non_gaussian import Marginal
@@ -31,15 +33,16 @@ class _Target:
     transform: RealTransform
 
 
+@checked
 def rank_ordered(
     grid: Grid,
-    spectrum: Spectrum,
-    heights: Marginal,
+    spectrum: Annotated[Spectrum, "spectrum"],
+    heights: Annotated[Marginal, "distribution of heights"],
     *,
-    seed: int,
-    last: str = "heights",
-    tolerance: float = 1e-4,
-    max_iterations: int = 1000,
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    last: Annotated[Literal["heights", "spectrum"], "whether heights or spectrum are exact in the end"] = "heights",
+    tolerance: Annotated[Positive, "relative error of the waves' amplitudes at which to stop"] = 1e-4,
+    max_iterations: Annotated[Count, "iterations after which to stop"] = 1000,
     progress: Progress = NoProgress(),
 ) -> Surface:
     """Periodic surface with the amplitudes of ``spectrum`` and the distribution of ``heights``.
@@ -75,12 +78,8 @@ def rank_ordered(
     InputError
         If the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
     """
-    seed = require.integer(seed, 0, "seed of a random surface")
-    require.one_of(last, ("heights", "spectrum"), "last step of the iteration")
-    max_iterations = require.integer(max_iterations, 1, "iterations of the rank ordering")
     target = _target(grid, spectrum, heights)
     values = np.random.Generator(np.random.PCG64(seed)).permutation(target.heights).reshape(grid.shape)
-    require.positive(tolerance, "tolerance of the rank ordering")
     values, iterations, settled = _iterated(values, target, (tolerance, max_iterations), progress)
     exact = f"amplitudes to {_require_joined(values, target, heights, iterations):.1e}"
     if last == "spectrum":

@@ -10,16 +10,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import Declared, checked
 from ...core.units import show
+from ...core.values import Hurst, Length, NonNegativeLength, Number, Positive
 from ..characterise.spectrum import PowerSpectrum, default_edges, radial_spectrum
 from ..surface import Surface
 from .gaussian import Spectrum
@@ -45,7 +46,7 @@ __all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "Two
 
 
 @dataclass(frozen=True, kw_only=True)
-class SelfAffine:
+class SelfAffine(Declared):
     """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s, zero elsewhere.
 
     ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
@@ -67,16 +68,18 @@ class SelfAffine:
         If a value is out of range or the wavelengths are out of order.
     """
 
-    amplitude: Amplitude
-    hurst: float
-    rolloff_wavelength: float
-    shortest_wavelength: float
-    longest_wavelength: float = math.inf
+    amplitude: Annotated[Amplitude, "what fixes C0"]
+    hurst: Annotated[Hurst, "Hurst exponent H"]
+    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
+    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"]
+    longest_wavelength: Annotated[
+        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
+    ] = math.inf
     citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         require_amplitude(self.amplitude, "self-affine")
-        require.at_most(self.hurst, 1.0, "Hurst exponent")
         waves = (self.shortest_wavelength, self.rolloff_wavelength, self.longest_wavelength)
         _require_ascending(waves, "shortest <= roll-off <= longest", "self-affine")
 
@@ -114,7 +117,7 @@ class SelfAffine:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TwoSlopes:
+class TwoSlopes(Declared):
     """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2 up to q_s.
 
     Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
@@ -137,18 +140,21 @@ class TwoSlopes:
         If a value is out of range or the wavelengths are out of order.
     """
 
-    amplitude: Amplitude
-    exponents: tuple[float, float]
-    rolloff_wavelength: float
-    crossover_wavelength: float
-    shortest_wavelength: float = 0.0
-    longest_wavelength: float = math.inf
+    amplitude: Annotated[Amplitude, "what fixes C0"]
+    exponents: Annotated[
+        tuple[Positive, Positive], "exponents a1,a2 of the falling spectrum q^-a before and after the crossover"
+    ]
+    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
+    crossover_wavelength: Annotated[Length, "wavelength λ_c at which the exponent changes"]
+    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"] = 0.0
+    longest_wavelength: Annotated[
+        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
+    ] = math.inf
     citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         require_amplitude(self.amplitude, "two-slope")
-        for exponent in require.two(self.exponents, "exponents of a two-slope spectrum", "Write (a1, a2)."):
-            require.positive(exponent, "exponent of a two-slope spectrum")
         waves = (
             self.shortest_wavelength,
             self.crossover_wavelength,
@@ -192,9 +198,6 @@ class TwoSlopes:
 
 
 def _require_ascending(waves: tuple[float, ...], order: str, what: str) -> None:
-    if not waves[0] >= 0.0:
-        raise InputError(f"shortest wavelength (m) must be zero or greater, but is {waves[0]!r}.")
-    require.positive(waves[1], "roll-off or crossover wavelength (m)")
     if not all(short <= long for short, long in pairwise(waves)):
         listed = ", ".join(f"{wave:g}" for wave in waves)
         raise InputError(f"wavelengths of a {what} spectrum must satisfy {order}, but are {listed} m.")
@@ -319,8 +322,18 @@ class MeasuredSpectrum:
         return f"spectrum of {self.source}{window}"
 
 
+@checked
 def spectrum_of(
-    surface: Surface, *, isotropic: bool = True, window: str = "auto", per_decade: int = 20, floor: float = 0.0
+    surface: Annotated[Surface, "measured heights; levelled and filled"],
+    *,
+    isotropic: Annotated[bool, "average over all directions"] = True,
+    window: str = "auto",
+    per_decade: int = 20,
+    floor: Annotated[
+        float,
+        Number("power spectrum", least=0.0),
+        "noise C_n to be subtracted: mean square height of the noise times dx dy",
+    ] = 0.0,
 ) -> TabulatedSpectrum | MeasuredSpectrum:
     """Spectrum of a measured ``surface``, to generate more of the same on any grid.
 
@@ -350,8 +363,6 @@ def spectrum_of(
     """
     from ..characterise.spectrum import power_spectrum
 
-    if not require.finite(floor, "floor of the spectrum (m^4)") >= 0.0:
-        raise InputError(f"floor of the spectrum (m^4) must be zero or greater, but is {floor:g}.")
     spectrum = power_spectrum(surface, window)
     source = surface.origin.source or "a surface"
     keys = tuple(dict.fromkeys((*surface.citation_keys, *spectrum.citation_keys)))

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import math
+from typing import Annotated
 
 import numpy as np
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.units import show
+from ...core.values import Count, Length, Number, Seed
 from ..surface import Origin, Surface
 
 _MOST_WAVES = 100_000
 
 
+@checked
 def weierstrass_mandelbrot(
     grid: Grid,
     *,
-    dimension: float,
-    roughness: float,
-    seed: int,
-    gamma: float = 1.5,
-    ridges: int = 10,
-    length: float | None = None,
-    shortest_wavelength: float | None = None,
+    dimension: Annotated[float, Number(above=2.0, below=3.0), "fractal dimension D of the surface"],
+    roughness: Annotated[Length, "fractal roughness G: a scale of the amplitudes, not a height"],
+    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    gamma: Annotated[float, Number(above=1.0, fix="1.5 is usual."), "ratio γ of neighbouring frequencies"] = 1.5,
+    ridges: Annotated[Count, "number M of directions"] = 10,
+    length: Annotated[Length | None, "longest wave L; the size of the grid if left out"] = None,
+    shortest_wavelength: Annotated[Length | None, "shortest wave L_s; two pixels if left out"] = None,
 ) -> Surface:
     """Weierstrass-Mandelbrot surface (Ausloos & Berman 1985; Yan & Komvopoulos 1998) without its constant.
 
@@ -33,33 +36,11 @@ def weierstrass_mandelbrot(
     n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
     for many ridges; prefer :func:`gaussian` unless a published case is to be repeated.
 
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    dimension
-        Fractal dimension D of the surface, 2 < D < 3; H = 3 - D.
-    roughness
-        Fractal roughness G in m; a scale of the amplitudes, not a height.
-    seed
-        Whole number >= 0 (PCG64, phases in the order m, n).
-    gamma
-        Ratio γ > 1 of neighbouring frequencies.
-    ridges
-        Number M of directions.
-    length
-        L in m, the longest wave; the longer side of the grid if omitted.
-    shortest_wavelength
-        L_s in m; two pixels if omitted.
-
     Raises
     ------
     InputError
         If a value is out of range.
     """
-    dimension = require.between(dimension, 2.0, 3.0, "dimension of a Weierstrass-Mandelbrot surface")
-    roughness = require.positive(roughness, "fractal roughness (m)")
-    ridges = require.integer(ridges, 1, "ridges of a Weierstrass-Mandelbrot surface")
     longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
     powers = _powers(gamma, longest, shortest, ridges)
     phases = _phases(seed, (ridges, powers.size))
@@ -75,46 +56,27 @@ def weierstrass_mandelbrot(
     return _surface(grid, heights, text, ("Ausloos1985", "Yan1998"))
 
 
+@checked
 def weierstrass_mandelbrot_profile(
     grid: Grid,
     *,
-    dimension: float,
-    roughness: float,
-    gamma: float = 1.5,
-    length: float | None = None,
-    shortest_wavelength: float | None = None,
-    seed: int | None = None,
+    dimension: Annotated[float, Number(above=1.0, below=2.0), "fractal dimension D of the profile"],
+    roughness: Annotated[Length, "fractal roughness G: a scale of the amplitudes, not a height"],
+    gamma: Annotated[float, Number(above=1.0, fix="1.5 is usual."), "ratio γ of neighbouring frequencies"] = 1.5,
+    length: Annotated[Length | None, "longest wave L; the size of the grid if left out"] = None,
+    shortest_wavelength: Annotated[Length | None, "shortest wave L_s; two pixels if left out"] = None,
+    seed: Annotated[Seed | None, "seed of random phases; all are 0 if left out"] = None,
 ) -> Surface:
     """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x + φ_n)/γ^((2-D)n), n = n1…n2.
 
     γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar & Bhushan 1990).
-
-    Parameters
-    ----------
-    grid
-        Nodes of the surface; one node along y makes a profile.
-    dimension
-        Fractal dimension D of the profile, 1 < D < 2.
-    roughness
-        Fractal roughness G in m.
-    gamma
-        Ratio γ > 1 of neighbouring frequencies.
-    length
-        L in m; the size along x if omitted.
-    shortest_wavelength
-        L_s in m; two pixels along x if omitted.
-    seed
-        Of random phases (PCG64); all phases are 0 if omitted.
 
     Raises
     ------
     InputError
         If a value is out of range.
     """
-    dimension = require.between(dimension, 1.0, 2.0, "dimension of a Weierstrass-Mandelbrot profile")
-    roughness = require.positive(roughness, "fractal roughness (m)")
     longest, shortest = _limits(length, shortest_wavelength, grid.size[0], grid.spacing[0])
-    _require_gamma(gamma)
     first = math.floor(math.log(1.0 / longest) / math.log(gamma))
     powers = np.arange(first, math.ceil(math.log(1.0 / shortest) / math.log(gamma)) + 1, dtype=float)
     _require_count(powers.size)
@@ -131,21 +93,16 @@ def weierstrass_mandelbrot_profile(
 
 
 def _phases(seed: int, shape: tuple[int, ...]) -> RealArray:
-    seed = require.integer(seed, 0, "seed of a random surface")
     return np.random.Generator(np.random.PCG64(seed)).uniform(0.0, 2.0 * np.pi, shape)
 
 
 def _limits(longest: float | None, shortest: float | None, size: float, spacing: float) -> tuple[float, float]:
     """Longest and shortest wave in m: the size and two pixels if they are not given."""
-    return (
-        require.positive(size if longest is None else longest, "longest wave (m)"),
-        require.positive(2.0 * spacing if shortest is None else shortest, "shortest wave (m)"),
-    )
+    return size if longest is None else longest, 2.0 * spacing if shortest is None else shortest
 
 
 def _powers(gamma: float, longest: float, shortest: float, ridges: int) -> RealArray:
     """n = 0 … n_max."""
-    _require_gamma(gamma)
     if shortest > longest:
         raise InputError(
             f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
@@ -153,11 +110,6 @@ def _powers(gamma: float, longest: float, shortest: float, ridges: int) -> RealA
     count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
     _require_count(count * ridges)
     return np.arange(count, dtype=float)
-
-
-def _require_gamma(gamma: float) -> None:
-    if not require.finite(gamma, "ratio of frequencies γ") > 1.0:
-        raise InputError(f"ratio of frequencies γ must be greater than 1, but is {gamma:g}; 1.5 is usual.")
 
 
 def _require_count(count: int) -> None:

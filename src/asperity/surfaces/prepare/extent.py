@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 
@@ -10,15 +10,23 @@ from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.spectral import RealTransform
 from ...core.units import show
+from ...core.values import Length, LengthRange, Number, Points
 from ..surface import Surface
 from .level import recorded, require_complete
 
 # Cropping to a rectangle.
 
 
-def cropped(surface: Surface, *, x: tuple[float, float] | None = None, y: tuple[float, float] | None = None) -> Surface:
+@checked
+def cropped(
+    surface: Surface,
+    *,
+    x: Annotated[LengthRange | None, "part to keep along x, from the corner"] = None,
+    y: Annotated[LengthRange | None, "part to keep along y, from the corner"] = None,
+) -> Surface:
     """Part of the surface between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from its corner, rounded to whole pixels.
 
     An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result is x1 - x0 to
@@ -68,18 +76,23 @@ Position: TypeAlias = float | Literal["middle"]
 """Coordinate in m from the corner, or "middle"."""
 
 
-def sliced(surface: Surface, *, x: Position | None = None, y: Position | None = None, length: float = 1.0) -> Surface:
+@checked
+def sliced(
+    surface: Surface,
+    *,
+    x: Annotated[
+        Position | None,
+        Number("length", least=0.0, words=("middle",)),
+        "position of the line across x, from the corner",
+    ] = None,
+    y: Annotated[
+        Position | None,
+        Number("length", least=0.0, words=("middle",)),
+        "position of the line across y, from the corner",
+    ] = None,
+    length: Annotated[Length, "length along y that forces and areas belong to"] = 1.0,
+) -> Surface:
     """The line of ``surface`` at ``y``, or that at ``x`` turned into the x direction, as a surface (n, 1).
-
-    Parameters
-    ----------
-    surface
-        Map to cut.
-    x, y
-        Exactly one of the two: position in m from the corner; the line is that whose pixels hold it.
-    length
-        Length in m along y that the line stands for. Forces and areas of a line contact are those of this length, per
-        metre with the 1 m of the default.
 
     Raises
     ------
@@ -97,7 +110,7 @@ def sliced(surface: Surface, *, x: Position | None = None, y: Position | None = 
     return Surface(
         heights,
         surface.grid.spacing[1 - axis],
-        require.positive(length, "length that a line of a map stands for (m)"),
+        length,
         periodic=surface.periodic,
         origin=surface.origin.continued(step),
     )
@@ -107,7 +120,7 @@ def _index(surface: Surface, position: Position | None, axis: int) -> int:
     count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
     if position == "middle":
         return count // 2
-    place = require.finite(position, f"{name} of a line of a map (m)", 'Or write "middle".')  # type: ignore[arg-type]
+    place = float(position or 0.0)
     if not 0.0 <= place <= count * spacing * (1.0 + 1e-9):
         raise InputError(
             f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is {show(place, 'm')}."
@@ -118,8 +131,9 @@ def _index(surface: Surface, position: Position | None, axis: int) -> int:
 # Change of the number of points at constant physical size.
 
 
-def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
-    """Surface of the same physical size on ``shape`` = (nx, ny) points; the pixel size changes accordingly.
+@checked
+def resampled(surface: Surface, points: Annotated[Points, "new numbers of points along x and y"]) -> Surface:
+    """Surface of the same physical size on ``points`` = (nx, ny) points; the pixel size changes accordingly.
 
     A periodic surface is resampled in Fourier space: zeros are added, or short waves removed (node 0 stays in place,
     the Nyquist lines of even sizes are split in halves). Any other surface is interpolated by a bicubic spline along
@@ -131,8 +145,7 @@ def resampled(surface: Surface, shape: tuple[int, int]) -> Surface:
     InputError
         If a number of points is not a whole number >= 1 or points are missing.
     """
-    pair = require.two(shape, "shape of a resampled surface", "Write (nx, ny).")
-    nx, ny = (require.integer(n, 1, f"number of points along {axis}") for n, axis in zip(pair, "xy", strict=True))
+    nx, ny = points
     require_complete(surface, "resampled")
     if (nx, ny) == surface.shape:
         return surface
@@ -229,22 +242,20 @@ def _interpolated(heights: RealArray, new: int) -> RealArray:
 # Making a measured surface periodic: by a taper at the borders or by removal of its smooth component.
 
 
-def tapered(surface: Surface, width: float = 0.1) -> Surface:
+@checked
+def tapered(
+    surface: Surface,
+    width: Annotated[
+        float, Number(above=0.0, most=0.5), "width of the tapered strip at each border as a fraction of the side"
+    ] = 0.1,
+) -> Surface:
     """Periodic surface whose heights fall to their mean along the borders by a cosine (Tukey) taper.
-
-    Parameters
-    ----------
-    surface
-        Surface without missing points, levelled beforehand.
-    width
-        Width of the tapered strip at each border as a fraction of the side, 0 < width <= 0.5.
 
     Raises
     ------
     InputError
         If the width is out of range or points are missing.
     """
-    require.at_most(width, 0.5, "width of the taper (fraction of the side)")
     require_complete(surface, "tapered")
     heights = surface.heights.astype(np.float64, copy=False)
     mean = float(heights.mean())

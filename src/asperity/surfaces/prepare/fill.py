@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import checked
 from ...core.units import show
 from ..surface import Surface
 
 _Indices: TypeAlias = NDArray[np.signedinteger[Any]]
 
+FillMethod: TypeAlias = Literal["harmonic", "mean", "nearest"]
 _METHODS = {"harmonic": "harmonic interpolation", "mean": "the mean height", "nearest": "the nearest valid height"}
 
 
-def filled(surface: Surface, method: str = "harmonic") -> Surface:
+@checked
+def filled(surface: Surface, method: Annotated[FillMethod, "how missing points are filled"] = "harmonic") -> Surface:
     """Surface without missing points; valid points are untouched and the history states how many were filled.
 
     ``harmonic`` solves ∇²h = 0 in every hole with the heights on its rim (zero normal slope at the border of the
@@ -29,7 +31,6 @@ def filled(surface: Surface, method: str = "harmonic") -> Surface:
     InputError
         If the method is unknown.
     """
-    require.one_of(method, _METHODS, "fill method")
     if surface.n_missing == 0:
         return surface
     heights = surface.heights.astype(np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
@@ -12,8 +12,10 @@ from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.parameters import checked
 from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
+from ...core.values import Length
 from ..characterise.correlation import scale_dependence, tip_cutoff
 from ..surface import Surface
 from .level import recorded, require_complete
@@ -312,8 +314,9 @@ def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
     return max(tip_cutoff(scale_dependence(surface, axis=axis), radius) for axis in ("x", "y"))
 
 
-def tip_limited(surface: Surface, tip_radius: float) -> Surface:
-    """Surface without the waves that a tip of ``tip_radius`` (m) may have shaped, by a Gaussian filter.
+@checked
+def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]) -> Surface:
+    """Surface without the waves that a tip of ``radius`` (m) may have shaped, by a Gaussian filter.
 
     Where the tip was sharp enough for every peak at every length, or the cut-off lies below four pixels, which a filter does
     not resolve, the heights stay as they are; the history tells the cut-off in any case.
@@ -323,13 +326,13 @@ def tip_limited(surface: Surface, tip_radius: float) -> Surface:
     InputError
         If the tip is blunter than the surface at every length: no wave of the map is reliable.
     """
-    cutoff = reliability_cutoff(surface, tip_radius)
+    cutoff = reliability_cutoff(surface, radius)
     if math.isinf(cutoff):
         raise InputError(
-            f"radius of the tip must be small enough for the longest waves of the map, but with {tip_radius:g} m the "
+            f"radius of the tip must be small enough for the longest waves of the map, but with {radius:g} m the "
             "map may be shaped by the tip at every length. Check the radius and the units of the heights."
         )
-    tip = f"tip of radius {show(tip_radius, 'm', 3)}"
+    tip = f"tip of radius {show(radius, 'm', 3)}"
     if cutoff < FINEST * max(surface.grid.spacing):
         reach = "no wave" if cutoff == 0.0 else f"waves below {show(cutoff, 'm', 3)}, less than four pixels,"
         return _told(surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed")

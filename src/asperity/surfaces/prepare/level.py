@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from ...core.parameters import checked
 from ...core.units import show
+from ...core.values import Axis, Positive, Whole
 from ..characterise.heights import rms_height
 from ..surface import Surface
 
@@ -146,30 +150,23 @@ _NORMAL = 1.482602218505602  # standard deviation of a normal distribution over 
 _BLOCK_OUTLIERS = 1 << 18  # nodes whose windows are sorted together, to bound the memory
 
 
-def despiked(surface: Surface, threshold: float = 6.0, *, window: int = 5) -> Surface:
+@checked
+def despiked(
+    surface: Surface,
+    threshold: Annotated[Positive, "standard deviations beyond which a point is a spike"] = 6.0,
+    *,
+    window: Annotated[int, Whole(3, odd=True), "nodes along a side of the neighbourhood"] = 5,
+) -> Surface:
     """Surface whose spikes are missing points: nodes far from the median of their ``window`` x ``window`` neighbourhood.
 
     Far is more than ``threshold`` standard deviations of these distances, estimated from their median (1.4826 MAD), which
     spikes do not move. Fill the points afterwards, or leave them out. Heights are never clipped.
-
-    Parameters
-    ----------
-    surface
-        Surface; missing points take no part.
-    threshold
-        Standard deviations, greater than zero.
-    window
-        Odd number of nodes along a side, at least 3.
 
     Raises
     ------
     InputError
         If a value is out of range.
     """
-    threshold = require.positive(threshold, "threshold of spikes (standard deviations)")
-    window = require.integer(window, 3, "window of spikes (nodes)")
-    if window % 2 == 0:
-        raise InputError(f"window of spikes must be an odd number of nodes, but is {window}.")
     distance = np.abs(surface.heights.astype(np.float64) - _local_median(surface, window))
     valid = ~surface.mask
     scale = _NORMAL * float(np.median(distance[valid]))
@@ -183,7 +180,10 @@ def despiked(surface: Surface, threshold: float = 6.0, *, window: int = 5) -> Su
     return recorded(surface, heights, step, periodic=surface.periodic)
 
 
-def line_corrected(surface: Surface, axis: str = "x") -> Surface:
+@checked
+def line_corrected(
+    surface: Surface, axis: Annotated[Axis, "fast axis, along which the scan lines run"] = "x"
+) -> Surface:
     """Surface without the offsets between scan lines: the lines run along the fast ``axis`` of the instrument.
 
     From each line the median of its differences to the line before is removed, summed up from the first line on. All that
@@ -194,7 +194,6 @@ def line_corrected(surface: Surface, axis: str = "x") -> Surface:
     InputError
         If the axis is not ``x`` or ``y``.
     """
-    require.one_of(axis, ("x", "y"), "fast axis of the scan lines")
     lines = surface.heights.astype(np.float64)
     lines = lines if axis == "x" else lines.T  # lines[:, j] is one scan line
     steps = np.array([_median(lines[:, j] - lines[:, j - 1]) for j in range(1, lines.shape[1])])
