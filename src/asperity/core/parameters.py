@@ -153,7 +153,7 @@ class Declared:
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """``function`` whose arguments are checked against their declarations, and passed on in their canonical type."""
-    signature, owner = inspect.signature(function), function.__name__.replace("_", " ")
+    signature, owner = inspect.signature(function), f"{function.__name__}()"
 
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:

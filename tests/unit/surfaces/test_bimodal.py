@@ -132,7 +132,7 @@ def test_seeds_reproduce_and_streams_are_independent(keep):
     ("make", "words"),
     [
         (lambda: two_process(GRID, FINE, COARSE, offset=np.nan, seed=1), "offset"),
-        (lambda: two_process(GRID, FINE, COARSE, offset=0.0, seed=1, keep="both"), "kept"),
+        (lambda: two_process(GRID, FINE, COARSE, offset=0.0, seed=1, keep="both"), "keep of two_process"),
         (lambda: bimodal(GRID, FINE, COARSE, share=1.0, separation=1.0, patches=FINE, seed=1), "share"),
         (lambda: particles(GRID, FINE, density=1e5, radius=1.0, seed=1), "at most"),
         (lambda: particles(GRID, FINE, density=1e-3, radius=1.0, radius_deviation=-1.0, seed=1), "deviation"),

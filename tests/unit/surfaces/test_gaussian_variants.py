@@ -362,10 +362,10 @@ def test_surfaces_are_equal_to_the_bit_for_any_number_of_threads():
     ("make", "words"),
     [
         (lambda: gold(amplitude=3.0), "two-slope spectrum must be an RmsHeight"),
-        (lambda: replace(gold(), exponents=(1.0,)), "two values"),
-        (lambda: replace(gold(), exponents=(1.0, -2.0)), "exponent of a two-slope"),
+        (lambda: replace(gold(), exponents=(1.0,)), "2 values"),
+        (lambda: replace(gold(), exponents=(1.0, -2.0)), "exponents of TwoSlopes"),
         (lambda: replace(gold(), crossover_wavelength=95.0), "crossover <= roll-off"),
-        (lambda: replace(gold(), shortest_wavelength=-1.0), "zero or greater"),
+        (lambda: replace(gold(), shortest_wavelength=-1.0), "at least zero"),
         (lambda: replace(gold(), exponents=(3.0, 3.0), amplitude=RmsSlope(1.0)).psd(1.0), "finite"),
         (lambda: gold(shortest=5.0).lattice_psd(GOLD), "two pixels"),
         (lambda: gaussian(GOLD, gold(), seed=1, variant="other"), "variant"),

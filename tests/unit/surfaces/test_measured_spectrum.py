@@ -151,7 +151,7 @@ def test_origin_names_the_measured_surface():
         (lambda: TabulatedSpectrum([1.0, 2.0], [-1.0, 1.0]), "not be negative"),
         (lambda: spectrum_of(flat(Grid((8, 8), (1.0, 1.0)))), "rough"),
         (lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=1e9), "rough beyond"),
-        (lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=-1.0), "zero or greater"),
+        (lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=-1.0), "at least zero"),
     ],
 )
 def test_refusals(make, words):

@@ -276,7 +276,7 @@ def test_rank_ordering_reports_its_progress_and_stops_where_told():
         (lambda: HeightMoments(1.0, 1.9), "at least 1"),
         (lambda: TwoLevels(1.0, 3.0), "share"),
         (lambda: TwoLevels(0.5, 0.0), "separation"),
-        (lambda: rank_ordered(GRID, ROUGH, HeightMoments(), seed=1, last="both"), "last step"),
+        (lambda: rank_ordered(GRID, ROUGH, HeightMoments(), seed=1, last="both"), "last of rank_ordered"),
         (lambda: rank_ordered(GRID, ROUGH, HeightMoments(), seed=1, max_iterations=0), "iterations"),
     ],
 )

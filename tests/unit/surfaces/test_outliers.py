@@ -231,8 +231,8 @@ def test_blunt_tip_is_refused():
         (lambda: despiked(rough(), 0.0), "threshold"),
         (lambda: despiked(rough(), window=4), "odd"),
         (lambda: despiked(rough(), window=1), "window"),
-        (lambda: line_corrected(rough(), "z"), "fast axis"),
-        (lambda: tip_limited(rough(), -1.0), "radius of the tip"),
+        (lambda: line_corrected(rough(), "z"), "axis of line_corrected"),
+        (lambda: tip_limited(rough(), -1.0), "radius .m. of tip_limited"),
     ],
 )
 def test_refusals(make, words):

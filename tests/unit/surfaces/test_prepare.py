@@ -148,12 +148,12 @@ def test_crop_keeps_the_mask_and_drops_the_period():
 @pytest.mark.parametrize(
     ("limits", "words"),
     [
-        ({"x": (1e-6, 1e-6)}, "one pixel"),
-        ({"x": (2e-6, 1e-6)}, "one pixel"),
+        ({"x": (1e-6, 1e-6)}, "must end after its start"),
+        ({"x": (2e-6, 1e-6)}, "must end after its start"),
         ({"y": (0.0, 1.0)}, "along y must lie within"),
         ({"x": (-1e-6, 1e-6)}, "along x must lie within"),
-        ({"x": (0.0, float("nan"))}, "end of the crop"),
-        ({"y": 1e-6}, "limits of the crop along y must be two values"),
+        ({"x": (0.0, float("nan"))}, "x .m. of cropped"),
+        ({"y": 1e-6}, "y .m. of cropped.. must be 2 values"),
     ],
 )
 def test_crop_refuses(limits, words):
@@ -217,9 +217,9 @@ def test_block_average_by_whole_numbers():
 def test_resampling_refuses():
     with pytest.raises(InputError, match="Fill them first"):
         resampled(with_hole(rough(), np.s_[1, 1]), (8, 8))
-    with pytest.raises(InputError, match="number of points along y"):
+    with pytest.raises(InputError, match="points of resampled"):
         resampled(rough(), (8, 0))
-    with pytest.raises(InputError, match="shape of a resampled surface must be two values"):
+    with pytest.raises(InputError, match="points of resampled.. must be 2 values"):
         resampled(rough(), 8)
 
 
@@ -275,7 +275,7 @@ def test_mean_fill():
 def test_fill_refuses_and_leaves_complete_surfaces_alone():
     surface = rough()
     assert filled(surface) is surface
-    with pytest.raises(InputError, match="fill method"):
+    with pytest.raises(InputError, match="method of filled"):
         filled(surface, "cubic")
 
 
@@ -341,7 +341,7 @@ def test_making_periodic_refuses_and_leaves_periodic_surfaces_alone():
         with pytest.raises(InputError, match="Fill them first"):
             make(hole)
     for width in (0.0, 0.6, -0.1):
-        with pytest.raises(InputError, match="width of the taper"):
+        with pytest.raises(InputError, match="width of tapered"):
             tapered(surface, width)
 
 
@@ -368,7 +368,7 @@ def test_sliced_lines_are_those_of_the_map():
         ({}, "exactly one of x and y"),
         ({"x": 0.0, "y": 0.0}, "exactly one of x and y"),
         ({"y": 6.1e-6}, "between 0 and 6 µm, but is 6.1 µm"),
-        ({"x": -1e-9}, "must lie on the map"),
+        ({"x": -1e-9}, "at least zero"),
         ({"x": "end"}, "middle"),
         ({"x": 0.0, "length": 0.0}, "length that a line"),
     ):

@@ -215,7 +215,7 @@ def test_refusals():
         asp.characterise(surface, tip_radius=-1.0)
     heights = np.array(surface.heights)
     heights[2, 2] = np.nan
-    with pytest.raises(InputError, match="fill method"):
+    with pytest.raises(InputError, match="method of filled"):
         asp.characterise(asp.Surface(heights, 1.0), fill="magic")
     with pytest.raises(InputError, match="no missing points"):
         r.power_spectrum(asp.Surface(heights, 1.0))

@@ -71,15 +71,15 @@ def test_dome_for_a_rim_of_radius_zero():
     [
         (lambda: g.grooves(GRID, pitch=7e-6, width=1e-6, depth=1e-7), "whole number of pitches"),
         (lambda: g.grooves(GRID, pitch=8e-6, width=9e-6, depth=1e-7), "width of the grooves"),
-        (lambda: g.grooves(GRID, pitch=8e-6, width=1e-6, depth=1e-7, section="u"), "cross section"),
+        (lambda: g.grooves(GRID, pitch=8e-6, width=1e-6, depth=1e-7, section="u"), "section of grooves"),
         (lambda: g.grooves(GRID, pitch=8e-6, width=1e-6, depth=1e-7, axis="z"), "axis"),
-        (lambda: g.dimples(GRID, pitch=(8e-6,), radius=1e-6, depth=1e-7), "two values"),
+        (lambda: g.dimples(GRID, pitch=(8e-6,), radius=1e-6, depth=1e-7), "2 values"),
         (lambda: g.dimples(GRID, pitch=PITCH, radius=1e-6, depth=1e-7, sharpness=0.5), "sharpness"),
         (
             lambda: g.laser_bumps(GRID, pitch=PITCH, rim_height=1e-8, rim_radius=-1.0, rim_width=1e-6),
-            "radius of the rim",
+            "rim_radius",
         ),
-        (lambda: g.laser_bumps(GRID, pitch=PITCH, rim_height=0.0, rim_radius=0.0, rim_width=1e-6), "height of the rim"),
+        (lambda: g.laser_bumps(GRID, pitch=PITCH, rim_height=0.0, rim_radius=0.0, rim_width=1e-6), "rim_height"),
     ],
 )
 def test_refusals(make, words):

@@ -122,7 +122,7 @@ def test_profile_is_the_same_for_all_y_and_reproducible():
         ({"gamma": 1.000001}, "between 1 and 100000"),
         ({"ridges": 0}, "ridges"),
         ({"shortest_wavelength": 20.0}, "not be longer"),
-        ({"length": -1.0}, "longest wave"),
+        ({"length": -1.0}, "length"),
         ({"seed": -1}, "seed"),
     ],
 )
