@@ -172,7 +172,8 @@ class Number(Values):
             return value
         if isinstance(value, bool | str):
             unit = f" in {self.unit}" if self.unit else ""
-            raise InputError(f"{what} must be a number{unit}, but is {shown}.")
+            word = f" or {' or '.join(map(repr, self.words))}" if self.words else ""
+            raise InputError(f"{what} must be a number{unit}{word}, but is {shown}.")
         try:
             number = float(value)
         except (TypeError, ValueError):

@@ -153,7 +153,7 @@ def test_crop_keeps_the_mask_and_drops_the_period():
         ({"y": (0.0, 1.0)}, "along y must lie within"),
         ({"x": (-1e-6, 1e-6)}, "along x must lie within"),
         ({"x": (0.0, float("nan"))}, "x .m. of cropped"),
-        ({"y": 1e-6}, "y .m. of cropped.. must be 2 values"),
+        ({"y": 1e-6}, "must be 2 values"),
     ],
 )
 def test_crop_refuses(limits, words):
@@ -219,7 +219,7 @@ def test_resampling_refuses():
         resampled(with_hole(rough(), np.s_[1, 1]), (8, 8))
     with pytest.raises(InputError, match="points of resampled"):
         resampled(rough(), (8, 0))
-    with pytest.raises(InputError, match="points of resampled.. must be 2 values"):
+    with pytest.raises(InputError, match="must be 2 values"):
         resampled(rough(), 8)
 
 
@@ -370,7 +370,7 @@ def test_sliced_lines_are_those_of_the_map():
         ({"y": 6.1e-6}, "between 0 and 6 µm, but is 6.1 µm"),
         ({"x": -1e-9}, "at least zero"),
         ({"x": "end"}, "middle"),
-        ({"x": 0.0, "length": 0.0}, "length that a line"),
+        ({"x": 0.0, "length": 0.0}, "length"),
     ):
         with pytest.raises(asp.InputError, match=words):
             asp.sliced(surface, **keys)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, TypeAlias, Union
@@ -87,9 +88,7 @@ def tabulated(
     psd: Annotated[tuple[Psd, ...], "spectrum C at the wavelengths of a table, with commas between"],
 ) -> generate.TabulatedSpectrum:
     """Isotropic spectrum C at some ``wavelengths``, in descending order; straight in between on logarithmic scales."""
-    from math import pi
-
-    return generate.TabulatedSpectrum([2.0 * pi / length for length in wavelengths], psd)
+    return generate.TabulatedSpectrum([2.0 * math.pi / length for length in wavelengths], psd)
 
 
 SPECTRA: Mapping[str, Callable[..., Any]] = MappingProxyType(
