@@ -47,7 +47,7 @@ def test_interrupt_in_process(run: Runner, monkeypatch: pytest.MonkeyPatch, tmp_
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("asperity.run.execute.solve", interrupted)
+    monkeypatch.setattr("asperity.contact.solvers.ActiveSet.step", interrupted)
     result = run("demo", "--out", tmp_path / "run")
     assert result.exit_code == INTERRUPTED
     assert result.stderr == "asperity: Interrupted: the work was stopped and nothing is half-written.\n"

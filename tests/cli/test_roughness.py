@@ -57,7 +57,7 @@ def test_json_holds_what_python_finds(run: Runner, film: Path) -> None:
     quantities = found["roughness"]["quantities"]
     assert set(quantities) == {quantity.name for quantity in roughness.QUANTITIES}
     for quantity, value in expected.values():
-        entry = quantities[quantity.path]
+        entry = quantities[quantity.name]
         assert (entry["unit"], entry["label"], entry["symbol"]) == (quantity.unit, quantity.label, quantity.symbol)
         if math.isfinite(value):
             assert entry["value"] == pytest.approx(value, rel=1e-12)
