@@ -51,12 +51,10 @@ _NAMES = MappingProxyType(
         ),
         "core.grid": ("Grid",),
         "core.status": ("Advice",),
-        "io.export": ("export_csv", "export_vtk"),
-        "io.path_files": ("export_path_csv", "save_path"),
-        "io.results": ("load", "open_dataset", "save"),
-        "io.stress_files": ("export_stress_vtk", "save_stress"),
+        "io.export": ("export_csv", "export_stress_vtk", "export_vtk"),
+        "io.results": ("load", "open_tree", "save"),
+        "io.stress_files": ("save_stress",),
         "io.surface_files": ("save_endless", "save_gaussian", "save_surface"),
-        "io.wet_results": ("load_wet", "save_wet"),
         "plots.contact": ("save_path_plots", "save_plots", "save_surface_plot"),
         "plots.surface": ("save_roughness_plots",),
         "report.comparison": ("write_comparison_report",),
@@ -95,7 +93,7 @@ _NAMES = MappingProxyType(
 )
 """Public names by module; ``stress`` is a function, and besides a package that the function is in."""
 
-_VIEWS = MappingProxyType({"io.words": ("text",), "plots.notebook": ("card", "plot")})
+_VIEWS = MappingProxyType({"io.results": ("to_xarray",), "io.words": ("text",), "plots.notebook": ("card", "plot")})
 """Functions behind ``repr`` and notebooks, by module."""
 
 _find = LateNames(__name__, _NAMES)

@@ -36,12 +36,10 @@ from .core.errors import (
 )
 from .core.grid import Grid
 from .core.status import Advice
-from .io.export import export_csv, export_vtk
-from .io.path_files import export_path_csv, save_path
-from .io.results import load, open_dataset, save
-from .io.stress_files import export_stress_vtk, save_stress
+from .io.export import export_csv, export_stress_vtk, export_vtk
+from .io.results import load, open_tree, save
+from .io.stress_files import save_stress
 from .io.surface_files import save_endless, save_gaussian, save_surface
-from .io.wet_results import load_wet, save_wet
 from .plots.contact import save_path_plots, save_plots, save_surface_plot
 from .plots.surface import save_roughness_plots
 from .report.comparison import write_comparison_report
@@ -169,7 +167,6 @@ __all__ = [
     "energy_balance",
     "export_comparison_csv",
     "export_csv",
-    "export_path_csv",
     "export_stress_vtk",
     "export_vtk",
     "filled",
@@ -184,13 +181,12 @@ __all__ = [
     "liquids",
     "load",
     "load_at_yield",
-    "load_wet",
     "material",
     "materials",
     "mean_absolute_height",
     "on_common_grid",
-    "open_dataset",
     "open_study",
+    "open_tree",
     "peak_to_valley",
     "periodised",
     "plastic_load",
@@ -211,14 +207,12 @@ __all__ = [
     "save_comparison",
     "save_endless",
     "save_gaussian",
-    "save_path",
     "save_path_plots",
     "save_plots",
     "save_roughness_plots",
     "save_stress",
     "save_surface",
     "save_surface_plot",
-    "save_wet",
     "sliced",
     "solve",
     "solve_path",

@@ -31,7 +31,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     assert document.control.path.mean_pressure == (30e6, "0", 40e6, "0")
     assert document.control.path.steps == 3
 
-    data = asp.open_dataset(out / "path.nc")
+    data = asp.open_tree(out / "path.nc")["path"].to_dataset()
     assert data.sizes["step"] == 12
     np.testing.assert_allclose(data["mean_pressure"][[2, 5, 8, 11]], [30e6, 0.0, 40e6, 0.0], rtol=1e-9)
     assert float(data["plastic_work"].sum()) > 0.0
@@ -45,7 +45,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
-    other = asp.open_dataset(tmp_path / "again" / "path.nc")
+    other = asp.open_tree(tmp_path / "again" / "path.nc")["path"].to_dataset()
     np.testing.assert_array_equal(other["pressure"], data["pressure"])
 
 

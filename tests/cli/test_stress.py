@@ -11,7 +11,7 @@ from cli.conftest import LOAD, SCALE, Runner
 
 import asperity as asp
 from asperity.io.documents import load_document
-from asperity.io.results import load, open_dataset
+from asperity.io.results import load, open_tree
 
 COATED = ("--body", "E=200GPa,nu=0.25,H=20GPa,name=film:100nm/E=100GPa,nu=0.3,Y=1GPa,name=base")
 
@@ -46,7 +46,7 @@ def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
 
     solved = load(out / "result.nc")
     field = asp.stress(solved, [0.0, 100e-9], friction=0.3, direction=np.pi / 2.0)
-    planes = open_dataset(out / "stress" / "planes.nc")
+    planes = open_tree(out / "stress" / "planes.nc")["field"].to_dataset()
     np.testing.assert_allclose(planes["xx"], field.normal_xx, rtol=1e-12)
     with (out / "stress.csv").open(encoding="utf-8") as file:
         rows = {(row["name"], row["quantity"]): float(row["value"]) for row in csv.DictReader(file)}
@@ -104,7 +104,7 @@ def test_volume_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0, result.stderr
     assert f"wrote {tmp_path / 'v.vtr'}" in result.stdout
     assert "Largest stresses inside" in result.stdout
-    volume = open_dataset(tmp_path / "v.nc")
+    volume = open_tree(tmp_path / "v.nc")["field"].to_dataset()
     assert volume["zz"].dims == ("plane", "x", "y")
     assert volume["zz"].dtype == np.float32
     assert float(volume["depth"].max()) == pytest.approx(300e-9)
@@ -192,7 +192,7 @@ def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> Non
     result = run("contact", source, *body, "--resample", 128, "--periodise", *wanted, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.output
     solved = load(tmp_path / "run" / "result.nc")
-    planes = open_dataset(tmp_path / "run" / "stress" / "planes.nc")
+    planes = open_tree(tmp_path / "run" / "stress" / "planes.nc")["field"].to_dataset()
     scale = solved.max_pressure
     np.testing.assert_allclose(planes["zz"][0], -solved.pressure, atol=1e-9 * scale)
     np.testing.assert_allclose(planes["xz"][0], -0.3 * solved.pressure, atol=1e-9 * scale)

@@ -10,7 +10,7 @@ from cli.conftest import Runner
 
 import asperity as asp
 from asperity.io.documents import checked, dumps, load_document
-from asperity.io.results import document_in, load, open_dataset, save
+from asperity.io.results import document_in, load, open_tree, save
 from asperity.run.build import build
 
 COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=base"
@@ -53,7 +53,9 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
     expected = {path.relative_to(tmp_path / "once") for path in (tmp_path / "once").rglob("*")}
     assert names == expected - {Path("result.nc"), Path("scalars.csv")}
     assert (tmp_path / "later" / "stress.csv").read_text() == (tmp_path / "once" / "stress.csv").read_text()
-    fields = [open_dataset(tmp_path / folder / "stress" / "section_1.nc") for folder in ("later", "once")]
+    fields = [
+        open_tree(tmp_path / folder / "stress" / "section_1.nc")["field"].to_dataset() for folder in ("later", "once")
+    ]
     np.testing.assert_array_equal(fields[0]["xz"], fields[1]["xz"])
     html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")
     assert "Largest stresses inside each layer" in html
@@ -67,7 +69,7 @@ def test_the_document_in_the_result_says_what_options_do_not(run: Runner, plain:
     file, volume = saved(tmp_path, friction=0.3, depths=["10nm"]), tmp_path / "v.nc"
     changed = run("stress", file, "--friction", 0.5, "--stress-nc", volume, "--threads", 1)
     assert changed.exit_code == 0, changed.stderr
-    found = open_dataset(volume)
+    found = open_tree(volume)["field"].to_dataset()
     assert found["depth"].values.tolist() == pytest.approx([10e-9])
     wanted = asp.stress(load(file), [10e-9], friction=0.5)
     np.testing.assert_allclose(found["xz"][0], wanted.shear_xz[0], atol=1e-6 * np.abs(wanted.shear_xz).max())
@@ -85,7 +87,7 @@ def test_a_result_without_document(run: Runner, plain: Path, tmp_path: Path) -> 
     result = run("stress", tmp_path / "bare.nc", "--stress-nc", tmp_path / "v.nc")
     assert result.exit_code == 0, result.stderr
     assert "Largest stresses inside" in result.stdout
-    assert set(open_dataset(tmp_path / "v.nc")["region"].values.tolist()) == {0, 1}
+    assert set(open_tree(tmp_path / "v.nc")["field"].to_dataset()["region"].values.tolist()) == {0, 1}
 
 
 def test_a_coupled_pressure_belongs_to_its_friction(run: Runner, tmp_path: Path, plain: Path) -> None:

@@ -36,7 +36,7 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
         assert text in result.stdout, text
     assert "Statistical theory beside it" in result.stdout
     assert "Largest stresses inside" not in result.stdout, "the friction coefficient is that of the film alone"
-    wet = asp.load_wet(out / "result.nc")
+    wet = asp.load(out / "result.nc")
     film = asp.LiquidFilm.at_humidity(asp.liquid("water"), 0.8, contact_angles=(np.pi / 3.0, np.pi / 3.0))
     assert wet.film.meniscus_height == pytest.approx(film.meniscus_height, rel=1e-12)
     direct = asp.solve_wet(asp.ContactProblem(wet.problem.surface, asp.material("DLC")), asp.MeanPressure(2e6), film)
@@ -78,7 +78,7 @@ def test_without_summits_it_is_said_why_there_is_no_theory(run: Runner, tmp_path
 def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path: Path) -> None:
     film = asp.LiquidFilm.of(asp.liquid("PFPE"), 2.0 * NM)
     wet = asp.solve_wet(asp.ContactProblem(asp.read(scan), asp.material("DLC")), asp.MeanPressure(2e6), film)
-    asp.save_wet(wet, tmp_path / "wet.nc")
+    asp.save(wet, tmp_path / "wet.nc")
     drawn = run("plot", tmp_path / "wet.nc", "--kind", "menisci", "--out", tmp_path / "pictures")
     assert drawn.exit_code == 0, drawn.stderr
     assert (tmp_path / "pictures" / "menisci.png").exists()

@@ -150,7 +150,7 @@ def test_the_examples_of_comparing(scan, tmp_path, monkeypatch, capsys):
     assert "fuller-tabor left out: It needs the work of adhesion" in printed
     assert "greenwood-williamson - height deviation" in printed
     assert [curve.name for curve in names["mine"].curves] == ["persson", "bush-gibson-thomas"]
-    assert asp.open_dataset("comparison.nc").sizes["pressure"] == 5
+    assert asp.open_tree("comparison.nc").to_dataset().sizes["pressure"] == 5
     asp.save_surface(scan, "scan.nc")
     (console,) = blocks(page, "console")
     lines = [line.removeprefix("$ ").split("  #")[0] for line in console.splitlines()]
@@ -185,7 +185,7 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     names = {"scan": scan}
     for number, code in enumerate(blocks(page, "python")):
         exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
-    assert asp.load_wet("wet.nc").meniscus_force == names["wet"].meniscus_force
+    assert asp.load("wet.nc").meniscus_force == names["wet"].meniscus_force
     assert names["held"].external_force == pytest.approx(names["wet"].external_force, rel=0.1)
     capsys.readouterr()
     for line in commands(page):

@@ -51,29 +51,25 @@ def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> 
     """Write everything into ``folder``, with the ``document`` whose paths start there."""
     from ..io.documents import dumps, save_document
     from ..io.export import export_csv
-    from ..io.path_files import export_path_csv, save_path
     from ..io.results import save
-    from ..io.wet_results import save_wet
     from ..plots.contact import save_plots
 
     result, text = outcome.result, dumps(document)
     save_document(document, folder / "problem.toml")
     save_plots(result, folder / "plots")
-    if "film" in outcome.found:
-        save_wet(outcome.found["film"].detail, folder / "result.nc", document=text)
-        export_csv(outcome.found["film"].detail, folder / "scalars.csv")
-    else:
-        save(result, folder / "result.nc", document=text)
-        export_csv(result, folder / "scalars.csv")
+    answer = outcome.found["film"].detail if "film" in outcome.found else result
+    save(answer, folder / "result.nc", document=text)
+    export_csv(answer, folder / "scalars.csv")
     if outcome.path is not None:
-        save_path(outcome.path, folder / PATH_NAMES[0], document=text)
-        export_path_csv(outcome.path, folder / PATH_NAMES[1])
+        save(outcome.path, folder / PATH_NAMES[0], document=text)
+        export_csv(outcome.path, folder / PATH_NAMES[1])
     write_parts(outcome, folder, text, document.title)
 
 
 def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str) -> None:
     """Write report, pictures of the parts and stress fields of ``outcome`` into ``folder``."""
-    from ..io.stress_files import export_stress_csv, save_stress
+    from ..io.export import export_csv
+    from ..io.stress_files import save_stress
     from ..report import write_report
 
     for figure in (figure for figures in outcome.figures.values() for figure in figures):
@@ -83,7 +79,7 @@ def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str
     if "stress" not in outcome.found:
         return
     survey, fields = outcome.found["stress"].detail, folder / STRESS_NAMES[0]
-    export_stress_csv(survey, folder / STRESS_NAMES[1])
+    export_csv(survey, folder / STRESS_NAMES[1])
     fields.mkdir()
     if survey.request.depths:
         save_stress(survey.planes(survey.request.depths), fields / "planes.nc")
@@ -95,7 +91,8 @@ def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str
 
 def write_volume(outcome: Outcome, nc: Path | None, vtk: Path | None, *, force: bool) -> None:
     """Write all planes of the stresses of ``outcome`` to the files that are asked for."""
-    from ..io.stress_files import export_stress_vtk, save_stress
+    from ..io.export import export_stress_vtk
+    from ..io.stress_files import save_stress
 
     if "stress" in outcome.found:
         survey = outcome.found["stress"].detail

@@ -8,9 +8,6 @@ from typing import Annotated
 import typer
 
 Result = Annotated[Path, typer.Argument(help="Result file of `asperity contact --out`.", metavar="RESULT.nc")]
-MENISCI = "menisci"
-"""Kind of figure that only wet contacts have."""
-
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 
 
@@ -29,39 +26,15 @@ def plot(
 ) -> None:
     """Draw the figures of a result as PNG files."""
     from ..core import require
-    from ..plots.contact import PLASTIC_PLOTS, PLOTS
+    from ..io.results import load
+    from ..plots.contact import figures_of
+    from ..plots.picture import save_pictures
     from .show import print_files
 
-    require.one_of(kind, ("all", *(item.name for item in (*PLOTS, *PLASTIC_PLOTS)), MENISCI), "--kind")
-    print_files(_menisci(file, out, force=force) if kind == MENISCI else _figures(file, kind, out, force=force))
-
-
-def _figures(file: Path, kind: str, out: Path, *, force: bool) -> tuple[Path, ...]:
-    """Draw the figure of that ``kind`` of the result in ``file``, or all there are, into the folder ``out``."""
-    from ..io.atomic import atomic_file
-    from ..io.results import load
-    from ..io.wet_results import is_wet
-    from ..plots.contact import PLASTIC_PLOTS, PLOTS, render, save_plots
-
-    result = load(file)
-    if kind == "all":
-        menisci = _menisci(file, out, force=force) if is_wet(file) else ()
-        return (*save_plots(result, out, overwrite=force), *menisci)
-    _make(out)
-    path = out / f"{kind}.png"
-    with atomic_file(path, overwrite=force) as partial:
-        partial.write_bytes(render(next(item for item in (*PLOTS, *PLASTIC_PLOTS) if item.name == kind), result))
-    return (path,)
-
-
-def _menisci(file: Path, out: Path, *, force: bool) -> tuple[Path, ...]:
-    """Draw the menisci of the wet contact in ``file`` into the folder ``out``."""
-    from ..io.wet_results import load_wet
-    from ..plots.contact import wet_figures
-    from ..plots.picture import save_pictures
-
-    pictures = {figure.name: lambda picture=figure.picture: picture for figure in wet_figures(load_wet(file))}
-    return save_pictures(pictures, out, overwrite=force)
+    found = figures_of(load(file))
+    require.one_of(kind, ("all", *found), "--kind")
+    wanted = found if kind == "all" else {kind: found[kind]}
+    print_files(save_pictures(wanted, out, overwrite=force))
 
 
 def export(
@@ -74,8 +47,7 @@ def export(
     from ..core.errors import InputError
     from ..io.atomic import require_new_files
     from ..io.export import export_csv, export_vtk
-    from ..io.results import load
-    from ..io.wet_results import is_wet, load_wet
+    from ..io.results import contact_of, load
     from .show import print_files
 
     wanted = [path for path in (csv, vtk) if path is not None]
@@ -84,9 +56,9 @@ def export(
     require_new_files(wanted, overwrite=force)
     result = load(file)
     if csv is not None:
-        export_csv(load_wet(file) if is_wet(file) else result, csv, overwrite=force)
+        export_csv(result, csv, overwrite=force)
     if vtk is not None:
-        export_vtk(result, vtk, overwrite=force)
+        export_vtk(contact_of(result), vtk, overwrite=force)
     print_files(wanted)
 
 
@@ -97,7 +69,7 @@ def cite(
     from ..core.citations import cite as references
     from ..io.build_stress import build_stress
     from ..io.documents import load_document, loads
-    from ..io.results import document_in, load
+    from ..io.results import contact_of, document_in, load
     from ..run.build import build
     from ..stress.survey import Planned
     from .show import say
@@ -107,13 +79,4 @@ def cite(
         return
     result, text = load(file), document_in(file)
     asked = None if text is None else loads(text).stress
-    say(references(result, *(() if asked is None else (Planned(build_stress(asked), result.problem),))))
-
-
-def _make(folder: Path) -> None:
-    from ..core.errors import OutputError
-
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"folder {folder} cannot be made: {error.strerror}; choose another.") from error
+    say(references(result, *(() if asked is None else (Planned(build_stress(asked), contact_of(result).problem),))))

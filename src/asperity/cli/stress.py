@@ -62,7 +62,7 @@ def stress(
     from ..io.atomic import require_new_files
     from ..io.build_stress import check_stress
     from ..io.documents import relocated
-    from ..io.results import document_in, load
+    from ..io.results import contact_of, document_in, load
     from ..run.execute import analysed
     from .failures import NOT_CONVERGED, OK
     from .perform import output_folder, write_volume
@@ -70,7 +70,7 @@ def stress(
     from .show import print_advice, print_files, print_problem, print_words
 
     require_new_files(output.files, overwrite=output.force)
-    result, written = load(file), output.files
+    result, written = contact_of(load(file)), output.files
     request, document = _asked(document_in(file), wanted)
     check_stress(request, result.problem)
     with output_folder(output.out, force=output.force) as folder:

@@ -13,6 +13,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.late import Stored
 from .control import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 from .result import ContactResult
 from .state import InterfaceState
@@ -125,8 +126,8 @@ def _leg(start: float, end: float, steps: int, *, graded: bool) -> RealArray:
     return values
 
 
-@dataclass(frozen=True, eq=False)
-class HistoryResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class HistoryResult(Stored):
     """Results of the steps of a history, in order.
 
     Parameters

@@ -14,7 +14,7 @@ from .solve import steps as history_steps
 from .state import InterfaceState
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LoadPath(HistoryResult):
     """Results of the steps of a load path, in order."""
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
-from ..core.late import Drawn
+from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.status import Status
 from ..surfaces.pair import composite
@@ -74,7 +74,7 @@ WET_SCALARS = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ContactResult(Drawn):
+class ContactResult(Stored):
     """Solution of a contact problem. Fields are (nx, ny) arrays, all values SI.
 
     Attributes

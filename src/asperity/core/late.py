@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
 
@@ -51,7 +52,7 @@ class Shown:
 
     @classmethod
     def supply(cls, find: Callable[[str], Any]) -> None:
-        """Take ``find``, which gives the functions ``text``, ``card`` and ``plot``."""
+        """Take ``find``, which gives the functions ``text``, ``card``, ``plot`` and ``to_xarray``."""
         cls._find = staticmethod(find)
 
     def __repr__(self) -> str:
@@ -84,3 +85,12 @@ class Drawn(Shown):
         """
         axes: Axes = self._find("plot")(self, kind, ax, **options)
         return axes
+
+
+class Stored(Drawn):
+    """What result files hold: results and stress fields."""
+
+    def to_xarray(self) -> xarray.DataTree:
+        """All values as a labelled tree: one group for each part, units and long names on every variable."""
+        tree: xarray.DataTree = self._find("to_xarray")(self)
+        return tree

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -47,3 +48,11 @@ class Quantity:
     def attributes(self) -> dict[str, str]:
         """Attributes ``units`` and ``long_name`` of the variable in files and datasets."""
         return {"units": self.unit, "long_name": self.label}
+
+
+@dataclass(frozen=True, eq=False)
+class Labelled:
+    """Numbers (SI) or text, and what they are."""
+
+    quantity: Quantity
+    values: Any

@@ -19,6 +19,7 @@ from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
+from ..stress.regions import Region
 
 TYPES: tuple[type, ...] = (
     *get_args(Body),
@@ -33,6 +34,7 @@ TYPES: tuple[type, ...] = (
     LayeredHardness,
     Layer,
     LiquidFilm,
+    Region,
     RigidBase,
     Strength,
 )

@@ -1,43 +1,104 @@
-"""Results for other programs: a table of scalars as CSV, the fields as VTK image data."""
+"""Results for other programs: tables as CSV, fields as VTK image data and rectilinear grids."""
 
 from __future__ import annotations
 
 import base64
 import csv
+import math
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import IO, Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from ..contact.history import HistoryResult
 from ..contact.result import SCALARS, ContactResult
 from ..contact.wet_result import WET_SCALARS, WetContactResult
+from ..core.errors import InputError
+from ..stress.field import Peak, StressField
+from ..stress.survey import StressSurvey
 from .atomic import atomic_file
+from .results import ENERGIES
+from .stress_files import Fields, components, peeked
 from .words import CERTIFICATE
 
 VTK_TYPES = {"float64": "Float64", "float32": "Float32", "uint8": "UInt8"}
 """VTK's names of array types."""
 
 
-def export_csv(result: ContactResult | WetContactResult, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write scalars, certificate and status of ``result`` to ``path``: columns name, value, unit, label; SI, exact.
+def export_csv(
+    result: ContactResult | WetContactResult | HistoryResult | StressSurvey,
+    path: str | Path,
+    *,
+    overwrite: bool = False,
+) -> None:
+    """Write the numbers of ``result`` to ``path`` as a table, SI, exact.
+
+    Of a contact: scalars, certificate and status, with the columns name, value, unit, label. Of a load path: one row a step, with its
+    number, whether it converged, scalars and energies. Of stresses: the maxima of layers and interfaces with their places, and the
+    load factors.
 
     Raises
     ------
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    contact = result.contact if isinstance(result, WetContactResult) else result
-    rows = [(q.name, getattr(contact, q.name), q.unit, q.label) for q in SCALARS]
-    if isinstance(result, WetContactResult):
-        rows += [(q.name, getattr(result, q.name), q.unit, q.label) for q in WET_SCALARS]
-    for q in CERTIFICATE:
-        rows.append((f"certificate.{q.name}", getattr(contact.certificate, q.name), q.unit, q.label))
-    rows.append(("status.outcome", str(result.status.outcome), "", "how the solver ended"))
+    table: Any = _step_table if isinstance(result, HistoryResult) else _table
+    table = _stress_table if isinstance(result, StressSurvey) else table
     with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(("name", "value", "unit", "label"))
-        writer.writerows(rows)
+        csv.writer(file).writerows(table(result))
+
+
+def _table(result: ContactResult | WetContactResult) -> Iterator[tuple[Any, ...]]:
+    contact = result.contact if isinstance(result, WetContactResult) else result
+    yield ("name", "value", "unit", "label")
+    yield from ((q.name, getattr(contact, q.name), q.unit, q.label) for q in SCALARS)
+    film = result if isinstance(result, WetContactResult) else result.menisci
+    if film is not None:
+        yield from ((q.name, getattr(film, q.name), q.unit, q.label) for q in WET_SCALARS)
+    for q in CERTIFICATE:
+        yield f"certificate.{q.name}", getattr(contact.certificate, q.name), q.unit, q.label
+    yield "status.outcome", str(result.status.outcome), "", "how the solver ended"
+
+
+def _step_table(path: HistoryResult) -> Iterator[tuple[Any, ...]]:
+    balance = path.energies
+    names = [f"{item.name} ({item.unit})" for item in SCALARS]
+    yield ("step", "converged", *names, *(f"path_{item.name} ({item.unit})" for item in ENERGIES))
+    for number, result in enumerate(path.steps):
+        energies = [float(getattr(balance, item.name)[number]) for item in ENERGIES]
+        yield (number + 1, result.converged, *(getattr(result, item.name) for item in SCALARS), *energies)
+
+
+def _stress_table(survey: StressSurvey) -> Iterator[tuple[Any, ...]]:
+    """Maxima, interface tractions and load factors, one row each; x and y in the middle of a pixel, as in figures."""
+    yield ("part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side")
+    grid = survey.result.problem.grid
+
+    def at(peak: Peak) -> tuple[Any, ...]:
+        x, y = (place + 0.5 * step for place, step in zip((peak.x, peak.y), grid.spacing, strict=True))
+        return peak.value, "Pa", x, y, peak.depth, peak.side
+
+    for part in survey.maxima:
+        region = ("layer", part.region.name, part.region.top, part.region.bottom)
+        yield (*region, "max_von_mises", *at(part.von_mises))
+        yield (*region, "max_sqrt_J2", part.von_mises.value / math.sqrt(3.0), *at(part.von_mises)[1:])
+        yield (*region, "max_principal", *at(part.tension))
+        yield (*region, "max_shear", *at(part.shear))
+    for item in survey.interfaces:
+        pair = ("interface", f"{item.above}/{item.below}", item.shear.depth, item.shear.depth)
+        yield (*pair, "max_shear", *at(item.shear))
+        yield (*pair, "max_peel", *at(item.peel))
+    for state in survey.yielding.regions:
+        region = ("layer", state.region.name, state.region.top, state.region.bottom)
+        place = at(state.peak)[2:]
+        yield (*region, "yield_stress", state.limit.value, "Pa", "", "", "", "")
+        yield (*region, "load_factor_to_yield", state.load_factor, "1", *place)
+        yield (*region, "yielded_volume", state.yielded_volume, "m**3", "", "", "", "")
 
 
 def export_vtk(result: ContactResult, path: str | Path, *, overwrite: bool = False) -> None:
@@ -73,3 +134,80 @@ def _write_image(file: IO[str], spacing: tuple[float, float], fields: dict[str, 
         file.write(base64.b64encode(np.uint64(len(data)).astype("<u8").tobytes() + data).decode("ascii"))
         file.write("\n</DataArray>\n")
     file.write("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n")
+
+
+def export_stress_vtk(fields: Fields, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write a stress field, or its planes as they come from ``stress_planes``, to ``path`` (.vtr), lengths in m.
+
+    Point data: the components, von Mises stress, and the number of the region; z is the depth, and the two planes of an
+    interface share theirs. Only one plane is in memory at a time.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    InputError
+        If there are no planes, or the field is a depth profile, which is no grid.
+    """
+    first, planes = peeked(fields)
+    if first.dims == ("plane",):
+        raise InputError(
+            "stress field for VTK must be a section or whole planes, but is a depth profile; use save_stress."
+        )
+    with atomic_file(path, overwrite=overwrite) as partial, ExitStack() as stack:
+        parts: dict[str, IO[bytes]] = {}
+        kinds: dict[str, np.dtype[Any]] = {}
+        depths = []
+        for field in planes:
+            depths.append(field.planes[0].depth)
+            for name, values in _point_data(field):
+                if name not in parts:
+                    parts[name] = stack.enter_context(tempfile.TemporaryFile(dir=partial.parent))
+                    kinds[name] = values.dtype
+                # x runs fastest in VTK
+                parts[name].write(np.ascontiguousarray(values.T).astype(values.dtype.newbyteorder("<")).tobytes())
+        with partial.open("wb") as file:
+            _write(file, first, depths, parts, kinds)
+
+
+def _point_data(field: StressField) -> Iterator[tuple[str, np.ndarray[Any, Any]]]:
+    yield from components(field).items()
+    yield "von_mises", field.von_mises[0]
+    shape = field.tensor.xx.shape[1:]
+    yield "region", np.full(shape, field.planes[0].region.index, np.uint8)
+
+
+def _write(
+    file: IO[bytes],
+    first: StressField,
+    depths: list[float],
+    parts: dict[str, IO[bytes]],
+    kinds: dict[str, np.dtype[Any]],
+) -> None:
+    """Header with the place of every array, then the arrays themselves, raw, each after its length."""
+    lines = {"x": np.atleast_1d(first.x), "y": np.atleast_1d(first.y), "z": np.array(depths)}
+    extent = '"' + " ".join(f"0 {line.size - 1}" for line in lines.values()) + '"'
+    offset = 0
+
+    def entry(name: str, kind: str, size: int) -> str:
+        nonlocal offset
+        text = f'<DataArray type="{kind}" Name={quoteattr(name)} format="appended" offset="{offset}"/>\n'
+        offset += 8 + size
+        return text
+
+    header = '<?xml version="1.0"?>\n'
+    header += '<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+    header += f"<RectilinearGrid WholeExtent={extent}>\n<Piece Extent={extent}>\n"
+    header += '<PointData Scalars="von_mises">\n'
+    header += "".join(entry(name, VTK_TYPES[kinds[name].name], part.tell()) for name, part in parts.items())
+    header += "</PointData>\n<Coordinates>\n"
+    header += "".join(entry(axis, "Float64", 8 * line.size) for axis, line in lines.items())
+    header += '</Coordinates>\n</Piece>\n</RectilinearGrid>\n<AppendedData encoding="raw">\n_'
+    file.write(header.encode("ascii"))
+    for part in parts.values():
+        file.write(np.uint64(part.tell()).astype("<u8").tobytes())
+        part.seek(0)
+        shutil.copyfileobj(part, file)
+    for line in lines.values():
+        file.write(np.uint64(8 * line.size).astype("<u8").tobytes() + line.astype("<f8").tobytes())
+    file.write(b"\n</AppendedData>\n</VTKFile>\n")

@@ -1,34 +1,43 @@
-"""A result as one labelled NetCDF-4 file: written whole, read back exactly."""
+"""Results as one labelled file: contacts, wet contacts and load paths, written whole, read back exactly."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import fields
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, fields, replace
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ..contact.certificate import Certificate
 from ..contact.couplings.menisci import Menisci
 from ..contact.couplings.sliding import GrossSliding
+from ..contact.history import HistoryResult
+from ..contact.path import LoadPath
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
-from ..contact.wetting import wetting
-from ..core.arrays import BoolArray, RealArray, array_digest
-from ..core.errors import FileFormatError
+from ..contact.state import InterfaceState
+from ..contact.wet_result import WET_SCALARS, WetContactResult
+from ..contact.wetting import LiquidFilm, wetting
+from ..core.arrays import RealArray, array_digest
+from ..core.errors import FileFormatError, InputError
+from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
+from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
-from .atomic import atomic_file
 from .description import describe, rebuild
-from .provenance import provenance, surface_provenance
-from .words import ALL_SCALARS, FIELDS
+from .provenance import provenance, software, surface_provenance
+from .stress_files import field_from, field_node
+from .tree import Node, coordinate, datatree, read_tree, write_tree
+from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 if TYPE_CHECKING:
     import xarray
 
-FORMAT_VERSION = 1
-"""Version of the layout of result files; raised whenever an older asperity could misread a newer file."""
+Result: TypeAlias = ContactResult | WetContactResult | HistoryResult | StressField
+"""What result files hold."""
 
 PARTS = ("body", "counter_body", "boundary", "law", "control")
 """Attributes that describe problem and control, each a JSON text."""
@@ -36,101 +45,105 @@ PARTS = ("body", "counter_body", "boundary", "law", "control")
 PHYSICS = ("film", "friction")
 """The same for physics that a problem need not have."""
 
-_LATER = ("couplings", "rounds")
-"""Entries of the certificate that older files lack, written as JSON texts."""
+_CHECKS = ("couplings", "rounds")
+"""Entries of the certificate that files of format 1 lack, written as JSON texts."""
 
 _MENISCI = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "feedback")
 """Numbers of the menisci that do not follow from contact and film."""
 
+LIFT = Quantity("shear_displacement", "m", "normal displacement by shear")
+"""Field of a sliding contact."""
 
-def dataset(result: ContactResult, *, document: str | None = None) -> xarray.Dataset:
-    """Dataset of ``result`` with dimensions x, y (m) and spot, units and labels on every variable.
+EARLIER = Quantity("earlier_pressure", "Pa", "pressure of the load before")
+"""Field from which the pressure of the next load is extrapolated."""
 
-    Scalars are 0-d variables; bodies, boundary, law, control, certificate, status, provenance, citation keys and the
-    text of the problem ``document`` are attributes.
+MARKS = (
+    Quantity("contact", "1", "whether the bodies touch"),
+    Quantity("plastic", "1", "whether the pressure is at its limit"),
+)
+"""Fields of true and false."""
 
-    Raises
-    ------
-    InputError
-        If the problem holds a type that files do not know.
-    """
-    arrays: dict[str, RealArray] = {}
-    owners = {"control": result} | dict.fromkeys(PARTS[:4], result.problem)
-    parts = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
-    attributes = _attributes(result) | parts | ({} if document is None else {"document": document})
-    return _labelled(result, arrays).assign_attrs(attributes)
+ENERGIES = (
+    Quantity("external_work", "J", "external work along the path, by the trapezoidal rule"),
+    Quantity("elastic_energy", "J", "elastic energy gained along the path"),
+    Quantity("plastic_work", "J", "plastic work along the path"),
+    Quantity("residual", "J", "external work less elastic energy and plastic work"),
+)
+"""Entries of an energy balance."""
+
+SPOTS = Quantity("spot_areas", "m**2", "areas of the contact spots", dims=("spot",))
+"""Areas of contact spots, largest first; of a load path those of one step after the other."""
+
+WET_FIELDS = (
+    Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
+    Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
+)
+"""Fields of a wet contact."""
+
+_WET = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "rounds", "change", "feedback")
+"""Numbers of a wet contact that do not follow from contact and film."""
 
 
-def save(result: ContactResult, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
+def save(result: Result, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
     """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
+
+    The file has one group for each part of the result, units and long names on every variable; ``load`` gives an equal result.
 
     Raises
     ------
     OutputError
-        If the file exists and ``overwrite`` is false, or cannot be written.
+        If the file does not end in .nc, exists and ``overwrite`` is false, or cannot be written.
     InputError
         If the problem holds a type that files do not know.
     """
-    write(dataset(result, document=document), path, overwrite=overwrite)
+    write_tree(result_tree(result, document=document), path, overwrite=overwrite)
 
 
-def write(data: xarray.Dataset, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write ``data`` as ``dataset`` or ``wet_dataset`` made it to ``path``; errors as for ``save``."""
-    encoding: dict[str, dict[str, Any]] = {str(name): {"_FillValue": None} for name in data.variables}
-    sparse = ("pressure", "permanent_indentation", "contact", "plastic", "menisci", "wetted")
-    for name in (name for name in sparse if name in data):  # mostly zero, so packing costs little and saves much
-        encoding[name] |= {"zlib": True, "complevel": 1, "shuffle": True}
-    with atomic_file(path, overwrite=overwrite) as partial:
-        data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)
-
-
-def open_dataset(path: str | Path) -> xarray.Dataset:
-    """The result file ``path`` as an ``xarray.Dataset`` in memory, for analysis.
-
-    Raises
-    ------
-    FileFormatError
-        If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer format.
-    """
-    import xarray
-
-    if Path(path).exists() and not Path(path).is_file():
-        raise FileFormatError(f"result file must be a file, but {path} is a folder or device; give the .nc file in it.")
-    if not Path(path).is_file():
-        raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
-    try:
-        data = xarray.load_dataset(path, engine="h5netcdf", decode_times=False)
-    except MemoryError:
-        raise
-    except Exception as error:  # the readers below raise many types on foreign or damaged bytes
-        raise FileFormatError(
-            f"result file must be a whole NetCDF-4 file, but {path} is not ({error}). Was the copy interrupted?"
-        ) from error
-    version = data.attrs.get("asperity_format")
-    if not isinstance(version, int | np.integer):
-        raise FileFormatError(f"result file must be written by asperity, but {path} is another NetCDF-4 file.")
-    if version > FORMAT_VERSION:
-        raise FileFormatError(
-            f"result file must be of format {FORMAT_VERSION} or older, but {path} is of {version}; update asperity."
-        )
-    return data
-
-
-def load(path: str | Path) -> ContactResult:
+def load(path: str | Path) -> Any:
     """The result in the file ``path``, equal to the one that was saved: same fields to the bit, same problem.
 
+    A ``ContactResult``, ``WetContactResult``, ``LoadPath`` or ``StressField``; of the outcome of a document the contact.
+
     Raises
     ------
     FileFormatError
         If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer format.
     """
-    data = open_dataset(path)
-    try:
-        return _result(data)
-    except FileFormatError:
-        raise
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise FileFormatError(f"result file must hold a whole result, but {path} lacks or garbles {error}.") from error
+    return result_in(stored_tree(path, without=("planes", "stress")), path)
+
+
+def open_tree(path: str | Path) -> xarray.DataTree:
+    """The result file ``path`` as ``xarray.DataTree`` in memory, for analysis; the same as ``to_xarray`` of what it holds.
+
+    Raises
+    ------
+    FileFormatError
+        As for ``load``.
+    """
+    return datatree(stored_tree(path))
+
+
+def to_xarray(result: Result, *, document: str | None = None) -> xarray.DataTree:
+    """``result`` as ``xarray.DataTree``: one group for each part, units and long names on every variable.
+
+    Raises
+    ------
+    InputError
+        If the problem holds a type that files do not know.
+    """
+    return datatree(result_tree(result, document=document))
+
+
+def stored_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
+    """The tree in the result file ``path``, also of one written before files had groups.
+
+    Raises
+    ------
+    FileFormatError
+        As for ``load``.
+    """
+    tree = read_tree(path, without=without)
+    return _grouped(tree) if tree.attributes["asperity_format"] == 1 else tree
 
 
 def document_in(path: str | Path) -> str | None:
@@ -151,121 +164,346 @@ def document_in(path: str | Path) -> str | None:
     return None if text is None else str(text)
 
 
-def _result(data: xarray.Dataset) -> ContactResult:
-    attributes = data.attrs
-    arrays = {str(name): np.asarray(variable) for name, variable in data.data_vars.items() if variable.ndim == 2}
-    parts = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
+def contact_of(result: Any) -> ContactResult:
+    """The contact of a ``result``: of a wet one the solid contact, of a load path that at its end.
+
+    Raises
+    ------
+    InputError
+        If it is a stress field.
+    """
+    found = result.last if isinstance(result, HistoryResult) else getattr(result, "contact", result)
+    found = result if isinstance(result, ContactResult) else found
+    if not isinstance(found, ContactResult):
+        raise InputError(f"result file must hold a contact for this, but holds a {type(result).__name__}.")
+    return found
+
+
+def result_in(tree: Node, path: str | Path) -> Any:
+    """The result that the ``tree`` of the file ``path`` holds.
+
+    Raises
+    ------
+    FileFormatError
+        If it holds none, or not the whole of one.
+    """
+    groups = tree.children
+    try:
+        if "contact" not in groups and "field" in groups:
+            return field_from(groups["field"])
+        if "path" in groups and "control" not in groups["path"]:
+            raise FileFormatError(
+                f"load path in {path} must be read with open_tree: files of format 1 hold no whole results."
+            )
+        result = contact_from(groups["contact"], groups.get("film"), groups.get("memory"))
+        if "path" in groups and "of_outcome" not in tree.attributes:
+            return path_from(groups["path"], result)
+        if "film" in groups and "stored_rounds" in groups["film"].attributes:
+            return _wet_from(groups["film"], result)
+    except FileFormatError:
+        raise
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, InputError) as error:
+        raise FileFormatError(f"result file must hold a whole result, but {path} lacks or garbles {error}.") from error
+    return result
+
+
+def result_tree(result: Result, *, document: str | None = None) -> Node:
+    """Tree of ``result``: what files hold and ``to_xarray`` gives.
+
+    Raises
+    ------
+    InputError
+        If the problem holds a type that files do not know.
+    """
+    if isinstance(result, StressField):
+        described = {"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}
+        return Node(
+            (), {"title": "stress inside a body", "provenance": json.dumps(described)}, {"field": field_node(result)}
+        )
+    if isinstance(result, HistoryResult):
+        groups = result_tree(result.last).children
+        return Node((), root_attributes(result.last, document), {**groups, "path": path_node(result)})
+    if isinstance(result, WetContactResult):
+        groups = {"contact": contact_node(result.contact), "film": wet_node(result)}
+        attributes = root_attributes(result.contact, document)
+        return Node((), attributes | {"citation_keys": " ".join(result.citation_keys)}, groups)
+    if isinstance(result, ContactResult):
+        groups = {"contact": contact_node(result)}
+        groups |= {} if result.menisci is None else {"film": film_node(result, result.menisci)}
+        memories = {name: _memory_node(memory) for name, memory in result.memory.items()}
+        groups |= {"memory": Node((), {}, memories)} if memories else {}
+        return Node((), root_attributes(result, document), groups)
+    raise InputError(
+        f"result to save must be a result of solve, a load path or a stress field, but is {type(result).__name__}."
+    )
+
+
+def root_attributes(result: ContactResult, document: str | None) -> dict[str, Any]:
+    """What describes a whole file: title, provenance, citation keys, and the text of the ``document``."""
+    attributes = {
+        "title": "contact of rough surfaces",
+        "provenance": json.dumps(provenance(result)),
+        "citation_keys": " ".join(result.citation_keys),
+    }
+    return attributes if document is None else attributes | {"document": document}
+
+
+def contact_node(result: ContactResult) -> Node:
+    """Group of a contact: heights, fields and scalars; problem, control, certificate and status as attributes."""
+    problem, arrays = result.problem, dict[str, RealArray]()
+    owners: dict[str, Any] = {"control": result} | dict.fromkeys(PARTS[:4], problem)
+    attributes = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
+    values = [*grid_lines(result), _field(Quantity("heights", "m", "heights of the surface"), problem.surface.heights)]
+    physics = {part: getattr(problem, part) for part in PHYSICS}
+    attributes |= {part: json.dumps(describe(value)) for part, value in physics.items() if value is not None}
+    attributes["surface"] = _surface_text(problem.surface)
+    if isinstance(problem.counter_surface, Surface):
+        quantity = Quantity("counter_heights", "m", "heights of the counter surface")
+        values.append(_field(quantity, problem.counter_surface.heights))
+        attributes["counter_surface"] = _surface_text(problem.counter_surface)
+    values += [_field(item, getattr(result, item.name)) for item in (*FIELDS, *MARKS)]
+    values += [] if result.sliding is None else [_field(LIFT, result.sliding.shear_displacement)]
+    values += [] if result.earlier is None else [_field(EARLIER, result.earlier)]
+    values += [_field(Quantity(name, "Pa", "hardness"), array) for name, array in arrays.items()]
+    values += [Labelled(SPOTS, result.spot_areas)]
+    values += [Labelled(item, getattr(result, item.name)) for item in ALL_SCALARS]
+    attributes["citation_keys"] = " ".join(result.citation_keys)
+    return Node(tuple(values), attributes | _checks(result.certificate) | status_attributes(result.status))
+
+
+def contact_from(node: Node, film: Node | None = None, memory: Node | None = None) -> ContactResult:
+    """The contact of a group, and of those of its film and of what its couplings remember; equal to the one it was made of."""
+    attributes = node.attributes
+    arrays = {item.quantity.name: np.asarray(item.values) for item in node.values if np.ndim(item.values) == 2}
+    parts: dict[str, Any] = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
     control = parts.pop("control")
     surface = _surface(arrays["heights"], attributes["surface"])
     if "counter_heights" in arrays:
         parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
     parts |= {part: rebuild(json.loads(attributes[part])) for part in PHYSICS if part in attributes}
     problem = ContactProblem(surface=surface, **parts)
-    certificate = {
-        f.name: _plain(attributes[f"certificate_{f.name}"]) for f in fields(Certificate) if f.name not in _LATER
-    }
-    certificate |= {
-        name: rebuild(json.loads(attributes[f"certificate_{name}"]))
-        for name in _LATER
-        if f"certificate_{name}" in attributes
-    }
-    certificate["couplings"] = tuple(certificate.get("couplings", ()))
-    values: dict[str, Any] = {item.name: arrays[item.name] for item in FIELDS}
-    values |= {item.name: data[item.name].item() for item in ALL_SCALARS}
+    numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
     return ContactResult(
         problem=problem,
         control=control,
         plastic=arrays["plastic"].astype(bool),
-        spot_areas=np.asarray(data["spot_areas"]),
-        certificate=Certificate(**certificate),
-        status=Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"]),
+        spot_areas=np.asarray(node["spot_areas"]),
+        certificate=_certificate(attributes),
+        status=status_from(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
-        couplings=_couplings(problem, arrays, values["gap"], values["pressure"] > 0.0, attributes),
-        memory=_memories(attributes),
-        **values,
+        couplings=_couplings(problem, arrays, numbers),
+        memory={} if memory is None else {name: _memory(child) for name, child in memory.children.items()},
+        earlier=arrays.get(EARLIER.name),
+        **_values(arrays, FIELDS),
+        **_values(node, ALL_SCALARS),
     )
 
 
-def _couplings(
-    problem: ContactProblem, arrays: dict[str, Any], gap: RealArray, contact: BoolArray, attributes: dict[str, Any]
-) -> dict[str, Any]:
-    """What the couplings found, from the fields and what ``_physics`` wrote."""
+def film_node(result: ContactResult, menisci: Menisci) -> Node:
+    """Group of the liquid film of a contact: where menisci stand, and scalars."""
+    fields_ = (Labelled(item, getattr(menisci.wetting, item.name)) for item in WET_FIELDS)
+    scalars = (Labelled(item, getattr(menisci, item.name)) for item in WET_SCALARS)
+    attributes = {"menisci": _numbers_text(menisci), "regime": menisci.wetting.regime}
+    return Node((*grid_lines(result), *fields_, *scalars), attributes)
+
+
+def wet_node(result: WetContactResult) -> Node:
+    """Group of a liquid film: menisci and scalars; film, control and status as attributes."""
+    values = [*grid_lines(result.contact), *(Labelled(item, getattr(result.wetting, item.name)) for item in WET_FIELDS)]
+    values += [Labelled(item, getattr(result, item.name)) for item in WET_SCALARS]
+    attributes: dict[str, Any] = {f"stored_{name}": getattr(result, name) for name in _WET}
+    attributes |= {"film": json.dumps(describe(result.film)), "control": json.dumps(describe(result.control))}
+    return Node(tuple(values), attributes | {"regime": result.wetting.regime} | status_attributes(result.status))
+
+
+def _wet_from(node: Node, contact: ContactResult) -> WetContactResult:
+    film = rebuild(json.loads(node.attributes["film"]))
+    if not isinstance(film, LiquidFilm):
+        raise ValueError("film")
+    stored = {name: node.attributes[f"stored_{name}"] for name in _WET}
+    numbers: dict[str, Any] = {name: int(value) if name == "rounds" else float(value) for name, value in stored.items()}
+    return WetContactResult(
+        control=rebuild(json.loads(node.attributes["control"])),
+        contact=contact,
+        film=film,
+        wetting=wetting(contact.gap, contact.contact, film, wraps=contact.problem.boundary.wraps),
+        status=status_from(node.attributes),
+        **numbers,
+    )
+
+
+def path_node(path: HistoryResult) -> Node:
+    """Group of a load path with the axis ``step``: fields, scalars, energies, control, certificate and status of every step."""
+    steps, balance = path.steps, path.energies
+
+    def column(item: Quantity, values: Any, *dims: str) -> Labelled:
+        return Labelled(replace(item, dims=("step", *dims)), np.asarray(values))
+
+    values = [*grid_lines(steps[-1])]
+    values += [column(item, [getattr(step, item.name) for step in steps]) for item in ALL_SCALARS]
+    for item in (*FIELDS, MARKS[1]):
+        values.append(column(item, np.stack([getattr(step, item.name) for step in steps]), "x", "y"))
+    if steps[0].sliding is not None:
+        lifts = [step.sliding.shear_displacement for step in steps if step.sliding is not None]
+        values.append(column(LIFT, np.stack(lifts), "x", "y"))
+    if steps[0].menisci is not None:
+        found = [step.menisci for step in steps if step.menisci is not None]
+        values += [
+            column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
+            for item in WET_SCALARS
+        ]
+        texts = [_numbers_text(menisci) for menisci in found]
+        values.append(column(Quantity("menisci", "", "numbers of the menisci, as JSON"), texts))
+    for item in ENERGIES:
+        values.append(column(replace(item, name=f"path_{item.name}"), getattr(balance, item.name)))
+    for item in CERTIFICATE:
+        checks = [getattr(step.certificate, item.name) for step in steps]
+        values.append(column(replace(item, name=f"certificate_{item.name}"), checks))
+    values.append(
+        column(Quantity("converged", "1", "whether the step reached its tolerance"), [s.converged for s in steps])
+    )
+    for name in ("outcome", "message", "remedy"):
+        texts = [str(getattr(step.status, name)) for step in steps]
+        values.append(column(Quantity(f"status_{name}", "", f"{name} of the step"), texts))
+    for name in _CHECKS:
+        texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
+        values.append(column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts))
+    memories = [json.dumps({key: _memory_text(memory) for key, memory in step.memory.items()}) for step in steps]
+    values.append(column(Quantity("memory", "", "what the couplings remember, as JSON"), memories))
+    controls = [json.dumps(describe(step.control)) for step in steps]
+    values.append(column(Quantity("control", "", "what the step was told, as JSON"), controls))
+    values.append(Labelled(SPOTS, np.concatenate([step.spot_areas for step in steps])))
+    if path.start is None:
+        return Node(tuple(values))
+    started = path.start
+    values.append(_field(Quantity("start_pressure", "Pa", "pressure before the first step"), started.pressure))
+    if started.earlier is not None:
+        quantity = Quantity("start_earlier", "Pa", "pressure of the load before that")
+        values.append(_field(quantity, started.earlier))
+    memory = Node((), {}, {name: _memory_node(memory) for name, memory in started.memory.items()})
+    return Node(tuple(values), {}, {"start": memory})
+
+
+def path_from(node: Node, last: ContactResult) -> LoadPath:
+    """The load path of a group; ``last`` is the contact at its end, whose problem all steps share."""
+    ends, results = np.cumsum(node["n_spots"]), list[ContactResult]()
+    start = None
+    if "start_pressure" in node:
+        memory = {name: _memory(child) for name, child in node.children["start"].children.items()}
+        start = InterfaceState(node["start_pressure"], memory, node.get("start_earlier"))
+    before = None if start is None or not start.pressure.any() else start.pressure
+    for step in range(len(ends)):
+        at = {item.quantity.name: item.values[step] for item in node.values if item.quantity.dims[:1] == ("step",)}
+        result = replace(
+            last,
+            control=rebuild(json.loads(at["control"])),
+            plastic=np.asarray(at["plastic"]),
+            spot_areas=np.asarray(node["spot_areas"][ends[step] - at["n_spots"] : ends[step]]),
+            certificate=_certificate({name: _plain(value) for name, value in at.items()}),
+            status=status_from(at),
+            couplings=_couplings(last.problem, at, at.get("menisci")),
+            memory={key: _memory_of(item) for key, item in json.loads(at["memory"]).items()},
+            earlier=before,
+            **_values(at, (*FIELDS, *ALL_SCALARS)),
+        )
+        before = result.pressure if result.converged and result.pressure.any() else before
+        results.append(result)
+    return LoadPath(tuple(results), start)
+
+
+def _certificate(attributes: Mapping[str, Any]) -> Certificate:
+    found = {f.name: attributes[f"certificate_{f.name}"] for f in fields(Certificate) if f.name not in _CHECKS}
+    for name in _CHECKS:
+        if f"certificate_{name}" in attributes:
+            found[name] = rebuild(json.loads(attributes[f"certificate_{name}"]))
+    return Certificate(**found)
+
+
+def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str | None) -> dict[str, Any]:
+    """What the couplings found, from the fields of a contact and the ``numbers`` of its menisci."""
     found: dict[str, Any] = {}
-    if problem.film is not None and "menisci" in attributes:
-        stands = wetting(gap, contact, problem.film, wraps=problem.boundary.wraps)
-        found["menisci"] = Menisci(problem.film, stands, **rebuild(json.loads(attributes["menisci"])))
-    if problem.friction is not None and "shear_displacement" in arrays:
+    if problem.film is not None and numbers is not None:
+        contact = arrays["pressure"] > 0.0
+        stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
+        found["menisci"] = Menisci(problem.film, stands, **rebuild(json.loads(numbers)))
+    if problem.friction is not None and LIFT.name in arrays:
         friction = problem.friction
-        found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays["shear_displacement"])
+        found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
     return found
 
 
-def _memories(attributes: dict[str, Any]) -> dict[str, dict[str, RealArray]]:
-    described = json.loads(attributes.get("memory", "{}"))
-    return {name: {key: np.asarray(value) for key, value in item.items()} for name, item in described.items()}
+def _numbers_text(menisci: Menisci) -> str:
+    return json.dumps({name: describe(getattr(menisci, name)) for name in _MENISCI})
 
 
-def _labelled(result: ContactResult, arrays: dict[str, RealArray]) -> xarray.Dataset:
-    """Fields, scalars, coordinates and the ``arrays`` of the law (Pa), each with unit and label."""
-    import xarray
-
-    problem = result.problem
-    variables: dict[str, Any] = {"heights": _field(problem.surface.heights, "m", "heights of the surface")}
-    if isinstance(problem.counter_surface, Surface):
-        heights = problem.counter_surface.heights
-        variables["counter_heights"] = _field(heights, "m", "heights of the counter surface")
-    for item in FIELDS:
-        variables[item.name] = _field(getattr(result, item.name), item.unit, item.label)
-    if result.sliding is not None:
-        lift = result.sliding.shear_displacement
-        variables["shear_displacement"] = _field(lift, "m", "normal displacement by shear")
-    variables["contact"] = _field(result.contact, "1", "whether the bodies touch")
-    variables["plastic"] = _field(result.plastic, "1", "whether the pressure is at its limit")
-    variables["spot_areas"] = ("spot", result.spot_areas, _labels("m**2", "areas of the contact spots"))
-    for item in ALL_SCALARS:
-        variables[item.name] = ((), getattr(result, item.name), _labels(item.unit, item.label))
-    variables |= {name: _field(values, "Pa", "hardness") for name, values in arrays.items()}
-    x, y = problem.grid.coordinates()
-    coordinates = {
-        "x": ("x", x[:, 0], _labels("m", "position along x")),
-        "y": ("y", y[0], _labels("m", "position along y")),
-    }
-    return xarray.Dataset(variables, coordinates)
+def _memory_node(memory: Mapping[str, Any]) -> Node:
+    """Group of the named arrays that a coupling remembers; their axes have names of their own."""
+    values = []
+    for name, array in memory.items():
+        found = np.asarray(array)
+        dims = tuple(f"{name}_{axis}" for axis in range(found.ndim))
+        values.append(Labelled(Quantity(name, "", f"{name} that is remembered", dims=dims), found))
+    return Node(tuple(values))
 
 
-def _attributes(result: ContactResult) -> dict[str, Any]:
-    """Everything that is neither field nor scalar nor a part of the problem described elsewhere."""
-    status, counter = result.status, result.problem.counter_surface
-    described = {
-        "title": "contact of rough surfaces",
-        "asperity_format": FORMAT_VERSION,
-        "surface": _surface_text(result.problem.surface),
-        "status_outcome": str(status.outcome),
-        "status_message": status.message,
-        "status_remedy": status.remedy,
-        "provenance": json.dumps(provenance(result)),
-        "citation_keys": " ".join(result.citation_keys),
-    }
-    if isinstance(counter, Surface):
-        described["counter_surface"] = _surface_text(counter)
-    checks = {f"certificate_{f.name}": getattr(result.certificate, f.name) for f in fields(Certificate)}
-    checks |= {f"certificate_{name}": json.dumps(describe(getattr(result.certificate, name))) for name in _LATER}
-    return described | checks | _physics(result)
+def _memory(node: Node) -> dict[str, Any]:
+    return {item.quantity.name: np.asarray(item.values) for item in node.values}
 
 
-def _physics(result: ContactResult) -> dict[str, str]:
-    """Film and friction of the problem, the numbers of the menisci, and what couplings remember, as JSON texts."""
-    found: dict[str, Any] = {
-        part: describe(value) for part in PHYSICS if (value := getattr(result.problem, part)) is not None
-    }
-    if result.menisci is not None:
-        found["menisci"] = {name: describe(getattr(result.menisci, name)) for name in _MENISCI}
-    if result.memory:
-        found["memory"] = {
-            name: {key: np.asarray(value).tolist() for key, value in memory.items()}
-            for name, memory in result.memory.items()
-        }
-    return {name: json.dumps(item) for name, item in found.items()}
+def _memory_text(memory: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: np.asarray(array).tolist() for name, array in memory.items()}
+
+
+def _memory_of(described: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: np.asarray(value) for name, value in described.items()}
+
+
+def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:
+    """Coordinates x and y of the grid of ``result``."""
+    x, y = result.problem.grid.coordinates()
+    return coordinate("x", x[:, 0]), coordinate("y", y[0])
+
+
+def status_attributes(status: Status) -> dict[str, str]:
+    """``status`` as attributes of a group."""
+    return {f"status_{name}": str(text) for name, text in asdict(status).items()}
+
+
+def status_from(attributes: Mapping[str, Any]) -> Status:
+    """The status that ``attributes`` of a group hold."""
+    return Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"])
+
+
+def _grouped(old: Node) -> Node:
+    """Tree of a file of format 1, which had all variables in one group."""
+    attributes = dict(old.attributes)
+    if "plane" in old.dims():
+        return Node((), attributes, {"field": old})
+    wet = {name: value for name, value in attributes.items() if name.startswith("wet_")}
+    shared = {name: value for name, value in attributes.items() if name not in wet}
+    if "step" in old.dims():
+        fixed = [item for item in old.values if "step" not in item.quantity.dims and item.quantity.name not in "xy"]
+        lines = [item for item in old.values if item.quantity.name in ("x", "y")]
+        along = [item for item in old.values if "step" in item.quantity.dims]
+        surfaces = Node((*lines, *fixed), attributes)
+        return Node(
+            (), shared, {"contact": surfaces, "path": Node((*lines, *along), {"controls": attributes["controls"]})}
+        )
+    if not wet:
+        return Node((), shared, {"contact": Node(old.values, shared)})
+    names = {item.name for item in (*WET_FIELDS, *WET_SCALARS)}
+    lines = [item for item in old.values if item.quantity.name in ("x", "y")]
+    film = [item for item in old.values if item.quantity.name in names]
+    dry = tuple(item for item in old.values if item.quantity.name not in names)
+    renamed = {"wet_outcome": "status_outcome", "wet_message": "status_message", "wet_remedy": "status_remedy"}
+    renamed |= {"wet_film": "film", "wet_control": "control", "wet_regime": "regime"}
+    described = {renamed.get(name, name.replace("wet_", "stored_")): value for name, value in wet.items()}
+    return Node((), shared, {"contact": Node(dry, shared), "film": Node((*lines, *film), described)})
+
+
+def _checks(certificate: Certificate) -> dict[str, Any]:
+    checks = {f"certificate_{f.name}": getattr(certificate, f.name) for f in fields(Certificate)}
+    return checks | {f"certificate_{name}": json.dumps(describe(getattr(certificate, name))) for name in _CHECKS}
 
 
 def _surface_text(surface: Surface) -> str:
@@ -282,13 +520,14 @@ def _surface(heights: np.ndarray[Any, Any], text: str) -> Surface:
     return Surface(heights, described["dx"], described["dy"], periodic=described["periodic"], origin=origin)
 
 
-def _field(values: np.ndarray[Any, Any], unit: str, label: str) -> tuple[tuple[str, str], Any, dict[str, str]]:
-    return ("x", "y"), values, _labels(unit, label)
+def _field(quantity: Quantity, values: np.ndarray[Any, Any]) -> Labelled:
+    return Labelled(replace(quantity, dims=("x", "y")), values)
 
 
-def _labels(unit: str, label: str) -> dict[str, str]:
-    return {"units": unit, "long_name": label}
+def _values(source: Any, wanted: Iterable[Quantity]) -> dict[str, Any]:
+    """Values of the ``wanted`` quantities in ``source`` by name."""
+    return {item.name: _plain(source[item.name]) for item in wanted}
 
 
 def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+    return value.item() if isinstance(value, np.generic) else value

@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..contact.history import HistoryResult
 from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
@@ -385,6 +386,12 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         state = "converged" if thing.converged else "NOT CONVERGED"
         rows = [*problem_rows(thing.problem), (f"prescribed {thing.control.name}", _control_text(thing))]
         return f"Contact, {state}", [*rows, *headline_rows(thing), ("status", thing.status.message)]
+    if isinstance(thing, HistoryResult):
+        failed = sum(not step.converged for step in thing.steps)
+        ended = "all converged" if not failed else f"{failed} NOT CONVERGED"
+        rows = [*problem_rows(thing.last.problem), ("steps", f"{len(thing.steps)}, {ended}")]
+        loads = " → ".join(show(float(thing.mean_pressure[turn]), "Pa") for turn in thing.turns)
+        return "Load history", [*rows, ("mean pressure where it turns", loads), *headline_rows(thing.last)]
     if isinstance(thing, StressField):
         return "Stress field", field_rows(thing)
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.arrays import RealArray
-from ..core.quantity import Quantity
+from ..core.quantity import Labelled
 from .picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
 
 if TYPE_CHECKING:
@@ -29,14 +29,6 @@ MOST_TICKS = 8
 
 LINE = 34
 """Letters of the longest line of a label."""
-
-
-@dataclass(frozen=True, eq=False)
-class Labelled:
-    """Numbers (SI) and what they are."""
-
-    quantity: Quantity
-    values: RealArray
 
 
 @dataclass(frozen=True, eq=False)

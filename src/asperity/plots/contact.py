@@ -7,17 +7,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ..contact.energy import energy_balance
+from ..contact.history import HistoryResult
 from ..contact.laws import LimitByDepth
 from ..contact.measure import distribution
-from ..contact.path import LoadPath
 from ..contact.result import ContactResult
 from ..contact.wet_result import WetContactResult
 from ..core.arrays import RealArray
+from ..core.errors import InputError
 from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
@@ -172,16 +172,27 @@ KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus",
 """Name and colour of each kind of point, in the order of their numbers."""
 
 
-def plot_menisci(result: WetContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry."""
-    found = result.wetting
-    kinds = np.where(found.cut, 1.0, 0.0)
-    kinds[found.menisci] = 2.0
-    kinds[result.contact.contact] = 3.0
+def plot_menisci(result: WetContactResult | ContactResult, ax: Axes) -> Axes:
+    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
+
+    Raises
+    ------
+    InputError
+        If the contact has no film of liquid.
+    """
+    contact = result.contact if isinstance(result, WetContactResult) else result
+    film = result if isinstance(result, WetContactResult) else result.menisci
+    if film is None:
+        raise InputError(
+            "contact of a map of menisci must have a film of liquid, but is dry; give its problem a LiquidFilm."
+        )
+    kinds = np.where(film.wetting.cut, 1.0, 0.0)
+    kinds[film.wetting.menisci] = 2.0
+    kinds[contact.contact] = 3.0
     return plot_classes(kinds, result.problem.grid, ax, KINDS)
 
 
-def wet_figures(result: WetContactResult) -> tuple[Figure, ...]:
+def wet_figures(result: WetContactResult | ContactResult) -> tuple[Figure, ...]:
     """Figures of the menisci of ``result``."""
     caption = (
         "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
@@ -271,6 +282,20 @@ def plots_of(result: ContactResult) -> tuple[Plot, ...]:
     return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
 
 
+def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
+    """Names of all figures of a ``result`` (a contact, wet contact or load path), each with what draws its PNG."""
+    found: dict[str, Callable[[], bytes]] = {}
+    contact = result.last if isinstance(result, HistoryResult) else getattr(result, "contact", result)
+    contact = result if isinstance(result, ContactResult) else contact
+    found |= {plot.name: partial(render, plot, contact) for plot in plots_of(contact)}
+    if isinstance(result, HistoryResult):
+        found |= {plot.name: partial(render_path_plot, plot, result) for plot in PATH_PLOTS}
+    if isinstance(result, WetContactResult) or contact.menisci is not None:
+        result = result if isinstance(result, WetContactResult) else contact
+        found["menisci"] = partial(png, partial(plot_menisci, result), map_size(contact.problem.grid))
+    return found
+
+
 def render(plot: Plot, result: ContactResult) -> bytes:
     """PNG of ``plot`` for ``result``."""
     size = map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
@@ -285,9 +310,7 @@ def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = F
     OutputError
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    return save_pictures(
-        {plot.name: partial(render, plot, result) for plot in plots_of(result)}, folder, overwrite=overwrite
-    )
+    return save_pictures(figures_of(result), folder, overwrite=overwrite)
 
 
 def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
@@ -312,7 +335,7 @@ UNLOADING = (VERMILLION, ORANGE, PURPLE)
 """Colours of the first, the second and every further unloading."""
 
 
-def plot_load_loop(path: LoadPath, ax: Axes) -> Axes:
+def plot_load_loop(path: HistoryResult, ax: Axes) -> Axes:
     """Draw the mean pressure of every step of ``path`` against its approach on ``ax``, each direction in its colour."""
     load, approach = (_from_touch(path, values) for values in (path.mean_pressure, path.approach))
     in_m, in_pa = scale(approach, "m"), scale(load, "Pa")
@@ -321,7 +344,7 @@ def plot_load_loop(path: LoadPath, ax: Axes) -> Axes:
     return ax
 
 
-def plot_area_loop(path: LoadPath, ax: Axes) -> Axes:
+def plot_area_loop(path: HistoryResult, ax: Axes) -> Axes:
     """Draw the real area of every step of ``path``, in percent of the nominal area, against the mean pressure on ``ax``."""
     load, area = (_from_touch(path, values) for values in (path.mean_pressure, path.area_fraction_corrected))
     in_pa = scale(load, "Pa")
@@ -330,11 +353,11 @@ def plot_area_loop(path: LoadPath, ax: Axes) -> Axes:
     return ax
 
 
-def plot_energies(path: LoadPath, ax: Axes) -> Axes:
+def plot_energies(path: HistoryResult, ax: Axes) -> Axes:
     """Draw external work, elastic energy and plastic work after every step of ``path`` on ``ax``."""
-    balance = energy_balance(path)
+    balance = path.energies
     in_j = scale(np.concatenate([balance.external_work, balance.elastic_energy, balance.plastic_work]), "J")
-    step = np.arange(1, len(path.results) + 1)
+    step = np.arange(1, len(path.steps) + 1)
     kinds = {
         "external work ∫F dδ": (balance.external_work, BLACK, "-"),
         "elastic energy": (balance.elastic_energy, BLUE, "-"),
@@ -349,14 +372,14 @@ def plot_energies(path: LoadPath, ax: Axes) -> Axes:
     return ax
 
 
-def _from_touch(path: LoadPath, values: RealArray) -> RealArray:
+def _from_touch(path: HistoryResult, values: RealArray) -> RealArray:
     """``values`` of every step; a path of virgin surfaces begins at first touch, where all of them are zero."""
     return np.concatenate([[0.0], values]) if path.start is None else values
 
 
-def _draw_legs(x: RealArray, y: RealArray, path: LoadPath, ax: Axes) -> None:
+def _draw_legs(x: RealArray, y: RealArray, path: HistoryResult, ax: Axes) -> None:
     """Curve of the points ``x``, ``y``, each direction of the load in its colour; a part starts where the last one ended."""
-    before = len(x) - len(path.results)
+    before = len(x) - len(path.steps)
     load = _from_touch(path, path.mean_pressure)
     counts = {True: 0, False: 0}
     for first, last in itertools.pairwise((0, *(turn + before for turn in path.turns))):
@@ -375,7 +398,7 @@ def _draw_legs(x: RealArray, y: RealArray, path: LoadPath, ax: Axes) -> None:
 # The figures of a load path.
 
 
-DrawPath: TypeAlias = "Callable[[LoadPath, Axes], Axes]"
+DrawPath: TypeAlias = "Callable[[HistoryResult, Axes], Axes]"
 """Draws a load path on axes."""
 
 
@@ -414,12 +437,12 @@ PATH_PLOTS = (
 """The figures of a load path in the order of a report."""
 
 
-def render_path_plot(plot: PathPlot, path: LoadPath) -> bytes:
+def render_path_plot(plot: PathPlot, path: HistoryResult) -> bytes:
     """PNG of ``plot`` for ``path``."""
     return png(partial(plot.draw, path), CURVE_SIZE)
 
 
-def save_path_plots(path: LoadPath, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their paths.
 
     Raises

@@ -6,13 +6,14 @@ import base64
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core import require
 from ..core.grid import Grid
 from ..io.words import heading_and_rows
 from ..stress.field import StressField
 from ..surfaces.surface import Surface
-from .contact import PLASTIC_PLOTS, PLOTS
+from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
 from .picture import CURVE_SIZE, map_size, png, style
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
@@ -68,6 +69,9 @@ def _draw(thing: Any, kind: str, ax: Axes, **options: Any) -> Axes:
     if isinstance(thing, ContactResult):
         draws = {figure.name: figure.draw for figure in (*PLOTS, *PLASTIC_PLOTS)}
         return draws[require.one_of(kind or "pressure", draws, "figure of a result")](thing, ax, **options)
+    if isinstance(thing, HistoryResult):
+        loops = {figure.name: figure.draw for figure in PATH_PLOTS}
+        return loops[require.one_of(kind or "load_loop", loops, "figure of a load history")](thing, ax, **options)
     if thing.dims == ("plane",):
         return plot_stress_profile(thing, ax, *([(kind,)] if kind else []), **options)
     wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
@@ -82,6 +86,8 @@ def _shape(thing: Any, kind: str) -> tuple[tuple[float, float], str | None]:
     if isinstance(thing, ContactResult):
         curves = [figure.name for figure in (*PLOTS, *PLASTIC_PLOTS) if not figure.is_map]
         return (CURVE_SIZE if kind in curves else map_size(thing.problem.grid)), None
+    if isinstance(thing, HistoryResult):
+        return CURVE_SIZE, None
     assert isinstance(thing, StressField)
     if len(thing.dims) == 3:
         return map_size(Grid((thing.x.size, thing.y.size), thing.spacing)), None

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..core.citations import REFERENCES
-from ..core.quantity import Quantity
+from ..core.quantity import Labelled, Quantity
 from ..core.units import percent, show
 from ..io.atomic import atomic_file
+from ..io.tree import node_of, write_tree
 from ..io.words import Rows
 from ..plots.campaign import (
     Curve,
-    Labelled,
     Transition,
     plot_convergence,
     plot_curves,
@@ -430,8 +430,7 @@ def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
 
 
 def _save(data: xarray.Dataset, path: Path) -> None:
-    with atomic_file(path, overwrite=True) as partial:
-        data.to_netcdf(partial, engine="h5netcdf")
+    write_tree(node_of(data), path, overwrite=True)
 
 
 def _table(data: xarray.Dataset, path: Path) -> None:

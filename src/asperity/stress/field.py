@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..core.arrays import RealArray
 from ..core.engine.cpu import Blocks
 from ..core.errors import InputError
-from ..core.late import Drawn
+from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.spectral import thread_count
 from ..core.tensor import Displacement, StressTensor
@@ -65,7 +65,7 @@ class InterfaceStress:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StressField(Drawn):
+class StressField(Stored):
     """Stress inside a body on planes parallel to its surface; arrays (n, …) over planes and their points, in Pa.
 
     Attributes

@@ -13,7 +13,7 @@ from ..contact.problem import ContactProblem
 from ..core.arrays import BoolArray, RealArray
 from ..core.status import Advice
 from ..io.provenance import software, surface_provenance
-from ..io.results import FORMAT_VERSION
+from ..io.tree import FORMAT_VERSION
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction
 from ..theories.statistics.roughness import Roughness

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.arrays import BoolArray, RealArray
 from ..io.atomic import atomic_file
-from ..io.results import write
+from ..io.tree import node_of, write_tree
 from .comparison import Comparison
 
 NUMERICAL = "numerical"
@@ -36,14 +36,14 @@ COLUMNS = (
 
 
 def save_comparison(comparison: Comparison, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write the dataset of ``comparison`` to the NetCDF-4 file ``path``, which ``open_dataset`` reads.
+    """Write the dataset of ``comparison`` to the NetCDF-4 file ``path``, which ``open_tree`` reads.
 
     Raises
     ------
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    write(comparison.dataset, path, overwrite=overwrite)
+    write_tree(node_of(comparison.dataset), path, overwrite=overwrite)
 
 
 def export_comparison_csv(comparison: Comparison, path: str | Path, *, overwrite: bool = False) -> None:

@@ -28,10 +28,10 @@ def path() -> asp.LoadPath:
 
 
 def test_every_step_is_in_the_file(path: asp.LoadPath, tmp_path: Path) -> None:
-    asp.save_path(path, tmp_path / "path.nc", document="version = 1")
-    data = asp.open_dataset(tmp_path / "path.nc")
-    assert dict(data.sizes) == {"step": 6, "x": 16, "y": 12}
-    assert data.attrs["document"] == "version = 1"
+    asp.save(path, tmp_path / "path.nc", document="version = 1")
+    data = asp.open_tree(tmp_path / "path.nc")["path"].to_dataset()
+    assert {dim: data.sizes[dim] for dim in ("step", "x", "y")} == {"step": 6, "x": 16, "y": 12}
+    assert asp.open_tree(tmp_path / "path.nc").attrs["document"] == "version = 1"
     for item in FIELDS:
         assert data[item.name].attrs["units"] == item.unit
         for step, result in enumerate(path.results):
@@ -42,15 +42,28 @@ def test_every_step_is_in_the_file(path: asp.LoadPath, tmp_path: Path) -> None:
     np.testing.assert_array_equal(data["path_external_work"], balance.external_work)
     np.testing.assert_array_equal(data["path_residual"], balance.residual)
     assert data["converged"].all()
-    controls = [rebuild(json.loads(text)) for text in json.loads(data.attrs["controls"])]
+    controls = [rebuild(json.loads(text)) for text in data["control"].values]
     assert controls == [result.control for result in path.results]
     assert all("units" in data[name].attrs for name in data.data_vars)
     with pytest.raises(OutputError):
-        asp.save_path(path, tmp_path / "path.nc")
+        asp.save(path, tmp_path / "path.nc")
+
+
+def test_a_path_is_read_back_whole(path: asp.LoadPath, tmp_path: Path) -> None:
+    asp.save(path, tmp_path / "path.nc")
+    again = asp.load(tmp_path / "path.nc")
+    assert len(again.results) == len(path.results)
+    for found, result in zip(again.results, path.results, strict=True):
+        assert (found.control, found.status, found.certificate) == (result.control, result.status, result.certificate)
+        for item in (*SCALARS, *FIELDS):
+            np.testing.assert_array_equal(getattr(found, item.name), getattr(result, item.name))
+        np.testing.assert_array_equal(found.plastic, result.plastic)
+        np.testing.assert_array_equal(found.spot_areas, result.spot_areas)
+    np.testing.assert_array_equal(asp.energy_balance(again).residual, asp.energy_balance(path).residual)
 
 
 def test_the_table_has_a_row_for_each_step(path: asp.LoadPath, tmp_path: Path) -> None:
-    asp.export_path_csv(path, tmp_path / "path.csv")
+    asp.export_csv(path, tmp_path / "path.csv")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["step"] for row in rows] == ["1", "2", "3", "4", "5", "6"]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -13,7 +15,8 @@ import xarray
 import asperity as asp
 from asperity.contact.result import SCALARS
 from asperity.core.errors import FileFormatError, OutputError
-from asperity.io.results import FORMAT_VERSION, dataset, load, open_dataset, save
+from asperity.io.results import load, open_tree, result_tree, save
+from asperity.io.tree import FORMAT_VERSION, Node, write_tree
 
 
 def same(first: object, second: object) -> bool:
@@ -67,13 +70,17 @@ def test_no_contact_spots_and_huge_text_are_kept(elastic: asp.ContactResult, tmp
     document = "# long\n" + "x = 1\n" * 100_000
     save(bare, tmp_path / "r.nc", document=document)
     assert same(load(tmp_path / "r.nc"), bare)
-    assert open_dataset(tmp_path / "r.nc").attrs["document"] == document
+    assert open_tree(tmp_path / "r.nc").attrs["document"] == document
 
 
 def test_dataset_is_labelled(plastic: asp.ContactResult, tmp_path: Path) -> None:
     save(plastic, tmp_path / "r.nc")
-    data = open_dataset(tmp_path / "r.nc")
-    xarray.testing.assert_identical(data.drop_attrs(), dataset(plastic).drop_attrs())
+    tree, same_tree = open_tree(tmp_path / "r.nc"), plastic.to_xarray()
+    assert tree.groups == same_tree.groups == ("/", "/contact")
+    data = tree["contact"].to_dataset()
+    xarray.testing.assert_identical(
+        data.drop_attrs(deep=False), same_tree["contact"].to_dataset().drop_attrs(deep=False)
+    )
     grid = plastic.problem.grid
     assert data.pressure.dims == ("x", "y")
     np.testing.assert_array_equal(data.x, np.arange(18) * grid.spacing[0])
@@ -89,7 +96,7 @@ def test_dataset_is_labelled(plastic: asp.ContactResult, tmp_path: Path) -> None
     assert json.loads(data.attrs["control"]) == {"type": "Force", "value": 2e-5}
     assert data.attrs["certificate_duality_gap"] == plastic.certificate.duality_gap
     assert data.attrs["status_outcome"] == "converged"
-    assert json.loads(data.attrs["provenance"])["surface"]["source"] == "disk <1> & ü.x3p"
+    assert json.loads(tree.attrs["provenance"])["surface"]["source"] == "disk <1> & ü.x3p"
     assert data.attrs["citation_keys"].split() == list(plastic.citation_keys)
 
 
@@ -98,8 +105,9 @@ def test_plain_netcdf_reader_sees_the_same(plastic: asp.ContactResult, tmp_path:
 
     save(plastic, tmp_path / "r.nc")
     with h5netcdf.File(tmp_path / "r.nc") as file:
-        assert file.variables["pressure"][...].tobytes() == plastic.pressure.tobytes()
-        assert {name: dimension.size for name, dimension in file.dimensions.items()} == {
+        group = file.groups["contact"]
+        assert group.variables["pressure"][...].tobytes() == plastic.pressure.tobytes()
+        assert {name: dimension.size for name, dimension in group.dimensions.items()} == {
             "x": 18,
             "y": 12,
             "spot": plastic.n_spots,
@@ -154,27 +162,71 @@ def test_truncated_file_is_refused(elastic: asp.ContactResult, tmp_path: Path, s
 
 
 def test_newer_format_is_refused(elastic: asp.ContactResult, tmp_path: Path) -> None:
-    data = dataset(elastic).assign_attrs(asperity_format=FORMAT_VERSION + 1)
+    data = xarray.Dataset({"a": ("x", [1.0])}, attrs={"asperity_format": FORMAT_VERSION + 1})
     data.to_netcdf(tmp_path / "r.nc", engine="h5netcdf")
     with pytest.raises(FileFormatError, match="update asperity"):
-        open_dataset(tmp_path / "r.nc")
+        open_tree(tmp_path / "r.nc")
+
+
+def changed(result: asp.ContactResult, **attributes: object) -> Node:
+    """Tree of ``result`` with other attributes of the contact; None takes away, a value or an attribute."""
+    tree = result_tree(result)
+    group = tree.children["contact"]
+    values = tuple(item for item in group.values if attributes.get(item.quantity.name, ...) is not None)
+    kept = {name: value for name, value in {**group.attributes, **attributes}.items() if value is not None}
+    return replace(tree, children={"contact": Node(values, kept)})
 
 
 @pytest.mark.parametrize("loss", ["pressure", "offset", "body", "status_outcome", "certificate_solver", "surface"])
 def test_incomplete_file_is_refused(elastic: asp.ContactResult, tmp_path: Path, loss: str) -> None:
-    data = dataset(elastic)
-    data.attrs.pop(loss, None)
-    data.drop_vars(loss, errors="ignore").to_netcdf(tmp_path / "r.nc", engine="h5netcdf")
+    write_tree(changed(elastic, **{loss: None}), tmp_path / "r.nc")
     with pytest.raises(FileFormatError, match=loss):
         load(tmp_path / "r.nc")
 
 
 def test_changed_heights_and_unknown_types_are_refused(elastic: asp.ContactResult, tmp_path: Path) -> None:
-    data = dataset(elastic)
-    data["heights"] = data["heights"] * 2.0
-    data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    text = json.loads(str(result_tree(elastic).children["contact"].attributes["surface"]))
+    write_tree(changed(elastic, surface=json.dumps(text | {"digest": "0"})), tmp_path / "a.nc")
     with pytest.raises(FileFormatError, match="digest"):
         load(tmp_path / "a.nc")
-    dataset(elastic).assign_attrs(body='{"type": "Magic"}').to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
+    write_tree(changed(elastic, body='{"type": "Magic"}'), tmp_path / "b.nc")
     with pytest.raises(FileFormatError, match="'Magic'"):
         load(tmp_path / "b.nc")
+
+
+def test_other_endings_are_refused_by_name(elastic: asp.ContactResult, tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"must end in \.nc.*export_csv"):
+        save(elastic, tmp_path / "a.csv")
+    with pytest.raises(asp.InputError, match="result to save must be"):
+        save(elastic.problem, tmp_path / "a.nc")  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []
+
+
+FULL_DISK = """
+import resource, signal, sys
+import numpy as np
+import asperity as asp
+
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+heights = np.random.default_rng(1).normal(size=(64, 64)) * 1e-9
+problem = asp.ContactProblem(asp.Surface(heights, 1e-8, periodic=True), asp.Elastic(1e11, 0.3))
+result = asp.solve(problem, asp.MeanPressure(1e8))
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), resource.RLIM_INFINITY))
+try:
+    asp.save(result, sys.argv[1])
+except asp.OutputError as error:
+    print("refused:", error)
+"""
+
+
+@pytest.mark.parametrize("room", [500, 30_000, 120_000])
+def test_a_full_disk_ends_in_one_sentence(tmp_path: Path, room: int) -> None:
+    file = tmp_path / "r.nc"
+    ended = subprocess.run(
+        [sys.executable, "-c", FULL_DISK, str(file), str(room)], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert "refused:" in ended.stdout
+    assert "cannot be written" in ended.stdout
+    assert ended.stderr == ""
+    assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,7 @@ import pytest
 from contact_cases import TIGHT, rough
 
 import asperity as asp
-from asperity.io.stress_files import HEADINGS, export_stress_csv
+from asperity.io.export import export_csv
 from asperity.stress.survey import Strengths, StressRequest, survey
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
@@ -20,10 +20,12 @@ COATED = asp.Layered([asp.Layer(FILM, 1.5), asp.Layer(SOFT, 1.0)], asp.Elastic(1
 def test_table_of_maxima(tmp_path: Path) -> None:
     contact = asp.solve(asp.ContactProblem(rough((16, 12), 3, power=2.0), COATED), asp.MeanPressure(0.02), solver=TIGHT)
     found = survey(StressRequest(friction=0.3, strengths=Strengths(tensile=1.0)), contact)
-    export_stress_csv(found, tmp_path / "s.csv")
+    export_csv(found, tmp_path / "s.csv")
     with (tmp_path / "s.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert tuple(rows[0]) == HEADINGS
+    assert list(rows[0]) == ["part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side"]
+    (dx, dy), peak = contact.problem.grid.spacing, found.maxima[0].von_mises
+    assert (float(rows[0]["x"]), float(rows[0]["y"])) == (peak.x + 0.5 * dx, peak.y + 0.5 * dy), "as in reports"
     values = {(row["name"], row["quantity"]): row for row in rows}
     for part in found.maxima:
         assert float(values[part.region.name, "max_von_mises"]["value"]) == part.von_mises.value
@@ -34,4 +36,4 @@ def test_table_of_maxima(tmp_path: Path) -> None:
     assert values["soft", "load_factor_to_yield"]["value"] == "nan"
     assert values["film", "yielded_volume"]["unit"] == "m**3"
     with pytest.raises(asp.OutputError):
-        export_stress_csv(found, tmp_path / "s.csv")
+        export_csv(found, tmp_path / "s.csv")

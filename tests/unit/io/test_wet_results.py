@@ -21,24 +21,17 @@ def wet() -> asp.WetContactResult:
 
 
 def test_a_wet_contact_is_read_back_whole(wet: asp.WetContactResult, tmp_path: Path) -> None:
-    asp.save_wet(wet, tmp_path / "wet.nc")
-    found = asp.load_wet(tmp_path / "wet.nc")
+    asp.save(wet, tmp_path / "wet.nc")
+    found = asp.load(tmp_path / "wet.nc")
     for item in WET_SCALARS:
         assert getattr(found, item.name) == getattr(wet, item.name), item.name
     np.testing.assert_array_equal(found.wetting.menisci, wet.wetting.menisci)
     np.testing.assert_array_equal(found.contact.pressure, wet.contact.pressure)
     assert (found.film, found.control, found.status, found.rounds) == (wet.film, wet.control, wet.status, wet.rounds)
     assert found.citation_keys == wet.citation_keys
-    data = asp.open_dataset(tmp_path / "wet.nc")
+    data = asp.open_tree(tmp_path / "wet.nc")["film"].to_dataset()
     assert data["menisci"].dims == ("x", "y")
     assert data["meniscus_force"].attrs["units"] == "N"
-    assert asp.load(tmp_path / "wet.nc").force == wet.contact.force
-
-
-def test_a_dry_result_is_no_wet_one(wet: asp.WetContactResult, tmp_path: Path) -> None:
-    asp.save(wet.contact, tmp_path / "dry.nc")
-    with pytest.raises(asp.FileFormatError, match="holds a dry one; use load"):
-        asp.load_wet(tmp_path / "dry.nc")
 
 
 def test_the_map_of_menisci_shows_every_kind(wet: asp.WetContactResult) -> None:

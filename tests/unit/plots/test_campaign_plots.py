@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from asperity.core.quantity import Quantity
+from asperity.core.quantity import Labelled, Quantity
 from asperity.plots.campaign import (
     MOST_TICKS,
     Curve,
-    Labelled,
     Transition,
     plot_convergence,
     plot_curves,

@@ -237,7 +237,7 @@ def test_the_dataset_is_labelled_and_saved(compared, tmp_path):
     assert set(json.loads(data.attrs["left_out"])) == {item.name for item in compared.left_out}
     assert len(json.loads(data.attrs["provenance"])["surface"]["digest"]) == 64
     asp.save_comparison(compared, tmp_path / "c.nc")
-    read = asp.open_dataset(tmp_path / "c.nc")
+    read = asp.open_tree(tmp_path / "c.nc").to_dataset()
     for name in data.data_vars:
         np.testing.assert_array_equal(read[name], data[name])
     assert list(read["theory"].values) == [curve.name for curve in compared.curves]
