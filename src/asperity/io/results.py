@@ -425,7 +425,8 @@ def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str 
     if problem.film is not None and numbers is not None:
         contact = arrays["pressure"] > 0.0
         stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
-        found["menisci"] = Menisci(problem.film, stands, **rebuild(json.loads(numbers)))
+        stored = {name: rebuild(value) for name, value in json.loads(numbers).items()}
+        found["menisci"] = Menisci(problem.film, stands, **stored)
     if problem.friction is not None and LIFT.name in arrays:
         friction = problem.friction
         found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
