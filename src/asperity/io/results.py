@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -335,44 +335,23 @@ def _wet_from(node: Node, contact: ContactResult) -> WetContactResult:
 def path_node(path: HistoryResult) -> Node:
     """Group of a load path with the axis ``step``: fields, scalars, energies, control, certificate and status of every step."""
     steps, balance = path.steps, path.energies
-
-    def column(item: Quantity, values: Any, *dims: str) -> Labelled:
-        return Labelled(replace(item, dims=("step", *dims)), np.asarray(values))
-
     values = [*grid_lines(steps[-1])]
-    values += [column(item, [getattr(step, item.name) for step in steps]) for item in ALL_SCALARS]
+    values += [_column(item, [getattr(step, item.name) for step in steps]) for item in ALL_SCALARS]
     for item in (*FIELDS, MARKS[1]):
-        values.append(column(item, np.stack([getattr(step, item.name) for step in steps]), "x", "y"))
-    if steps[0].sliding is not None:
-        lifts = [step.sliding.shear_displacement for step in steps if step.sliding is not None]
-        values.append(column(LIFT, np.stack(lifts), "x", "y"))
-    if steps[0].menisci is not None:
-        found = [step.menisci for step in steps if step.menisci is not None]
-        values += [
-            column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
-            for item in WET_SCALARS
-        ]
-        texts = [_numbers_text(menisci) for menisci in found]
-        values.append(column(Quantity("menisci", "", "numbers of the menisci, as JSON"), texts))
+        values.append(_column(item, np.stack([getattr(step, item.name) for step in steps]), "x", "y"))
     for item in ENERGIES:
-        values.append(column(replace(item, name=f"path_{item.name}"), getattr(balance, item.name)))
+        values.append(_column(replace(item, name=f"path_{item.name}"), getattr(balance, item.name)))
     for item in CERTIFICATE:
         checks = [getattr(step.certificate, item.name) for step in steps]
-        values.append(column(replace(item, name=f"certificate_{item.name}"), checks))
-    values.append(
-        column(Quantity("converged", "1", "whether the step reached its tolerance"), [s.converged for s in steps])
-    )
+        values.append(_column(replace(item, name=f"certificate_{item.name}"), checks))
+    ended = Quantity("converged", "1", "whether the step reached its tolerance")
+    values.append(_column(ended, [step.converged for step in steps]))
     for name in ("outcome", "message", "remedy"):
         texts = [str(getattr(step.status, name)) for step in steps]
-        values.append(column(Quantity(f"status_{name}", "", f"{name} of the step"), texts))
-    for name in _CHECKS:
-        texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
-        values.append(column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts))
-    memories = [json.dumps({key: _memory_text(memory) for key, memory in step.memory.items()}) for step in steps]
-    values.append(column(Quantity("memory", "", "what the couplings remember, as JSON"), memories))
+        values.append(_column(Quantity(f"status_{name}", "", f"{name} of the step"), texts))
     controls = [json.dumps(describe(step.control)) for step in steps]
-    values.append(column(Quantity("control", "", "what the step was told, as JSON"), controls))
-    values.append(Labelled(SPOTS, np.concatenate([step.spot_areas for step in steps])))
+    values.append(_column(Quantity("control", "", "what the step was told, as JSON"), controls))
+    values += [*_coupling_columns(steps), Labelled(SPOTS, np.concatenate([step.spot_areas for step in steps]))]
     if path.start is None:
         return Node(tuple(values))
     started = path.start
@@ -382,6 +361,28 @@ def path_node(path: HistoryResult) -> Node:
         values.append(_field(quantity, started.earlier))
     memory = Node((), {}, {name: _memory_node(memory) for name, memory in started.memory.items()})
     return Node(tuple(values), {}, {"start": memory})
+
+
+def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
+    """What the couplings of each step found, remember and say of themselves."""
+    if steps[0].sliding is not None:
+        lifts = [step.sliding.shear_displacement for step in steps if step.sliding is not None]
+        yield _column(LIFT, np.stack(lifts), "x", "y")
+    if steps[0].menisci is not None:
+        found = [step.menisci for step in steps if step.menisci is not None]
+        for item in WET_SCALARS:
+            yield _column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
+        yield _column(Quantity("menisci", "", "numbers of the menisci, as JSON"), list(map(_numbers_text, found)))
+    for name in _CHECKS:
+        texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
+        yield _column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts)
+    memories = [json.dumps({key: _memory_text(memory) for key, memory in step.memory.items()}) for step in steps]
+    yield _column(Quantity("memory", "", "what the couplings remember, as JSON"), memories)
+
+
+def _column(item: Quantity, values: Any, *dims: str) -> Labelled:
+    """Values of every step."""
+    return Labelled(replace(item, dims=("step", *dims)), np.asarray(values))
 
 
 def path_from(node: Node, last: ContactResult) -> LoadPath:
