@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
@@ -32,7 +32,7 @@ def name(row):
     return f"case{row['case']:g}"
 
 
-@pytest.mark.parametrize("row", reference("jkr_dmt"), ids=name)
+@every_row(reference("jkr_dmt"), label=name)
 def test_jkr_and_dmt(row):
     theory = SPHERES[row["model"]](row["E_star"], row["R"], row["w"])
     answer = theory.at_load(row["P"])
@@ -44,7 +44,7 @@ def test_jkr_and_dmt(row):
     assert answer.max_pressure == pytest.approx(row["p_r0"], rel=DIGITS)
 
 
-@pytest.mark.parametrize("row", reference("jkr_normalised"), ids=lambda row: f"{row['delta_over_delta_c']:g}")
+@every_row(reference("jkr_normalised"), label=lambda row: f"{row['delta_over_delta_c']:g}")
 def test_jkr_with_fixed_grips(row):
     """Where the contact breaks, δ(a) has its minimum and the radius is known to the root of the rounding alone."""
     x = contact_ratio(row["delta_over_delta_c"])
@@ -56,7 +56,7 @@ def test_jkr_with_fixed_grips(row):
     assert answer.load == pytest.approx(row["P_over_Pc"] * sphere.pull_off, rel=1e-7 if breaks else 1e-12)
 
 
-@pytest.mark.parametrize("row", reference("adhesion_parameters"), ids=lambda row: f"R{row['R_m']:g}")
+@every_row(reference("adhesion_parameters"), label=lambda row: f"R{row['R_m']:g}")
 def test_adhesion_parameters(row):
     sphere = JKR(row["Estar_Pa"], row["R_m"], row["w_J_per_m2"], row["z0_m"])
     assert sphere.critical_extension == pytest.approx(row["delta_c_m"], rel=DIGITS)
@@ -66,7 +66,7 @@ def test_adhesion_parameters(row):
     assert row["sigma_m"] / sphere.critical_extension == pytest.approx(row["inv_Delta_c"], rel=DIGITS)
 
 
-@pytest.mark.parametrize("row", reference("maugis_dugdale"), ids=name)
+@every_row(reference("maugis_dugdale"), label=name)
 def test_maugis(row):
     state = maugis_state(row["lambda"], row["A"])
     assert state.outer_over_inner == pytest.approx(row["m_c_over_a"], rel=DIGITS)
@@ -75,7 +75,7 @@ def test_maugis(row):
     assert state.approach == pytest.approx(row["delta_norm"], rel=DIGITS, abs=1e-13)
 
 
-@pytest.mark.parametrize("row", reference("maugis_pulloff"), ids=name)
+@every_row(reference("maugis_pulloff"), label=name)
 def test_pull_off_of_maugis(row):
     """The place of a minimum is known to the root of the rounding over its curvature: 4e-6 of A was found at A = 0.02."""
     least = maugis_pull_off(row["lambda"])

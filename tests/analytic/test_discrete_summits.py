@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from summit_maps import summit_map
 
 import asperity as asp
@@ -35,9 +35,7 @@ def radii(number: float) -> np.ndarray:
     return np.array([row["R_m"] for row in CRESTS[number]])
 
 
-@pytest.mark.parametrize(
-    "row", reference("summit_map_discrete_gw"), ids=lambda row: f"{row['map']:g}-{row['delta_m']:g}"
-)
+@every_row(reference("summit_map_discrete_gw"), label=lambda row: f"{row['map']:g}-{row['delta_m']:g}")
 def test_summits_of_a_map(row):
     roughness = asp.roughness_of(summit_map(row["map"]))
     theory = DiscreteSummits.from_roughness(roughness, 91.2e9)

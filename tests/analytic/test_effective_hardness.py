@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.theories.hardness import effective_hardness
@@ -18,7 +18,7 @@ ratios = st.floats(0.02, 50.0)
 depths = st.floats(0.0, 20.0)
 
 
-@pytest.mark.parametrize("row", reference("effective_hardness"))
+@every_row(reference("effective_hardness"))
 def test_rows(row):
     law = EffectiveHardness(
         row["H_layer_GPa"] * 1e9,

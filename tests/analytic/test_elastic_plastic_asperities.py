@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.theories.hardness.plasticity import (
@@ -42,7 +42,7 @@ SPHERE_ROWS, JG_ROWS, ROUGH_ROWS = (
 )
 
 
-@pytest.mark.parametrize("row", SPHERE_ROWS, ids=lambda row: f"nu{row['nu']:g}-x{row['omega_ratio']:g}")
+@every_row(SPHERE_ROWS, label=lambda row: f"nu{row['nu']:g}-x{row['omega_ratio']:g}")
 def test_spheres_of_chang_and_of_kogut(row):
     x = row["omega_ratio"]
     assert hardness_coefficient(row["nu"]) == pytest.approx(row["K"], rel=DIGITS)
@@ -55,7 +55,7 @@ def test_spheres_of_chang_and_of_kogut(row):
     assert mean * 2.8 / 0.01 == pytest.approx(row["p_over_Y_ke"], rel=DIGITS)
 
 
-@pytest.mark.parametrize("row", JG_ROWS, ids=lambda row: f"nu{row['nu']:g}-ey{row['ey']:g}-x{row['omega_ratio']:g}")
+@every_row(JG_ROWS, label=lambda row: f"nu{row['nu']:g}-ey{row['ey']:g}-x{row['omega_ratio']:g}")
 def test_sphere_of_jackson_and_green(row):
     sphere, x = JacksonGreenSphere(1.0, 2.0, row["ey"], row["nu"]), row["omega_ratio"]
     assert yield_coefficient(row["nu"]) == pytest.approx(row["C"], rel=DIGITS)
@@ -68,7 +68,7 @@ def test_sphere_of_jackson_and_green(row):
         assert sphere.hardness_ratio(x) == pytest.approx(row["HG_over_Sy"], rel=DIGITS)
 
 
-@pytest.mark.parametrize("row", ROUGH_ROWS, ids=lambda row: f"psi{row['psi_c']:g}-D{row['D']:g}")
+@every_row(ROUGH_ROWS, label=lambda row: f"psi{row['psi_c']:g}-D{row['D']:g}")
 def test_rough_surfaces(row):
     """K = 0.577 is that of ν = 0.3. Twelve digits are good; ω_c from H and back costs some roundings."""
     E_star, deviation, radius, density = 1.0, 1.0, 1e4, 1e-6

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.theories.adhesion.fuller_tabor import FullerTabor
 
@@ -32,7 +32,7 @@ def test_loads_areas_and_numbers(row, way):
     assert found.pressure[0] == pytest.approx(theory.density * theory.sphere.pull_off * row[f"load_{way}"], rel=1e-10)
 
 
-@pytest.mark.parametrize("row", PULL_OFF, ids=lambda row: f"{row['inv_Delta_c']:g}")
+@every_row(PULL_OFF, label=lambda row: f"{row['inv_Delta_c']:g}")
 def test_pull_off(row):
     """Ten digits of the force, six of the place."""
     theory = of_reach(row["Delta_c"])
@@ -41,7 +41,7 @@ def test_pull_off(row):
     assert separation == pytest.approx(row["D_pulloff"], abs=2e-6)
 
 
-@pytest.mark.parametrize("row", reference("adhesion_parameters"), ids=lambda row: f"R{row['R_m']:g}")
+@every_row(reference("adhesion_parameters"), label=lambda row: f"R{row['R_m']:g}")
 def test_adhesion_parameters(row):
     theory = FullerTabor(row["Estar_Pa"], 1e10, row["R_m"], row["sigma_m"], row["w_J_per_m2"], spacing=row["z0_m"])
     assert 1.0 / theory.reach == pytest.approx(row["inv_Delta_c"], rel=1e-13)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.rough.greenwood_williamson import (
@@ -100,7 +100,7 @@ def test_plastic_shares():
             assert float(share(row["D"], row["psi"])) == pytest.approx(row[name], rel=ROUNDING)
 
 
-@pytest.mark.parametrize("row", reference("gw_plastic_onset_002"), ids=lambda row: f"{row['psi']:g}")
+@every_row(reference("gw_plastic_onset_002"), label=lambda row: f"{row['psi']:g}")
 def test_onset_of_plastic_flow(row):
     for suffix, beyond in (("", False), ("_shifted", True)):
         D = separation_at_plastic_onset(row["psi"], beyond=beyond)

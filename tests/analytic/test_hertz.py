@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from contact_cases import TIGHT, elastic, square_grid
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
@@ -98,7 +98,7 @@ def test_elastic_energy_is_the_work_of_the_force():
     assert result.elastic_energy == pytest.approx(0.4 * FORCE * APPROACH, rel=1e-3)
 
 
-@pytest.mark.parametrize("row", reference("hertz_elliptical")[:12], ids=lambda row: f"case{row['case']:g}")
+@every_row(reference("hertz_elliptical")[:12], label=lambda row: f"case{row['case']:g}")
 def test_ellipse_on_rectangular_pixels(row):
     """Pixels as elongated as the contact, up to 1:15. Peak and approach as for the sphere (order 2: 1e-4 at 80 pixels
 

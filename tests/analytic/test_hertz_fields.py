@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
@@ -151,7 +151,7 @@ def test_fields_are_in_equilibrium_everywhere(field):
         assert sum(derivative(one, axis) for axis, one in enumerate(row)) == pytest.approx(np.zeros(50), abs=1e-6)
 
 
-@pytest.mark.parametrize("row", FRICTION, ids=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
+@every_row(FRICTION, label=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
 def test_friction_moves_first_yield(row):
     """The table is good to 1e-5; its places come from a search of its own, 1e-5 for smooth maxima, 1e-3 on the surface.
 
@@ -174,7 +174,7 @@ def test_friction_moves_first_yield(row):
     assert edge.xx == pytest.approx(row["sigma_xx_trailing_edge_over_p0"], abs=1e-9)
 
 
-@pytest.mark.parametrize("row", ONSET, ids=lambda row: f"nu{row['nu']:g}")
+@every_row(ONSET, label=lambda row: f"nu{row['nu']:g}")
 def test_first_yield_without_friction(row):
     """On the axis sqrt(J2) = 2τ/√3; the place of a maximum is known to the root of the rounding, 2e-8."""
     onset = sphere_yield_onset(row["nu"])

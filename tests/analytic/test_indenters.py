@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from contact_cases import elastic, square_grid
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
@@ -36,7 +36,7 @@ def test_reference_has_both_shapes():
     assert len(PUNCHES) >= 3
 
 
-@pytest.mark.parametrize("row", CONES, ids=name)
+@every_row(CONES, label=name)
 def test_cone(row):
     """At 80 pixels per diameter, radius to half a pixel; approach as for the sphere; the apex is log-singular, so
 
@@ -52,7 +52,7 @@ def test_cone(row):
         assert np.interp(at, r, pressure) == pytest.approx(row[column], rel=pixel**2 if at < 0.9 else 3.0 * pixel * 0.1)
 
 
-@pytest.mark.parametrize("row", PUNCHES, ids=name)
+@every_row(PUNCHES, label=name)
 def test_flat_punch(row):
     """The staircase rim is uncertain by half a pixel, and so is the force 2 E* a delta; the error must fall with it."""
     a, errors = row["a"], []

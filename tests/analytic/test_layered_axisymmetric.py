@@ -7,7 +7,7 @@ import pytest
 from axisymmetric import Disc, Hertz, SphereOnLayer, fields
 from elastic_fields import label
 from layered_bodies import body_of, plane_of
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.stress.criteria import max_shear, sqrt_J2
@@ -27,7 +27,7 @@ def sphere_of(row):
     return sphere(row["E1_over_E2"], row["nu1"], row["nu2"], row["h_over_a0"])
 
 
-@pytest.mark.parametrize("row", AXISYMMETRIC, ids=label)
+@every_row(AXISYMMETRIC, label=label)
 def test_disc_and_hertz_loads_on_layered_bodies(row):
     """The table is accurate to 1e-13 per unit pressure; 1e-12 adds the quadrature here. Worst found: 6e-13."""
     body = body_of(row)
@@ -37,7 +37,7 @@ def test_disc_and_hertz_loads_on_layered_bodies(row):
     np.testing.assert_allclose([u.x, u.z, s.xx, s.yy, s.zz, s.xz], wanted, atol=1e-12, rtol=0)
 
 
-@pytest.mark.parametrize("row", SPHERES, ids=label)
+@every_row(SPHERES, label=label)
 def test_stress_under_a_sphere_on_a_layer(row):
     """The table is accurate to 1e-10 over p0. Worst difference found: 5e-12."""
     indenter = sphere_of(row)
@@ -54,7 +54,7 @@ def test_stress_under_a_sphere_on_a_layer(row):
         assert both - normal == pytest.approx(row[f"s{name}_x05_shear_per_mu"], abs=1e-10)
 
 
-@pytest.mark.parametrize("row", LARGEST, ids=label)
+@every_row(LARGEST, label=label)
 def test_largest_stress_under_a_sliding_sphere_on_a_layer(row):
     """The table is accurate to 1e-7 (cusps at the edge of the contact). Worst difference found: 3e-8.
 
@@ -78,7 +78,7 @@ def test_largest_stress_under_a_sliding_sphere_on_a_layer(row):
             assert at(x + dx, z + dz) < value
 
 
-@pytest.mark.parametrize("row", FRICTION, ids=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
+@every_row(FRICTION, label=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
 def test_friction_moves_the_onset_of_yield_of_a_sphere(row):
     """Hankel integrals of the table to 1e-5 relative; found equal to rounding. The largest tension is in closed form."""
     body = asp.Layered([], asp.Elastic(1.0, row["nu"]))
@@ -96,7 +96,7 @@ def test_friction_moves_the_onset_of_yield_of_a_sphere(row):
     assert row["sigma_xx_trailing_edge_over_p0"] == pytest.approx(edge, abs=1e-9)
 
 
-@pytest.mark.parametrize("row", ONSET, ids=lambda row: f"nu{row['nu']:g}")
+@every_row(ONSET, label=lambda row: f"nu{row['nu']:g}")
 def test_onset_of_yield_of_a_sphere(row):
     """All digits of the table are good; second order around the maximum leaves the depth's rounding out."""
     body = asp.Layered([], asp.Elastic(1.0, row["nu"]))

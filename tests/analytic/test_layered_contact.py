@@ -7,7 +7,7 @@ of second order in pixel over contact radius inside, growing like the curvature 
 import numpy as np
 import pytest
 from indenter_cases import WIDTH, cylinder, cylinder_peak, pressure_at, sphere, sphere_peak
-from reference_data import reference
+from reference_data import every_row, reference
 
 SPHERE_PIXELS, CYLINDER_PIXELS = 129, 1025
 SUMMARY, PRESSURE = reference("sphere_layered_summary"), reference("sphere_layered_pressure")
@@ -24,7 +24,7 @@ def second_order(pixels):
     return 0.25 * (WIDTH / pixels) ** 2
 
 
-@pytest.mark.parametrize("row", SUMMARY, ids=name)
+@every_row(SUMMARY, label=name)
 def test_sphere(row):
     result = sphere(row, row["a_over_a0"], SPHERE_PIXELS)
     middle = SPHERE_PIXELS // 2
@@ -63,7 +63,7 @@ def test_sphere_converges_with_second_order():
         assert -np.polyfit(np.log(pixels), np.log(errors), 1)[0] > 1.5
 
 
-@pytest.mark.parametrize("row", LINE, ids=name)
+@every_row(LINE, label=name)
 def test_cylinder(row):
     result = cylinder(row, row["a_over_a0"], CYLINDER_PIXELS)
     tight, peak = second_order(CYLINDER_PIXELS), cylinder_peak(row)

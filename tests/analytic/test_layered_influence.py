@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy import special
 from solid_cases import elastic, layered, on_half_space
 
@@ -44,7 +44,7 @@ def test_every_row_of_the_table(configuration):
         np.testing.assert_allclose(responses[row["load"]], expected, rtol=0, atol=allowed, err_msg=str(row))
 
 
-@pytest.mark.parametrize("row", reference("patch_center_displacement"), ids=lambda row: f"case-{row['case']:g}")
+@every_row(reference("patch_center_displacement"), label=lambda row: f"case-{row['case']:g}")
 def test_centre_of_a_patch(row):
     """Layers from a hundredth to a hundred times the patch (Peng 2001, fig. 3.9): rounding only."""
     body = on_half_space(row["E1_over_E2"], row["h_over_Delta"], nu=row["nu1"], nu_base=row["nu2"])

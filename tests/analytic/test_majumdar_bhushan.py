@@ -7,7 +7,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import quad
 
 import asperity as asp
@@ -20,7 +20,7 @@ AREA = 1e-8
 DIMENSIONS = st.floats(1.1, 1.9)
 
 
-@pytest.mark.parametrize("row", reference("mb_load_area"))
+@every_row(reference("mb_load_area"))
 def test_load_and_area(row):
     theory = MajumdarBhushan(row["D"], row["G_m"], row["Estar_Pa"], row["H_Pa"], 1.0)
     largest = row["a_l_m2"]
@@ -36,7 +36,7 @@ def test_load_and_area(row):
     assert float(theory.load(largest)) == pytest.approx(row["P_total_N"], rel=1e-11)
 
 
-@pytest.mark.parametrize("row", reference("mb_dimensionless"))
+@every_row(reference("mb_dimensionless"))
 def test_dimensionless_load_and_area(row):
     theory = MajumdarBhushan(row["D"], row["Gstar"], 1.0, row["K_phi"], 1.0)  # E* = 1 and a nominal area of one
     largest = theory.sizes.largest(row["Ar_star"])
@@ -45,7 +45,7 @@ def test_dimensionless_load_and_area(row):
     assert float(theory.load(largest)) == pytest.approx(row["P_star"], rel=1e-11)
 
 
-@pytest.mark.parametrize("row", reference("mb_size_distribution"))
+@every_row(reference("mb_size_distribution"))
 def test_sizes_of_spots(row):
     theory = MajumdarBhushan(row["D"], 1e-12, 1e11, 1e9, 1e-8)
     largest = 3e-12

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
@@ -19,7 +19,7 @@ from asperity.theories.wet.meniscus import MeniscusGrowth, grown
 from asperity.theories.wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits, caught
 
 
-@pytest.mark.parametrize("row", reference("kelvin_film"), ids=lambda row: f"{row['T_K']:g}-{row['RH']:g}")
+@every_row(reference("kelvin_film"), label=lambda row: f"{row['T_K']:g}-{row['RH']:g}")
 def test_kelvin_radius_and_film(row):
     gamma, volume, temperature = row["gamma_N_per_m"], row["V_m3_per_mol"], row["T_K"]
     radius = meniscus.kelvin_radius(row["RH"], gamma, volume, temperature)
@@ -35,7 +35,7 @@ def test_kelvin_radius_and_film(row):
         assert pressure == pytest.approx(row["laplace_pressure_MPa"] * 1e6, rel=1e-12)
 
 
-@pytest.mark.parametrize("row", reference("single_meniscus"))
+@every_row(reference("single_meniscus"))
 def test_forces_of_one_sphere(row):
     sphere = row["R_m"], row["gamma_N_per_m"]
     first, second = math.radians(row["theta_deg"]), math.radians(row["theta2_deg"])
@@ -62,7 +62,7 @@ def wet(row, heights=GaussianHeights()) -> StatisticalMeniscus:
     return StatisticalMeniscus(GreenwoodWilliamson(modulus, density, 1.0, 1.0, heights=heights), tension, row["H"])
 
 
-@pytest.mark.parametrize("row", reference("statistical_wet_normalised"))
+@every_row(reference("statistical_wet_normalised"))
 def test_statistical_menisci(row):
     theory = wet(row)
     unit = 4.0 / 3.0 * theory.contact.E_star * theory.contact.density
@@ -77,7 +77,7 @@ def test_statistical_menisci(row):
     assert found.contact.pressure[0] == pytest.approx(found.pressure[0] + found.meniscus_pressure[0], rel=1e-11)
 
 
-@pytest.mark.parametrize("row", reference("statistical_wet_contact"))
+@every_row(reference("statistical_wet_contact"))
 def test_statistical_menisci_with_units(row):
     # a nominal area of one: densities are numbers, pressures are forces
     contact = GreenwoodWilliamson(row["Estar_Pa"], row["N0"], row["R_m"], row["sigma_p_m"])
@@ -172,12 +172,12 @@ def test_plain_numbers_make_the_same_theories():
     assert found.height == pytest.approx(grown_.theory.growth.height([0.0, 1e-4]))
 
 
-@pytest.mark.parametrize("row", reference("kinetic_meniscus_height"))
+@every_row(reference("kinetic_meniscus_height"))
 def test_height_of_a_growing_meniscus(row):
     assert float(grown(row["tau"], row["y0"])) == pytest.approx(row["y"], rel=1e-11)
 
 
-@pytest.mark.parametrize("row", reference("kinetic_meniscus_times"))
+@every_row(reference("kinetic_meniscus_times"))
 def test_times_of_growth(row):
     growth = MeniscusGrowth(
         row["R_m"],
@@ -197,7 +197,7 @@ def test_times_of_growth(row):
     assert float(growth.height(0.0)) == pytest.approx(row["h_m"], rel=1e-12)
 
 
-@pytest.mark.parametrize("row", reference("kinetic_meniscus_force"))
+@every_row(reference("kinetic_meniscus_force"))
 def test_force_of_growing_menisci(row):
     found = float(caught(GaussianHeights(), np.array(row["D"]), row["H"], row["S"]))
     assert found == pytest.approx(row["fm_over_N0_max"], rel=1e-11)

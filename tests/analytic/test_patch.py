@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.grid import Grid
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -11,7 +11,7 @@ from asperity.solids.compliance.influence import patch_displacement
 ROWS = [row for row in reference("homogeneous_patch") if row["load"] == "z" and row["z"] == 0.0]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"case{row['case']:g}")
+@every_row(ROWS, label=lambda row: f"case{row['case']:g}")
 def test_displacement_agrees_with_adaptive_cubature(row):
     """The reference is accurate to 1e-13 absolute for unit traction; E = 1 there."""
     found = patch_displacement(np.array(row["x"]), np.array(row["y"]), 2 * row["a"], 2 * row["b"])

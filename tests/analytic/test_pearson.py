@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy import stats
 
 from asperity.core.errors import InputError
@@ -38,7 +38,7 @@ BESIDE_LINES = [
 U_SHAPED = [(0.0, 1.3), (1.0, 2.3)]
 
 
-@pytest.mark.parametrize("row", reference("pearson_types"), ids=lambda row: f"{row['skewness']:g}-{row['kurtosis']:g}")
+@every_row(reference("pearson_types"), label=lambda row: f"{row['skewness']:g}-{row['kurtosis']:g}")
 def test_types_against_the_table(row):
     law = Pearson(row["skewness"], row["kurtosis"])
     assert law.type == row["type"]

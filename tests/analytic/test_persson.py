@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
@@ -32,7 +32,7 @@ def spectrum(name: str) -> IsotropicSpectrum:
     return IsotropicSpectrum(bends, (2.0 * math.pi) ** 2 * row["C0_m4"] * np.array(levels))
 
 
-@pytest.mark.parametrize("row", reference("persson_area"), ids=lambda row: f"{row['p_over_Estar_hrms']:g}")
+@every_row(reference("persson_area"), label=lambda row: f"{row['p_over_Estar_hrms']:g}")
 def test_area(row):
     p = row["p_over_Estar_hrms"]
     assert float(NORMALISED.area_fraction(p)) == pytest.approx(row["area_fraction"], rel=1e-13)
@@ -42,7 +42,7 @@ def test_area(row):
         assert NORMALISED.pressure_for(row["area_fraction"]) == pytest.approx(p, rel=1e-10)
 
 
-@pytest.mark.parametrize("row", reference("persson_pressure_pdf"))
+@every_row(reference("persson_pressure_pdf"))
 def test_distribution_of_pressure(row):
     nominal, local = row["p0_over_Estar_hrms"], row["p_over_Estar_hrms"]
     density = float(NORMALISED.pressure_density(local, nominal))
@@ -71,7 +71,7 @@ def test_low_load_law_of_the_gap(name):
     assert original.prefactor == pytest.approx(row["beta_gamma1"], rel=5e-5)
 
 
-@pytest.mark.parametrize("row", reference("persson_area_gap"), ids=lambda row: f"{row['set']}-{row['p_over_Estar']:g}")
+@every_row(reference("persson_area_gap"), label=lambda row: f"{row['set']}-{row['p_over_Estar']:g}")
 def test_gap_and_stiffness(row):
     """The reference states 2e-8 for the gap and 1e-9 for the rest.
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from elastic_fields import constants, expected, found, label
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.theories.subsurface import loads as line_loads
 from asperity.theories.subsurface import loads as point_loads
@@ -17,14 +17,14 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("row", POINTS, ids=label)
+@every_row(POINTS, label=label)
 def test_point_forces_agree_with_the_verified_closed_forms(row):
     """All digits of the table are good; 1e-14 of the largest field are some ten roundings. Worst found: 7e-16."""
     fields = found(getattr(point_loads, row["kind"])(row["x"], row["y"], row["z"], **constants(row)))
     np.testing.assert_allclose(fields, expected(row), atol=1e-14 * np.abs(expected(row)).max(), rtol=0)
 
 
-@pytest.mark.parametrize("row", LINES, ids=label)
+@every_row(LINES, label=label)
 def test_line_forces_and_strips_agree_with_quadrature(row):
     """Displacements relative to (0, 1). Quadrature in 22 digits; worst error found: 1e-15 of the largest field."""
     width = (row["a"],) if row["kind"].startswith("strip") else ()

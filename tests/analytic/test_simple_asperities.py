@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.theories.dynamics.restitution import rebound
@@ -16,7 +16,7 @@ from asperity.theories.single.waves import TWO_TERMS, SinusoidalAsperity, two_te
 DIGITS = 1e-13  # the tables carry 15 digits (found: 6e-15)
 
 
-@pytest.mark.parametrize("row", reference("identical_asperities"), ids=lambda row: f"N{row['N']:g}")
+@every_row(reference("identical_asperities"), label=lambda row: f"N{row['N']:g}")
 def test_identical_asperities(row):
     """Loads and areas per unit area are those of N asperities on 1 m²."""
     theory = IdenticalAsperities(row["Estar_Pa"], row["N"], row["R_m"], height=0.0)
@@ -46,7 +46,7 @@ def test_identical_asperities_touch_together():
     assert radius.value[-1] == pytest.approx(float(theory.asperity.at_load(1e-1).radius) / 1e-6)
 
 
-@pytest.mark.parametrize("row", reference("sinusoidal_asperity"), ids=lambda row: f"{row['a_over_lambda']:g}")
+@every_row(reference("sinusoidal_asperity"), label=lambda row: f"{row['a_over_lambda']:g}")
 def test_sinusoidal_asperity(row):
     height, wavelength, E_star = 0.3, 2.0, 5.0
     a = row["a_over_lambda"] * wavelength
@@ -85,7 +85,7 @@ def test_loads_of_a_cap_find_their_contact():
         cap.at_load(1.1 * widest)
 
 
-@pytest.mark.parametrize("row", reference("oliver_pharr"), ids=lambda row: f"{row['W_max_N']:g}")
+@every_row(reference("oliver_pharr"), label=lambda row: f"{row['W_max_N']:g}")
 def test_oliver_and_pharr(row):
     test = OliverPharr(row["W_max_N"], row["h_max_m"], row["S_max_N_per_m"], row["epsilon"])
     assert test.contact_depth == pytest.approx(row["h_c_m"], rel=DIGITS)
@@ -109,7 +109,7 @@ def test_an_indentation_of_a_paraboloid_returns_its_modulus():
         OliverPharr(1e-3, 1e-8, 1.0)
 
 
-@pytest.mark.parametrize("row", reference("compliance_restitution"), ids=lambda row: f"{row['alpha_v_in']:g}")
+@every_row(reference("compliance_restitution"), label=lambda row: f"{row['alpha_v_in']:g}")
 def test_rebound(row):
     out = rebound(row["alpha_v_in"])
     assert out == pytest.approx(row["alpha_v_out"], rel=DIGITS)

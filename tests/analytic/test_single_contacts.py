@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
@@ -38,7 +38,7 @@ def indenter(row):
     return PowerLawIndenter(row["E_star"], row["B"], row["n"])
 
 
-@pytest.mark.parametrize("row", reference("hertz_elliptical"), ids=name)
+@every_row(reference("hertz_elliptical"), label=name)
 def test_ellipse(row):
     theory = HertzEllipse(row["E_star"], row["R_x"], row["R_y"])
     answer = theory.at_load(row["P"])
@@ -98,7 +98,7 @@ def test_hertz_displacements_flatten_the_sphere_and_decay_as_a_point_force():
     assert theory.displacement(far, load) == pytest.approx(load / (np.pi * far), rel=2e-7)
 
 
-@pytest.mark.parametrize("row", AXISYMMETRIC, ids=name)
+@every_row(AXISYMMETRIC, label=name)
 def test_axisymmetric_indenters(row):
     theory, a = indenter(row), row["a"]
     answer = theory.at_load(row["P"])
@@ -115,7 +115,7 @@ def test_axisymmetric_indenters(row):
         assert answer.stiffness == pytest.approx(slope, rel=1e-7)  # step² times the square of the exponent
 
 
-@pytest.mark.parametrize("row", PLANE, ids=name)
+@every_row(PLANE, label=name)
 def test_plane_indenters(row):
     flat, a = row["shape"] == "flat", row["a"]
     theory = LineFlatPunch(row["E_star"], a) if flat else LinePowerLawIndenter(row["E_star"], row["B"], row["n"])
@@ -181,7 +181,7 @@ def test_flat_punches():
     assert np.sum(punch.pressure(0.5 * np.sin(angle), 0.3) * rings * weight) == pytest.approx(0.3, rel=1e-12)
 
 
-@pytest.mark.parametrize("row", reference("westergaard"), ids=name)
+@every_row(reference("westergaard"), label=name)
 def test_westergaard(row):
     wave, p = Westergaard(row["E_star"], row["amplitude"], row["lambda"]), row["pbar"]
     a = 0.5 * row["contact_fraction"] * row["lambda"]
@@ -213,7 +213,7 @@ def test_a_wave_from_the_first_touch_to_beyond_full_contact():
     assert wave.stiffness(0.3 * full) == pytest.approx(0.6 * step * full / (ends[1] - ends[0]), rel=1e-7)
 
 
-@pytest.mark.parametrize("row", JGH, ids=name)
+@every_row(JGH, label=name)
 def test_crossed_waves(row):
     waves = CrossedWaves(1.0, 0.01, 1.0)
     full = waves.full_contact_pressure
@@ -239,7 +239,7 @@ def mindlin(row):
     return MindlinPoint(E_star, row["R"], tangential_modulus(G, nu, G, nu), row["mu"])
 
 
-@pytest.mark.parametrize("row", MINDLIN, ids=name)
+@every_row(MINDLIN, label=name)
 def test_cattaneo_and_mindlin(row):
     """At r = c the traction of the stick zone goes as the root of c - r, so rounding of c shows as its root, 3e-8."""
     theory, P, Q = mindlin(row), row["P"], row["Q"]

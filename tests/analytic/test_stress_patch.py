@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from elastic_fields import constants, expected, found, label
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.grid import Grid
 from asperity.solids.compliance.influence import patch_displacement
@@ -14,7 +14,7 @@ ROWS = reference("homogeneous_patch")
 BODY = {"shear": 0.4, "nu": 0.3}
 
 
-@pytest.mark.parametrize("row", ROWS, ids=label)
+@every_row(ROWS, label=label)
 def test_all_fields_agree_with_cubature(row):
     """The table is accurate to 1e-13 absolute per unit traction. Worst difference found: 4e-14."""
     fields = patch_fields(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import dblquad, quad
 
 import asperity as asp
@@ -45,7 +45,7 @@ def test_summits_against_quadrature(row, quantity):
     assert SUMMITS[quantity](summits) == pytest.approx(row[quantity], rel=1e-11, abs=1e-14)
 
 
-@pytest.mark.parametrize("row", reference("nayak_height_pdf"), ids=lambda row: f"{row['alpha']:g}-{row['xi']:g}")
+@every_row(reference("nayak_height_pdf"), label=lambda row: f"{row['alpha']:g}-{row['xi']:g}")
 def test_height_density_against_quadrature(row):
     summits = NayakSummits(4.0, 2.0, row["alpha"])  # m0 m4/m2² = alpha
     height = 2.0 * row["xi"]
@@ -54,7 +54,7 @@ def test_height_density_against_quadrature(row):
     assert float(summits.mean_curvature_at(height)) == pytest.approx(expected, rel=1e-10)
 
 
-@pytest.mark.parametrize("row", reference("mccool_parameters"), ids=lambda row: f"{row['alpha']:.3g}")
+@every_row(reference("mccool_parameters"), label=lambda row: f"{row['alpha']:.3g}")
 def test_mccool_parameters(row):
     summits = NayakSummits(row["m0_m2"], row["m2"], row["m4_per_m2"])
     assert summits.alpha == pytest.approx(row["alpha"], rel=1e-12)
@@ -136,7 +136,7 @@ def test_peaks_against_quadrature(row, quantity):
     assert PEAKS[quantity](SampledPeaks(row["rho1"], row["rho2"])) == pytest.approx(row[quantity], rel=1e-11)
 
 
-@pytest.mark.parametrize("row", reference("surfaces_sampled_peaks"), ids=lambda row: f"{row['delta_over_beta_e']:g}")
+@every_row(reference("surfaces_sampled_peaks"), label=lambda row: f"{row['delta_over_beta_e']:g}")
 def test_sampled_exponential_profiles(row):
     rho = [math.exp(-n * row["delta_over_beta_e"]) for n in (1, 2)]
     peaks = SampledPeaks(*rho)

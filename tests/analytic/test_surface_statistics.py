@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import Row, reference
+from reference_data import Row, every_row, reference
 from summit_maps import MAPS, summit_map
 
 import asperity as asp
@@ -104,9 +104,7 @@ def is_map(row: Row) -> bool:
     return row["case"] in ("AN1", "AN2", "AN3", "AN4", "AN5", "AN6") and not row["quantity"].startswith("detrend")
 
 
-@pytest.mark.parametrize(
-    "row", [row for row in ROWS if is_map(row)], ids=lambda row: f"{row['case']}-{row['quantity']}"
-)
+@every_row([row for row in ROWS if is_map(row)], label=lambda row: f"{row['case']}-{row['quantity']}")
 def test_sampled_shapes(row):
     given_ = json.loads(row["parameters"])
     value = value_of(surface_of(row["case"], given_), row["quantity"], given_)
@@ -148,7 +146,7 @@ def test_mean_absolute_height_of_gaussian_heights():
     assert asp.mean_absolute_height(surface) == pytest.approx(expected * asp.rms_height(surface), rel=1e-5)
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS if row["case"] == "AN10"], ids=lambda row: row["parameters"])
+@every_row([row for row in ROWS if row["case"] == "AN10"], label=lambda row: row["parameters"])
 def test_developed_area_of_gaussian_slopes(row):
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=64.0, shortest_wavelength=16.0
@@ -189,10 +187,9 @@ def fits_the_grid(row: Row) -> bool:
     }
 
 
-@pytest.mark.parametrize(
-    "row",
+@every_row(
     [row for row in reference("surfaces_summit_bias") if fits_the_grid(row)],
-    ids=lambda row: f"{row['model'][:12]}-{row['parameters']}",
+    label=lambda row: f"{row['model'][:12]}-{row['parameters']}",
 )
 def test_summits_of_sampled_gaussian_surfaces(row):
     given_ = json.loads(row["parameters"])

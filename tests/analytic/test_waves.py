@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from contact_cases import TIGHT, elastic, square_grid
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.contact.solvers import ConjugateGradient
@@ -21,7 +21,7 @@ def westergaard(row, n=512):
     return asp.solve(asp.ContactProblem(surface, elastic(row["E_star"])), asp.MeanPressure(row["pbar"]), solver=SOLVER)
 
 
-@pytest.mark.parametrize("row", reference("westergaard"), ids=lambda row: f"load{row['pbar_over_pstar']:g}")
+@every_row(reference("westergaard"), label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_westergaard(row):
     """On 512 points each end of the contact is known to a pixel, 2/512 of the period; smooth quantities to order 3/2
 
@@ -33,7 +33,7 @@ def test_westergaard(row):
     assert result.approach / row["amplitude"] == pytest.approx(row["approach_over_amplitude"], abs=2.4e-4)
 
 
-@pytest.mark.parametrize("row", reference("westergaard")[:5], ids=lambda row: f"load{row['pbar_over_pstar']:g}")
+@every_row(reference("westergaard")[:5], label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_westergaard_stiffness(row):
     """The open part is known to two pixels."""
     result = westergaard(row)
@@ -48,7 +48,7 @@ def bisinusoid(load, n=128, amplitude=0.01):
     return asp.solve(asp.ContactProblem(surface, elastic(1.0)), asp.MeanPressure(load * full), solver=SOLVER), full
 
 
-@pytest.mark.parametrize("row", NUMERIC, ids=lambda row: f"load{row['pbar_over_pstar']:g}")
+@every_row(NUMERIC, label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_bisinusoid_against_the_fine_solution(row):
     """Peak pressure: order 2 on 128² against 1024²; corrected area: a count of pixels on the rim, whose number is at
 
@@ -69,7 +69,7 @@ def test_perimeter_correction_removes_most_of_the_pixel_bias():
     assert abs(np.mean(corrected)) < 0.4 * np.mean(raw)
 
 
-@pytest.mark.parametrize("row", ASYMPTOTIC, ids=lambda row: f"load{row['pbar_over_pstar']:g}")
+@every_row(ASYMPTOTIC, label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_bisinusoid_at_low_load_is_hertz(row):
     """The Hertz asymptote is 4.5 % low at 0.02 and its error falls like the area: below 1.2 % at 0.002."""
     result, full = bisinusoid(row["pbar_over_pstar"], n=512)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.contact.couplings.menisci import viscous_force
@@ -68,7 +68,7 @@ def test_reference_maps(number, periodic):
         assert force == pytest.approx(row["Fm_N"], rel=1e-13, abs=1e-30)
 
 
-@pytest.mark.parametrize("row", reference("meniscus_two_paraboloids"))
+@every_row(reference("meniscus_two_paraboloids"))
 def test_two_paraboloids(row):
     """Areas of a fine map against closed forms: pixel counting errs by less than a pixel along the rim."""
     reach = math.sqrt(2.0 * max(row["R1_m"], row["R2_m"]) * row["h_m_m"]) * 1.6

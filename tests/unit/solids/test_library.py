@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import FileFormatError, InputError, UnitError
 from asperity.solids.library import MaterialRecord, Sourced, material, materials
@@ -102,7 +102,7 @@ def test_common_materials_are_there(name: str) -> None:
     assert material(name).youngs_modulus > 0.0
 
 
-@pytest.mark.parametrize("row", reference("table_4_1") + reference("table_4_2"), ids=lambda row: row["material"])
+@every_row(reference("table_4_1") + reference("table_4_2"), label=lambda row: row["material"])
 def test_published_tables_are_reproduced(row: dict[str, float | str]) -> None:
     columns = {"E_GPa": ("youngs_modulus", 1e9), "nu": ("poisson_ratio", 1.0), "H_GPa": ("hardness", 1e9)}
     names = TABLE_NAMES[str(row["material"])]

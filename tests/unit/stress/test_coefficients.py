@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from elastic_fields import expected, found, label
 from layered_bodies import body_of, plane_of
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
@@ -46,7 +46,7 @@ def homogeneous_constants(plane):
     return {"shear": plane.region.material.shear_modulus, "nu": plane.region.material.poisson_ratio}
 
 
-@pytest.mark.parametrize("row", POINTS, ids=label)
+@every_row(POINTS, label=label)
 def test_point_forces_on_layered_bodies(row):
     """The table is accurate to 1e-13 absolute per unit force. Worst difference found: 6e-14, 4e-13 of the field."""
     body = body_of(row)
@@ -82,7 +82,7 @@ def patch_by_quadrature(body, plane, row):
     return fields + patch_fields(x, y, row["z"], Patch((2 * a, 2 * b), load), **homogeneous_constants(plane))
 
 
-@pytest.mark.parametrize("row", PATCHES, ids=label)
+@every_row(PATCHES, label=label)
 def test_patches_on_layered_bodies(row):
     """The table is accurate to 1e-13 absolute per unit traction. Worst difference found: 9e-15."""
     body = body_of(row)
@@ -91,7 +91,7 @@ def test_patches_on_layered_bodies(row):
     np.testing.assert_allclose(found(fields), expected(row), atol=1e-13, rtol=0)
 
 
-@pytest.mark.parametrize("row", [row for row in PATCHES if row["x"] == row["y"] == 0.0], ids=label)
+@every_row([row for row in PATCHES if row["x"] == row["y"] == 0.0], label=label)
 def test_coefficients_under_the_loaded_pixel(row):
     """The stated error is 1e-8 of the largest coefficient, which is this one. Worst found: 2e-14."""
     body = body_of(row)

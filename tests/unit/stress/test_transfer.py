@@ -6,7 +6,7 @@ from elastic_fields import COLUMNS, label
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from layered_bodies import body_of, layered_bodies, plane_of
-from reference_data import reference
+from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.stress.kernels.transfer import transfer
@@ -31,7 +31,7 @@ def fields(found, nu, c, s, load):
     return np.array(displacement + stress + shear)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=label)
+@every_row(ROWS, label=label)
 def test_every_reference_row(row):
     """All digits of the table are good; the scheme is accurate to 5e-13 of the local field. Worst found: 7e-15."""
     body = body_of(row)

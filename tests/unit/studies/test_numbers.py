@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from study_cases import plan
 
 from asperity.core.errors import InputError
@@ -160,9 +160,7 @@ CURVES = {
 }
 
 
-@pytest.mark.parametrize(
-    "row", reference("critical_thickness_examples"), ids=lambda row: f"{row['curve']}-{row['h0_m']}"
-)
+@every_row(reference("critical_thickness_examples"), label=lambda row: f"{row['curve']}-{row['h0_m']}")
 def test_reference_thicknesses(row):
     h0, zero, infinity = row["h0_m"], row["Y_at_0"], row["Y_at_infinity"]
     # 100 thicknesses per decade: a curve is straight in ln h between them to (Δ ln h)² / 8 of its curvature, 7e-5 of the

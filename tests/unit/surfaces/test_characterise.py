@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_data import FOLDER, reference
+from reference_data import FOLDER, every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.surfaces.characterise import heights as hp
@@ -34,10 +34,9 @@ def reference_map(name):
     return Surface(MAPS[name], dx, dy, periodic=bool(MAPS[f"{name}_periodic"]))
 
 
-@pytest.mark.parametrize(
-    "row",
+@every_row(
     [row for row in ROWS if row["quantity"] in MEASURES],
-    ids=lambda row: f"{row['map']}-{row['prep']}-{row['quantity']}",
+    label=lambda row: f"{row['map']}-{row['prep']}-{row['quantity']}",
 )
 def test_reference_maps(row):
     surface = levelled(reference_map(row["map"]), FORMS[row["prep"]])

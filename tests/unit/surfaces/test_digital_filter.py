@@ -5,7 +5,7 @@ import pytest
 from ensemble import average, raw_statistics, require_accepted, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -35,7 +35,7 @@ def row_id(row):
     return f"{row['acf']}-{row['beta_x_over_beta_y']:g}-{row['beta_star_x_over_delta']:g}"
 
 
-@pytest.mark.parametrize("row", HU_TONDER, ids=row_id)
+@every_row(HU_TONDER, label=row_id)
 def test_cumulant_factors_are_those_of_the_reference(row):
     grid = Grid((512, 512), (1.0, 1.0))
     third, fourth = cumulant_factors(zero_phase_weights(lattice_eigenvalues(model(row), grid), grid))

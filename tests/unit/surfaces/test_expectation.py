@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from reference_data import FOLDER, reference
+from reference_data import FOLDER, every_row, reference
 from spectra_cases import with_fixed_amplitudes
 
 import asperity as asp
@@ -24,10 +24,8 @@ from asperity.surfaces.characterise.spectrum import (
 FORMS = ("mean", "plane", "quadratic")
 
 
-@pytest.mark.parametrize(
-    "row",
-    reference("surfaces_fd_bias"),
-    ids=lambda row: f"{row['H']}-{row['qs_over_qr']:g}-{row['lambda_s_over_delta']:g}",
+@every_row(
+    reference("surfaces_fd_bias"), label=lambda row: f"{row['H']}-{row['qs_over_qr']:g}-{row['lambda_s_over_delta']:g}"
 )
 def test_differences_of_plateau_and_power_law(row):
     shortest, rolloff = row["lambda_s_over_delta"], row["lambda_s_over_delta"] * row["qs_over_qr"]
@@ -45,7 +43,7 @@ def test_differences_of_plateau_and_power_law(row):
     assert m0 * second / first**2 == pytest.approx(row["alpha_fd"], rel=1e-8)
 
 
-@pytest.mark.parametrize("row", reference("surfaces_sampled_peaks"), ids=lambda row: f"{row['delta_over_beta_e']:g}")
+@every_row(reference("surfaces_sampled_peaks"), label=lambda row: f"{row['delta_over_beta_e']:g}")
 def test_differences_of_an_exponential_autocorrelation(row):
     """A periodic surface with exactly this autocovariance shows 2[R(0) - R(Δ)]/Δ² and its like for curvature."""
     decay = 1.0 / row["delta_over_beta_e"]
@@ -70,9 +68,7 @@ def test_differences_over_a_short_distance_are_derivatives():
     assert second == pytest.approx(m4, rel=1e-6 * 7.0)
 
 
-@pytest.mark.parametrize(
-    "row", reference("surfaces_detrend_expectation"), ids=lambda row: f"{row['L']:g}-{row['degree_removed']:g}"
-)
+@every_row(reference("surfaces_detrend_expectation"), label=lambda row: f"{row['L']:g}-{row['degree_removed']:g}")
 def test_levelled_windows(row):
     given = json.loads(row["parameters"])
     if "beta_e" in given:
@@ -110,10 +106,9 @@ def scan_size_case():
     return given, model
 
 
-@pytest.mark.parametrize(
-    "row",
+@every_row(
     [row for row in reference("surfaces_scan_size") if row["expected_exact_continuum_window"] != ""],
-    ids=lambda row: f"{row['L_um']:g}-{row['quantity']}",
+    label=lambda row: f"{row['L_um']:g}-{row['quantity']}",
 )
 def test_windows_of_the_scan_size_study(row):
     given, model = scan_size_case()

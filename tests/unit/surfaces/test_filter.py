@@ -7,7 +7,7 @@ import pytest
 from ensemble import average, require_accepted, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_data import FOLDER, reference
+from reference_data import FOLDER, every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -24,7 +24,7 @@ def row_id(row):
     return f"{row['map']}-{row['quantity']}"
 
 
-@pytest.mark.parametrize("row", ROWS, ids=row_id)
+@every_row(ROWS, label=row_id)
 def test_reference_maps(row):
     dx, dy = MAPS[f"{row['map']}_spacing"]
     surface = Surface(MAPS[row["map"]], dx, dy, periodic=bool(MAPS[f"{row['map']}_periodic"]))

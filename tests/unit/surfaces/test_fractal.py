@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import quad
 
 import asperity as asp
@@ -28,7 +28,7 @@ def weierstrass_mandelbrot(row) -> asp.Surface:
 PROFILES = reference("fractal_wm_profile_estimates")
 
 
-@pytest.mark.parametrize("row", PROFILES, ids=lambda row: f"D={row['D']}")
+@every_row(PROFILES, label=lambda row: f"D={row['D']}")
 def test_estimates_of_reference_profiles(row):
     profile = weierstrass_mandelbrot(row)
     lags = [lag for lag in (4, 8, 16, 32, 64, 128) if row["lag_min"] <= lag <= row["lag_max"]]
@@ -40,16 +40,14 @@ def test_estimates_of_reference_profiles(row):
     assert 4.0 - 2.0 * found.dimension == pytest.approx(row["slope"], rel=1e-10)
 
 
-@pytest.mark.parametrize(
-    "row", reference("fractal_wm_profile_structure"), ids=lambda row: f"{row['set']:g}-{row['lag']:g}"
-)
+@every_row(reference("fractal_wm_profile_structure"), label=lambda row: f"{row['set']:g}-{row['lag']:g}")
 def test_structure_function_of_reference_profiles(row):
     found = structure_function(weierstrass_mandelbrot(row), lags=[int(row["lag"])])
     assert found.lag[0] == pytest.approx(row["tau_m"])
     assert found.value[0] == pytest.approx(row["S_sample_m2"], rel=1e-10)
 
 
-@pytest.mark.parametrize("row", reference("fractal_constants"), ids=lambda row: f"D={row['D']}")
+@every_row(reference("fractal_constants"), label=lambda row: f"D={row['D']}")
 def test_constants(row):
     dimension = row["D"]
     assert fractal.spectrum_coefficient(dimension) == pytest.approx(row["c1_over_C"], rel=1e-13)
@@ -68,7 +66,7 @@ def test_spectrum_and_structure_function_belong_together(dimension):
     assert 4.0 * fractal.spectrum_coefficient(dimension) * (near + far) == pytest.approx(1.0, rel=1e-7)
 
 
-@pytest.mark.parametrize("row", reference("fractal_wm_structure"), ids=lambda row: f"{row['D']}-{row['tau_m']:g}")
+@every_row(reference("fractal_wm_structure"), label=lambda row: f"{row['D']}-{row['tau_m']:g}")
 def test_continuous_structure_function(row):
     """G turned into C and back: the smooth law is the reference's, and the sum over waves lies within its ripple."""
     dimension, gamma, tau = row["D"], row["gamma"], row["tau_m"]

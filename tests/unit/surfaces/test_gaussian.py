@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from ensemble import periodic_statistics
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -49,7 +49,7 @@ def _average(case, realisations):
     return {name: np.mean([one[name] for one in every]) for name in every[0]}
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS if "spec" not in row["statistic"]], ids=_row_id)
+@every_row([row for row in ROWS if "spec" not in row["statistic"]], label=_row_id)
 def test_ensemble_average_lies_in_the_acceptance_interval(row):
     average = _average(row["case"], int(row["n_realisations"]))
     name = row["statistic"]
@@ -78,7 +78,7 @@ _LATTICE = {
 }
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS if row["statistic"] in _LATTICE], ids=_row_id)
+@every_row([row for row in ROWS if row["statistic"] in _LATTICE], label=_row_id)
 def test_lattice_sum_of_the_spectrum_is_the_exact_expectation(row):
     grid, spectrum = CASES[row["case"]]
     weight = _LATTICE[row["statistic"]](*grid.wavevector(), *grid.spacing)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.special import ndtri
 
 from asperity.core.errors import InputError
@@ -31,7 +31,7 @@ def row_id(row):
     return f"{row['Ssk']}, {row['Sku']}"
 
 
-@pytest.mark.parametrize("row", ROWS, ids=row_id)
+@every_row(ROWS, label=row_id)
 def test_parameters_are_those_of_the_reference(row):
     law = johnson(row["Ssk"], row["Sku"])
     assert law.kind == KINDS[row["type"]]
@@ -42,7 +42,7 @@ def test_parameters_are_those_of_the_reference(row):
     assert values == pytest.approx([row[f"z_at_G={g}"] for g in (-2, 0, 2)], rel=1e-10, abs=1e-11)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=row_id)
+@every_row(ROWS, label=row_id)
 def test_correlation_of_translated_heights(row):
     law = johnson(row["Ssk"], row["Sku"])
     rho = np.array([0.9, 0.5, -0.5, -0.9])

@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from reference_data import FOLDER, Row, reference
+from reference_data import FOLDER, Row, every_row, reference
 
 from asperity.surfaces.characterise import correlation as autocorrelation
 from asperity.surfaces.characterise import correlation as structure
@@ -139,10 +139,9 @@ GROUPS = {
 }
 
 
-@pytest.mark.parametrize(
-    "row",
+@every_row(
     [row for row in STATISTICS if row["quantity"] not in NOT_OURS],
-    ids=lambda row: f"{row['map']}-{row['prep']}-{row['quantity']}",
+    label=lambda row: f"{row['map']}-{row['prep']}-{row['quantity']}",
 )
 def test_statistics(row):
     value = GROUPS[row["group"]](prepared(row["map"], row["prep"]), row["quantity"], row)
@@ -187,11 +186,9 @@ def series_value(row: Row) -> tuple[float, float]:
     return float(rings.psd[0]), float(found.psd.max())
 
 
-@pytest.mark.parametrize(
-    "row",
-    # the mean of a line carries no roughness and is left out of our profile spectra
+@every_row(
     [row for row in reference("surfaces_map_series") if not (row["kind"].startswith("C1D") and row["a"] == 0)],
-    ids=lambda row: f"{row['map']}-{row['prep']}-{row['kind']}-{row['a']}-{row['b']}",
+    label=lambda row: f"{row['map']}-{row['prep']}-{row['kind']}-{row['a']}-{row['b']}",
 )
 def test_series(row):
     value, size = series_value(row)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from reference_data import reference
+from reference_data import every_row, reference
 from scipy.integrate import quad
 from spectra_cases import GOLD, GOLD_GRID, with_fixed_amplitudes
 
@@ -179,10 +179,9 @@ def model_of(row) -> SpectralModel:
     )
 
 
-@pytest.mark.parametrize(
-    "row",
+@every_row(
     [row for row in reference("surfaces_psd_models") if row["C0_jacobs"] != ""],
-    ids=lambda row: f"{row['model'][:24]}-{row['m0']:.3g}",
+    label=lambda row: f"{row['model'][:24]}-{row['m0']:.3g}",
 )
 def test_moments_of_reference_spectra(row):
     m0, m2, m4 = model_of(row).moments()
@@ -225,7 +224,7 @@ def test_moments_that_diverge_are_infinite():
     assert math.isinf(m4)
 
 
-@pytest.mark.parametrize("row", reference("au_psd_moments"), ids=lambda row: row["estimate"])
+@every_row(reference("au_psd_moments"), label=lambda row: row["estimate"])
 def test_moments_of_the_gold_film(row):
     psd = GOLD.lattice_psd(GOLD_GRID)
     q = GOLD_GRID.wavenumber()
@@ -245,9 +244,7 @@ def test_moments_of_the_gold_film(row):
     assert moments[0] * moments[2] / moments[1] ** 2 == pytest.approx(row["nayak_alpha"], rel=1e-10)
 
 
-@pytest.mark.parametrize(
-    "row", reference("surfaces_psd_pairs"), ids=lambda row: f"{row['model'][:20]}-{row['parameters']}-{row['q']:g}"
-)
+@every_row(reference("surfaces_psd_pairs"), label=lambda row: f"{row['model'][:20]}-{row['parameters']}-{row['q']:g}")
 def test_profile_and_areal_spectra_belong_together(row):
     """C1D(q) = (1/2π) ∫ C dq_y: the spectrum of lines across a surface of the areal spectrum."""
     given_ = json.loads(row["parameters"])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from ensemble import average, require_accepted, rows
-from reference_data import reference
+from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -29,14 +29,14 @@ def profile(row):
     )
 
 
-@pytest.mark.parametrize("row", PROFILES, ids=lambda r: f"{r['set']:g}-{r['lag']:g}")
+@every_row(PROFILES, label=lambda r: f"{r['set']:g}-{r['lag']:g}")
 def test_structure_function_of_the_sampled_profile(row):
     """All phases zero: the profile itself is that of the reference, so are its sample structure function."""
     found = mean_square_increment(profile(row), (int(row["lag"]), 0))
     assert found == pytest.approx(row["S_sample_m2"], rel=1e-9)
 
 
-@pytest.mark.parametrize("row", ESTIMATES, ids=lambda r: f"{r['set']:g}")
+@every_row(ESTIMATES, label=lambda r: f"{r['set']:g}")
 def test_powers_of_the_reference_are_the_usual_ones(row):
     """n1 = floor(ln(1/L)/ln γ) for L = N dx and n2 = ceil(ln(1/2dx)/ln γ), without being told."""
     grid = Grid((int(row["N"]), 1), (row["dx_m"], 1e-6))
@@ -45,7 +45,7 @@ def test_powers_of_the_reference_are_the_usual_ones(row):
     assert made.heights.std() == pytest.approx(row["std_m"], rel=1e-9)
 
 
-@pytest.mark.parametrize("row", STRUCTURE[::3], ids=lambda r: f"{r['D']:g}-{r['tau_m']:g}")
+@every_row(STRUCTURE[::3], label=lambda r: f"{r['D']:g}-{r['tau_m']:g}")
 def test_expected_structure_function_over_random_phases(row):
     """Mean over 40 profiles of many waves, sampled at lag τ over a window, against the exact expectation."""
     tau, gamma, first, count = row["tau_m"], row["gamma"], int(row["n_first"]), int(row["n_terms"])
