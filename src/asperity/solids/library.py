@@ -1,36 +1,19 @@
-"""Materials and liquids by name, with a source for every value."""
+"""Materials and liquids by name, with a source for every value; a user's own TOML file overrides and extends the built-in one."""
 
 from __future__ import annotations
 
 import difflib
 import math
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Self
 
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
 from .elastic import INCOMPRESSIBLE, Elastic, Strength
-
-# Libraries of named records in TOML, every value with its source: how files are read and names are found.
-
-
-class Named(Protocol):
-    """A frozen dataclass with the names it is found under."""
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-
-    @property
-    def aliases(self) -> tuple[str, ...]:
-        """Other names."""
-
-
-Record = TypeVar("Record", bound=Named)
 
 
 @dataclass(frozen=True)
@@ -49,111 +32,145 @@ class Sourced:
         return self.source.startswith("assumed:")
 
 
-@dataclass(frozen=True)
-class Kind:
-    """What a library holds: ``noun`` for messages and tables, the command that ``lists`` it, keys of its records.
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """A named substance: ``name`` and ``aliases`` find it, in any case; ``note`` is its condition or a caveat.
 
-    ``values`` are the keys of sourced values, the ``required`` ones first.
+    A kind of substance adds its values as fields, None where not known, and says in ``noun`` what messages and tables of
+    files call it, and in ``kinds`` the kind of quantity of each value, "ratio" for a Poisson's ratio.
     """
 
-    noun: str
-    lists: str
-    required: tuple[str, ...]
-    values: tuple[str, ...]
+    name: str
+    aliases: tuple[str, ...] = ()
+    note: str = ""
+    noun: ClassVar[str]
+    kinds: ClassVar[Mapping[str, str]]
+    required: ClassVar[tuple[str, ...]]
+
+    @property
+    def values(self) -> dict[str, Sourced]:
+        """The known values by key."""
+        found = {key: getattr(self, key) for key in self.kinds}
+        return {key: value for key, value in found.items() if value is not None}
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """One text a value: its key and its source."""
+        return tuple(f"{key}: {value.source}" for key, value in self.values.items())
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Every key of a record."""
-        return (*self.values, "aliases", "note")
+        """Name and aliases as they are compared: in lower case, with single spaces."""
+        return tuple(_normal(name) for name in (self.name, *self.aliases))
+
+    @classmethod
+    def all(cls, path: str | Path | None = None) -> tuple[Self, ...]:
+        """The built-in records, and those of the TOML file at ``path``, whose names and aliases win.
+
+        The file has tables ``[noun."name"]`` with the keys of the values, ``aliases`` and ``note``; a value is text with a
+        unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by default.
+
+        Raises
+        ------
+        FileFormatError
+            If the file is missing, no text in UTF-8 or no TOML.
+        InputError
+            If a key is unknown or missing, a value cannot be used, or names are not distinct.
+        """
+        file = f"{cls.noun}s.toml"
+        text = resources.files(__package__).joinpath("data", file).read_text(encoding="utf-8")
+        built_in = cls._parsed(text, file)
+        if path is None:
+            return built_in
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+        except FileNotFoundError:
+            raise FileFormatError(f"{cls.noun} file must exist, but {path} does not; check the path.") from None
+        except (OSError, UnicodeDecodeError) as error:
+            message = f"{cls.noun} file must be a readable text file in UTF-8, but {path} is not: {error}."
+            raise FileFormatError(message) from None
+        own = cls._parsed(text, str(path))
+        taken = {key for record in own for key in record.keys}
+        kept = (
+            replace(record, aliases=tuple(alias for alias in record.aliases if _normal(alias) not in taken))
+            for record in built_in
+            if record.keys[0] not in taken
+        )
+        return (*kept, *own)
+
+    @classmethod
+    def find(cls, name: str, path: str | Path | None = None) -> Self:
+        """Record with that name or alias, in any case; errors as for ``all``.
+
+        Raises
+        ------
+        InputError
+            If there is none, with the nearest names.
+        """
+        index = {key: record for record in cls.all(path) for key in record.keys}
+        wanted = _normal(str(name))
+        if wanted in index:
+            return index[wanted]
+        containing = [key for key in index if wanted and wanted in key.split()]
+        near = (*containing, *difflib.get_close_matches(wanted, index, n=3))
+        names = list(dict.fromkeys(index[key].name for key in near))[:3]
+        hint = f"did you mean {' or '.join(names)}? The" if names else "the"
+        raise InputError(
+            f"{cls.noun} must be a name in the {cls.noun} library, but is {name!r}; "
+            f"{hint} command `asperity {cls.noun}s` lists all names."
+        )
+
+    @classmethod
+    def _parsed(cls, text: str, file: str) -> tuple[Self, ...]:
+        try:
+            document = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise FileFormatError(f"{cls.noun} file must be valid TOML, but {file} is not: {error}.") from None
+        tables = document.get(cls.noun)
+        unknown = sorted(set(document) - {cls.noun})
+        if unknown or not isinstance(tables, dict) or not tables:
+            received = f"the key {unknown[0]!r}" if unknown else "no such table"
+            raise InputError(f'{cls.noun} file {file} must hold tables [{cls.noun}."name"] only, but has {received}.')
+        records = tuple(cls._of(table, name, f"of {cls.noun} {name!r} in {file}") for name, table in tables.items())
+        owner: dict[str, str] = {}
+        for record in records:
+            for key in record.keys:
+                if owner.setdefault(key, record.name) != record.name:
+                    raise InputError(
+                        f"names and aliases in {cls.noun} file {file} must be distinct, but {key!r} belongs to both "
+                        f"{owner[key]!r} and {record.name!r}; rename one."
+                    )
+        return records
+
+    @classmethod
+    def _of(cls, table: Any, name: str, where: str) -> Self:
+        """The record ``name`` of a table; ``where`` it stands, for messages."""
+        if not isinstance(table, dict):
+            raise InputError(f"entry {where} must be a table with {' and '.join(cls.required)}, but is {table!r}.")
+        known = (*cls.kinds, "aliases", "note")
+        unknown = sorted(set(table) - set(known))
+        if unknown:
+            raise InputError(f"key {where} must be one of {', '.join(known)}, but is {unknown[0]!r}.")
+        for key in cls.required:
+            if key not in table:
+                raise InputError(f"{key} {where} must be given, but is missing.")
+        aliases, note = table.get("aliases", []), table.get("note", "")
+        if not isinstance(aliases, list) or not all(isinstance(alias, str) for alias in aliases):
+            raise InputError(f'aliases {where} must be a list of names, such as ["steel"], but is {aliases!r}.')
+        if not isinstance(note, str):
+            raise InputError(f"note {where} must be text, but is {note!r}.")
+        values: Any = {
+            key: _sourced(table[key], kind, f"{key} {where}") for key, kind in cls.kinds.items() if key in table
+        }
+        return cls(name=name, aliases=tuple(aliases), note=note, **values)
 
 
-def built_in_text(name: str) -> str:
-    """Text of the built-in library file ``name``."""
-    return resources.files(__package__).joinpath("data", name).read_text(encoding="utf-8")
+def _normal(name: str) -> str:
+    return " ".join(name.casefold().split())
 
 
-def read_text(path: Path, kind: Kind) -> str:
-    """Text of a user's library file.
-
-    Raises
-    ------
-    FileFormatError
-        If it does not exist or is no text.
-    """
-    try:
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise FileFormatError(f"{kind.noun} file must exist, but {path} does not; check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError(
-            f"{kind.noun} file must be a readable text file in UTF-8, but {path} is not: {error}."
-        ) from None
-
-
-def parsed(text: str, file: str, kind: Kind, make: Callable[[str, Any, str], Record]) -> tuple[Record, ...]:
-    """Records that ``make`` makes of name and table of each entry of the TOML ``text``, and of the name of the ``file``.
-
-    Raises
-    ------
-    FileFormatError
-        If the text is no TOML.
-    InputError
-        If it holds anything else, or names are not distinct.
-    """
-    try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise FileFormatError(f"{kind.noun} file must be valid TOML, but {file} is not: {error}.") from None
-    tables = document.get(kind.noun)
-    unknown = sorted(set(document) - {kind.noun})
-    if unknown or not isinstance(tables, dict) or not tables:
-        received = f"the key {unknown[0]!r}" if unknown else "no such table"
-        raise InputError(f'{kind.noun} file {file} must hold tables [{kind.noun}."name"] only, but has {received}.')
-    records = tuple(make(name, table, file) for name, table in tables.items())
-    owner: dict[str, str] = {}
-    for record in records:
-        for key in lookup_keys(record):
-            if owner.setdefault(key, record.name) != record.name:
-                raise InputError(
-                    f"names and aliases in {kind.noun} file {file} must be distinct, but {key!r} belongs to both "
-                    f"{owner[key]!r} and {record.name!r}; rename one."
-                )
-    return records
-
-
-def checked(name: str, table: Any, file: str, kind: Kind) -> tuple[str, Mapping[str, Any], tuple[str, ...], str]:
-    """What messages call the record, its values by key, its aliases and its note; all as a file of this ``kind`` must be.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or aliases or note are not text.
-    """
-    where = f"of {kind.noun} {name!r} in {file}"
-    if not isinstance(table, dict):
-        raise InputError(f"entry {where} must be a table with {' and '.join(kind.required)}, but is {table!r}.")
-    unknown = sorted(set(table) - set(kind.keys))
-    if unknown:
-        raise InputError(f"key {where} must be one of {', '.join(kind.keys)}, but is {unknown[0]!r}.")
-    for key in kind.required:
-        if key not in table:
-            raise InputError(f"{key} {where} must be given, but is missing.")
-    aliases, note = table.get("aliases", []), table.get("note", "")
-    if not isinstance(aliases, list) or not all(isinstance(alias, str) for alias in aliases):
-        raise InputError(f'aliases {where} must be a list of names, such as ["steel"], but is {aliases!r}.')
-    if not isinstance(note, str):
-        raise InputError(f"note {where} must be text, but is {note!r}.")
-    return where, {key: table[key] for key in kind.values if key in table}, tuple(aliases), note
-
-
-def sourced(entry: Any, what: str, convert: Callable[[Any], float]) -> Sourced:
-    """Value from ``entry``, a bare value or a table with value and source, by ``convert``.
-
-    Raises
-    ------
-    InputError
-        If the entry has other keys, or the source is no text.
-    """
+def _sourced(entry: Any, kind: str, what: str) -> Sourced:
+    """Value of a ``kind`` of quantity from ``entry``, a bare value or a table with value and source."""
     if not isinstance(entry, dict):
         entry = {"value": entry}
     if "value" not in entry or set(entry) - {"value", "source"}:
@@ -163,122 +180,45 @@ def sourced(entry: Any, what: str, convert: Callable[[Any], float]) -> Sourced:
     source = entry.get("source", "user")
     if not isinstance(source, str) or not source.strip():
         raise InputError(f"source of {what} must be text, but is {source!r}.")
-    return Sourced(convert(entry["value"]), source)
+    if kind == "ratio":
+        return Sourced(require.within(entry["value"], -1.0, 0.5, what, INCOMPRESSIBLE), source)
+    value = units.parse(entry["value"], kind, what)
+    return Sourced(require.positive(value, f"{what} ({units.DIMENSIONS[kind]})"), source)
 
 
-def overridden(built_in: Sequence[Record], own: Sequence[Record]) -> tuple[Record, ...]:
-    """Both lists; a name or alias in ``own`` wins over the same in ``built_in``."""
-    taken = {key for record in own for key in lookup_keys(record)}
-    kept = (
-        replace(  # type: ignore[type-var]
-            record, aliases=tuple(alias for alias in record.aliases if normal(alias) not in taken)
-        )
-        for record in built_in
-        if normal(record.name) not in taken
-    )
-    return (*kept, *own)
+@dataclass(frozen=True, kw_only=True)
+class MaterialRecord(Record):
+    """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material."""
 
-
-def find(name: str, records: Iterable[Record], kind: Kind) -> Record:
-    """Record with that name or alias, in any case.
-
-    Raises
-    ------
-    InputError
-        If there is none, with the nearest names.
-    """
-    index = {key: record for record in records for key in lookup_keys(record)}
-    wanted = normal(str(name))
-    if wanted in index:
-        return index[wanted]
-    containing = [key for key in index if wanted and wanted in key.split()]
-    near = (*containing, *difflib.get_close_matches(wanted, index, n=3))
-    names = list(dict.fromkeys(index[key].name for key in near))[:3]
-    hint = f"did you mean {' or '.join(names)}? The command `{kind.lists}` lists all names."
-    raise InputError(
-        f"{kind.noun} must be a name in the {kind.noun} library, but is {name!r}; "
-        + (hint if names else f"the command `{kind.lists}` lists all names.")
-    )
-
-
-def normal(name: str) -> str:
-    """Name as it is compared: in lower case, with single spaces."""
-    return " ".join(name.casefold().split())
-
-
-def lookup_keys(record: Named) -> tuple[str, ...]:
-    """Names under which ``record`` is found."""
-    return tuple(normal(name) for name in (record.name, *record.aliases))
-
-
-# Named materials. Every value carries its source; a user's own file overrides and extends the built-in list.
-
-
-KIND = Kind(
-    "material",
-    "asperity materials",
-    required=("youngs_modulus", "poisson_ratio"),
-    values=("youngs_modulus", "poisson_ratio", "hardness", "yield_stress"),
-)
-"""Keys of a material in a file."""
-
-BUILT_IN = "materials.toml"
-"""Name of the built-in material file, as shown in messages."""
-
-
-@dataclass(frozen=True)
-class MaterialRecord:
-    """Elastic constants and strength of one named material.
-
-    Parameters
-    ----------
-    name, aliases
-        Names under which it is found, in any case.
-    youngs_modulus
-        E in Pa, > 0.
-    poisson_ratio
-        nu, -1 < nu <= 0.5.
-    hardness, yield_stress
-        Hardness and tensile yield stress in Pa, > 0; None where not known.
-    note
-        Condition of the material or caveat.
-    """
-
-    name: str
     youngs_modulus: Sourced
     poisson_ratio: Sourced
     hardness: Sourced | None = None
     yield_stress: Sourced | None = None
-    aliases: tuple[str, ...] = ()
-    note: str = ""
-
-    @property
-    def values(self) -> dict[str, Sourced]:
-        """The known values by key, in the order of the fields."""
-        found = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {key: value for key, value in found.items() if isinstance(value, Sourced)}
+    noun: ClassVar[str] = "material"
+    kinds: ClassVar[Mapping[str, str]] = {
+        "youngs_modulus": "pressure",
+        "poisson_ratio": "ratio",
+        "hardness": "pressure",
+        "yield_stress": "pressure",
+    }
+    required: ClassVar[tuple[str, ...]] = ("youngs_modulus", "poisson_ratio")
 
     @property
     def body(self) -> Elastic:
         """Half-space of this material, with name, strength and one source a value."""
-        return Elastic(
-            self.youngs_modulus.value,
-            self.poisson_ratio.value,
-            Strength(
-                hardness=self.hardness.value if self.hardness else float("nan"),
-                yield_stress=self.yield_stress.value if self.yield_stress else float("nan"),
-            ),
-            name=self.name,
-            sources=tuple(f"{key}: {value.source}" for key, value in self.values.items()),
+        strength = Strength(
+            hardness=self.hardness.value if self.hardness else math.nan,
+            yield_stress=self.yield_stress.value if self.yield_stress else math.nan,
         )
+        constants = self.youngs_modulus.value, self.poisson_ratio.value
+        return Elastic(*constants, strength, name=self.name, sources=self.sources)
 
 
 def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
-    """All materials: the built-in ones, and those of the TOML file at ``path`` if given.
+    """All materials: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
 
-    A name or alias in the user's file wins over the same name or alias in the built-in list. Keys of a material are
-    ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, ``aliases`` and ``note``; a
-    value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
+    Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, ``aliases``
+    and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
     "user" by default.
 
     Raises
@@ -286,10 +226,7 @@ def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
     InputError
         If the file is missing or not TOML, or a key or value in it cannot be used.
     """
-    built_in = parsed(built_in_text(BUILT_IN), BUILT_IN, KIND, _record)
-    if path is None:
-        return built_in
-    return overridden(built_in, parsed(read_text(Path(path), KIND), str(path), KIND, _record))
+    return MaterialRecord.all(path)
 
 
 def material(name: str, *, library: str | Path | None = None) -> Elastic:
@@ -300,48 +237,7 @@ def material(name: str, *, library: str | Path | None = None) -> Elastic:
     InputError
         If no material has that name, with the nearest names, or if the file cannot be used (see ``materials``).
     """
-    return find(name, materials(library), KIND).body
-
-
-def _record(name: str, table: Any, file: str) -> MaterialRecord:
-    where, entries, aliases, note = checked(name, table, file, KIND)
-    values = {
-        key: sourced(entry, f"{key} {where}", _conversion(key, f"{key} {where}")) for key, entry in entries.items()
-    }
-    return MaterialRecord(name, aliases=aliases, note=note, **values)
-
-
-def _conversion(key: str, what: str) -> Callable[[Any], float]:
-    """How the value of ``key`` is read."""
-    if key == "poisson_ratio":
-        return lambda value: require.within(value, -1.0, 0.5, what, INCOMPRESSIBLE)
-    return lambda value: require.positive(units.parse(value, "pressure", what), f"{what} (Pa)")
-
-
-# Named liquids between surfaces. Every value carries its source; a user's own file overrides and extends the list.
-
-
-KIND_LIQUIDS = Kind(
-    "liquid",
-    "asperity liquids",
-    required=("surface_tension", "temperature"),
-    values=("surface_tension", "temperature", "molar_volume", "viscosity"),
-)
-"""Keys of a liquid in a file."""
-
-DIMENSIONS = {
-    "surface_tension": "surface tension",
-    "temperature": "temperature",
-    "molar_volume": "molar volume",
-    "viscosity": "viscosity",
-}
-"""Kind of quantity of each value."""
-
-BUILT_IN_LIQUIDS = "liquids.toml"
-"""Name of the built-in liquid file, as shown in messages."""
-
-WATER = "water"
-"""The liquid whose adsorbed film follows from the humidity."""
+    return MaterialRecord.find(name, library).body
 
 
 @dataclass(frozen=True)
@@ -397,54 +293,45 @@ class Liquid:
     @property
     def adsorbs_as_water(self) -> bool:
         """Whether the empirical film of water on carbon holds for it."""
-        return self.name == WATER
+        return self.name == "water"
 
 
-@dataclass(frozen=True)
-class LiquidRecord:
-    """Surface tension (N/m), temperature (K), molar volume (m³/mol) and viscosity (Pa s) of one named liquid.
+@dataclass(frozen=True, kw_only=True)
+class LiquidRecord(Record):
+    """Surface tension (N/m), temperature (K), molar volume (m³/mol) and viscosity (Pa s), all > 0, of a liquid."""
 
-    ``name`` and ``aliases`` find it, in any case; ``note`` is its condition or a caveat.
-    """
-
-    name: str
     surface_tension: Sourced
     temperature: Sourced
     molar_volume: Sourced | None = None
     viscosity: Sourced | None = None
-    aliases: tuple[str, ...] = ()
-    note: str = ""
-
-    @property
-    def values(self) -> dict[str, Sourced]:
-        """The known values by key, in the order of the fields."""
-        found = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {key: value for key, value in found.items() if isinstance(value, Sourced)}
+    noun: ClassVar[str] = "liquid"
+    kinds: ClassVar[Mapping[str, str]] = {
+        "surface_tension": "surface tension",
+        "temperature": "temperature",
+        "molar_volume": "molar volume",
+        "viscosity": "viscosity",
+    }
+    required: ClassVar[tuple[str, ...]] = ("surface_tension", "temperature")
 
     @property
     def liquid(self) -> Liquid:
         """The liquid, with name and one source a value."""
         numbers = {key: item.value for key, item in self.values.items()}
-        sources = tuple(f"{key}: {item.source}" for key, item in self.values.items())
-        return Liquid(**numbers, name=self.name, sources=sources)
+        return Liquid(**numbers, name=self.name, sources=self.sources)
 
 
 def liquids(path: str | Path | None = None) -> tuple[LiquidRecord, ...]:
-    """All liquids: the built-in ones, and those of the TOML file at ``path`` if given.
+    """All liquids: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
 
     The file has tables ``[liquid."name"]`` with ``surface_tension`` and ``temperature`` (required), ``molar_volume``,
-    ``viscosity``, ``aliases`` and ``note``; a value is text with a unit (``"72 mN/m"``) or
-    ``{ value = "72 mN/m", source = "..." }``. Its names win over built-in ones.
+    ``viscosity``, ``aliases`` and ``note``; values as for ``materials`` (``"72 mN/m"``).
 
     Raises
     ------
     InputError
         If the file is missing or not TOML, or a key or value in it cannot be used.
     """
-    built_in = parsed(built_in_text(BUILT_IN_LIQUIDS), BUILT_IN_LIQUIDS, KIND_LIQUIDS, _record_liquids)
-    if path is None:
-        return built_in
-    return overridden(built_in, parsed(read_text(Path(path), KIND_LIQUIDS), str(path), KIND_LIQUIDS, _record_liquids))
+    return LiquidRecord.all(path)
 
 
 def liquid(name: str, *, library: str | Path | None = None) -> Liquid:
@@ -455,18 +342,4 @@ def liquid(name: str, *, library: str | Path | None = None) -> Liquid:
     InputError
         If no liquid has that name, with the nearest names, or if the file cannot be used (see ``liquids``).
     """
-    return find(name, liquids(library), KIND_LIQUIDS).liquid
-
-
-def _record_liquids(name: str, table: Any, file: str) -> LiquidRecord:
-    where, entries, aliases, note = checked(name, table, file, KIND_LIQUIDS)
-    values = {
-        key: sourced(entry, f"{key} {where}", _conversion_liquids(key, f"{key} {where}"))
-        for key, entry in entries.items()
-    }
-    return LiquidRecord(name, aliases=aliases, note=note, **values)
-
-
-def _conversion_liquids(key: str, what: str) -> Callable[[Any], float]:
-    unit = units.DIMENSIONS[DIMENSIONS[key]]
-    return lambda value: require.positive(units.parse(value, DIMENSIONS[key], what), f"{what} ({unit})")
+    return LiquidRecord.find(name, library).liquid
