@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from reference_data import every_row, reference
 
+from asperity.core.errors import InputError
 from asperity.theories.adhesion.fuller_tabor import FullerTabor
 
 ROWS, PULL_OFF = reference("fuller_tabor"), reference("fuller_tabor_pulloff")
@@ -91,3 +92,8 @@ def test_validity_asks_for_jkr():
     tabor = theory.validity(theory.at_pressure([1e5, 1e6]))[-1]
     assert tabor.value.shape == (2,)
     assert bool(tabor.holds[0]) == (theory.sphere.tabor >= 5.0)
+
+
+def test_pressures_beyond_forty_deviations_are_refused():
+    with pytest.raises(InputError, match="40 standard deviations"):
+        FullerTabor(1e9, 1e12, 1e-7, 1e-9, 0.05).at_pressure([1e5, 1e15])

@@ -92,3 +92,13 @@ def test_the_summits_of_a_map_give_its_parameters():
 def test_impossible_heights_are_refused(parameters, words):
     with pytest.raises(InputError, match=words):
         KotwalBhushan(1.0, 1.0, 1.0, 1.0, **parameters)
+
+
+@pytest.mark.parametrize(("skewness", "kurtosis"), [(1.1, 3.0), (1.5, 4.0)])
+def test_heights_whose_density_is_infinite_at_both_ends_bear_every_pressure(skewness, kurtosis):
+    pressure = np.geomspace(1e3, 1e9, 25)
+    found = KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=skewness, kurtosis=kurtosis).at_pressure(pressure)
+    np.testing.assert_allclose(found.pressure, pressure, rtol=1e-9)
+    assert np.isfinite(found.area_fraction).all()
+    assert (np.diff(found.area_fraction) > 0.0).all()
+    assert (np.diff(found.separation) < 0.0).all()

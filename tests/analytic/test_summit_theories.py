@@ -171,3 +171,23 @@ def test_impossible_correlations_are_refused():
         SampledPeaks(0.9, 0.1)
     with pytest.raises(InputError, match="correlation of neighbours"):
         SampledPeaks(1.0, 0.9)
+
+
+@pytest.mark.parametrize("alpha", [1.6, 2.0, 10.0])
+@pytest.mark.parametrize("xi", [-1.0, -4.0, -8.0, -30.0])
+def test_curvature_of_summits_far_below_the_mean_plane(alpha, xi):
+    """Ratio of integrals over t of (t² - 1 + e^(-t²)) times the normal density given ξ, whose common factor cancels."""
+    rho = math.sqrt(1.5 / alpha)
+    mean, variance = rho * xi, 1.0 - rho**2
+
+    def weight(t):
+        square = t * t
+        flat = square + math.expm1(-square) if t > 0.03 else square**2 * (0.5 - square / 6.0 + square**2 / 24.0)
+        return flat * math.exp(-0.5 * (square - 2.0 * mean * t) / variance)
+
+    end = 70.0 * variance / (abs(mean) + math.sqrt(variance))
+    above, below = (
+        quad(lambda t, k=k: t**k * weight(t), 0.0, end, epsabs=0.0, epsrel=1e-12, limit=200)[0] for k in (1, 0)
+    )
+    found = float(NayakSummits(1.0, 1.0, alpha).mean_curvature_at(xi))
+    assert found == pytest.approx(math.sqrt(2.0 * alpha / 3.0) * above / below, rel=1e-9)

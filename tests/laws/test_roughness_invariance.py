@@ -268,3 +268,13 @@ def test_scale_dependence_by_direct_sums(surface, steps):
         assert found.curvature[n] == pytest.approx(math.sqrt(np.nanmean(second**2)) / width**2, rel=1e-10)
         assert found.sharpest[n] == pytest.approx(np.nanmin(second) / width**2, rel=1e-10)
         assert found.curvature_length[n] == pytest.approx(2.0 * width)
+
+
+@pytest.mark.parametrize("shape", [(32, 32), (128, 128), (64, 48)])
+@pytest.mark.parametrize("factor", [1024.0, 1e-6, 0.3])
+def test_rings_hold_the_same_modes_in_every_unit_of_length(shape, factor):
+    """An edge that falls on a mode must not leave it to rounding which ring the mode is in: 128 = 2·8², the middle edge."""
+    heights = np.random.default_rng(5).standard_normal(shape)
+    rings = [r.radial_spectrum(r.power_spectrum(asp.Surface(heights * k, k * 1e-6))) for k in (1.0, factor)]
+    np.testing.assert_array_equal(rings[1].modes, rings[0].modes)
+    np.testing.assert_allclose(rings[1].psd, rings[0].psd * factor**4, rtol=1e-12)

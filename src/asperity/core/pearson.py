@@ -292,8 +292,8 @@ def _type_v(c1: float, c2: float) -> _Curve:
 def _log_ratio(x: RealArray, from_end: RealArray, distance: float) -> RealArray:
     """ln(1 + x/distance) = ln(from_end/distance), the form of it that keeps its digits."""
     near = np.abs(x) < 0.5 * distance
-    with np.errstate(divide="ignore"):
-        far = np.log(np.where(near, 1.0, from_end) / distance)
+    # next to an end where the density is infinite, the ratio must not round to zero
+    far = np.log(np.maximum(np.where(near, 1.0, from_end) / distance, np.finfo(np.float64).smallest_subnormal))
     values: RealArray = np.where(near, np.log1p(np.where(near, x, 0.0) / distance), far)
     return values
 

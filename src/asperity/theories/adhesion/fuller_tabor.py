@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.quadrature import gauss
 from ..ask import Column
 from ..limits import area_limit, blunt_summits, constant_limit
@@ -141,9 +142,16 @@ class FullerTabor:
         Raises
         ------
         InputError
-            If a pressure is not positive.
+            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
         """
-        wanted = curve(pressure, "pressures (Pa)", positive=True) / (self.density * self.sphere.pull_off)
+        unit = self.density * self.sphere.pull_off
+        wanted = curve(pressure, "pressures (Pa)", positive=True) / unit
+        highest = float(self.load_per_summit(LOWEST))
+        if wanted.max(initial=0.0) > highest:
+            raise InputError(
+                f"pressure must be at most {highest * unit:.4g} Pa, at which the surfaces are {-LOWEST:g} standard deviations "
+                f"below the mean summit height, but is {wanted.max() * unit:.4g} Pa."
+            )
         least = np.full_like(wanted, self._least()[0])
         D = bisected(lambda d: wanted - self.load_per_summit(d), np.full_like(wanted, LOWEST), least, halvings=20)
         for _ in range(4):  # Newton's method from 1e-4 on

@@ -16,12 +16,12 @@ def rebound(speed: ArrayLike) -> RealArray:
     coefficient of restitution is the ratio of both.
     """
     v = checked(speed, "speed times damping over stiffness")
-    # both sides are half the square of their speed to first order: for slow impacts by their series
-    lost = np.where(v < 1e-3, v**2 * (0.5 - v * (1.0 / 3.0 - 0.25 * v)), v - np.log1p(v))
+    lost = _excess_of_logarithm(-v)
+    return bisected(lambda out: _excess_of_logarithm(out) - lost, np.zeros_like(v), np.minimum(v, 1.0))
 
-    def excess(out: RealArray) -> RealArray:
-        series = out**2 * (0.5 + out * (1.0 / 3.0 + 0.25 * out))
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.where(out < 1e-3, series, -out - np.log1p(-out)) - lost)
 
-    return bisected(excess, np.zeros_like(v), np.minimum(v, 1.0))
+def _excess_of_logarithm(x: RealArray) -> RealArray:
+    """-x - ln(1 - x) = x²/2 + x³/3 + …; for |x| < 0.05 by the series, whose first term left out is 0.05^14/16 of the sum."""
+    series = np.polynomial.polynomial.polyval(x, [0.0, 0.0, *(1.0 / k for k in range(2, 16))])
+    with np.errstate(divide="ignore"):
+        return np.where(np.abs(x) < 0.05, series, -x - np.log1p(-x))

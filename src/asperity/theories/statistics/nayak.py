@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.quadrature import gauss
 from ..ask import Column, Way, asked
 from ..protocol import Input
 from .roughness import Roughness
@@ -24,6 +25,11 @@ NARROWEST = 1.5
 
 ROUNDING = 1e-9
 """Share by which α of a computed narrow spectrum may lie below 1.5."""
+
+_NODES, _SIGMAS = (
+    96,
+    9.5,
+)  # Gauss points over the standard deviations that matter of the curvature of summits at one height
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,14 +173,16 @@ class NayakSummits:
     def height_density(self, height: ArrayLike) -> RealArray:
         """Probability density in 1/m of the summit heights at ``height`` in m (any shape)."""
         xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
-        values: RealArray = self._partial_moment(xi, 0) / math.sqrt(self.m0)
+        scale, moments = self._partial_moments(xi)
+        values: RealArray = np.exp(scale) * moments[0] / math.sqrt(self.m0)
         return values
 
     def mean_curvature_at(self, height: ArrayLike) -> RealArray:
         """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are sharper."""
         xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
-        values: RealArray = self._curvature_unit * self._partial_moment(xi, 1) / self._partial_moment(xi, 0)
-        return values
+        moments = self._partial_moments(xi)[1]
+        with np.errstate(invalid="ignore"):  # no summits below the mean plane where there is a single wavelength
+            return np.asarray(self._curvature_unit * moments[1] / moments[0])
 
     def at_height(self, height: ArrayLike) -> SummitsAt:
         """Summits at ``height`` in m (any shape)."""
@@ -189,34 +197,35 @@ class NayakSummits:
         rho, (second, third, fourth) = self.correlation, _curvature_cumulants()
         return rho**2 * second + 1.0 - rho**2, rho**3 * third, rho**4 * fourth
 
-    def _partial_moment(self, xi: RealArray, power: int) -> RealArray:
-        """∫₀^∞ t^power p(ξ, t) dt, power 0 or 1."""
-        rho = self.correlation
-        variance = 1.0 - rho**2
-        plain = np.exp(-0.5 * xi**2) / math.sqrt(2.0 * math.pi)
+    def _partial_moments(self, xi: RealArray) -> tuple[RealArray, tuple[RealArray, RealArray]]:
+        """∫₀^∞ p(ξ, t) dt and ∫₀^∞ t p(ξ, t) dt for ξ = ``xi``, without the factor whose logarithm comes first.
+
+        p = 2√3 (t² - 1 + e^(-t²)) φ(ξ) times the normal density of t of mean ρξ and variance 1 - ρ². Nothing is subtracted,
+        so the moments keep their digits far below the mean plane, where only the flattest summits are left.
+        """
+        variance, mean = 1.0 - self.correlation**2, self.correlation * xi
+        plain = -0.5 * xi**2 + math.log(2.0 * math.sqrt(3.0) / math.sqrt(2.0 * math.pi))
         if variance < ROUNDING:  # a single wavelength: t = ξ
-            shape = xi**2 - 1.0 + np.exp(-(xi**2))
-            single: RealArray = 2.0 * math.sqrt(3.0) * np.where(xi > 0.0, xi**power * shape, 0.0) * plain
-            return single
-        squares = _half_moments(rho * xi, math.sqrt(variance), power)
-        # e^(-t²) times the normal of t given ξ is a narrower normal times its own weight
-        narrowed = variance / (1.0 + 2.0 * variance)
-        weight = np.exp(-((rho * xi) ** 2) / (1.0 + 2.0 * variance)) / math.sqrt(1.0 + 2.0 * variance)
-        damped = weight * _half_moments(rho * xi / (1.0 + 2.0 * variance), math.sqrt(narrowed), power)[0]
-        values: RealArray = 2.0 * math.sqrt(3.0) * plain * (squares[1] - squares[0] + damped)
-        return values
+            t = np.maximum(xi, 0.0)
+            return plain, (_flatness(t), t * _flatness(t))
+        first = np.maximum(mean - _SIGMAS * math.sqrt(variance), 0.0)
+        rise = np.minimum(mean, 0.0) ** 2  # (t - mean)² where the density is largest
+        reach = _SIGMAS**2 * variance
+        last = np.where(mean > 0.0, mean + math.sqrt(reach), reach / (np.sqrt(rise + reach) + np.abs(mean)))
+        t, weight = gauss(np.stack([first, last], axis=-1), _NODES)
+        density = np.exp(-0.5 * ((t - mean[..., None]) ** 2 - rise[..., None]) / variance) / math.sqrt(
+            2.0 * math.pi * variance
+        )
+        weight = weight * density * _flatness(t)
+        return plain - 0.5 * rise / variance, (weight.sum(axis=-1), (t * weight).sum(axis=-1))
 
 
-def _half_moments(mean: RealArray, deviation: float, power: int) -> tuple[RealArray, RealArray]:
-    """∫₀^∞ t^power f dt and ∫₀^∞ t^(power + 2) f dt for a normal density f of ``mean`` and ``deviation``."""
-    from scipy.special import ndtr
-
-    edge = deviation * np.exp(-0.5 * (mean / deviation) ** 2) / math.sqrt(2.0 * math.pi)
-    moments = [np.asarray(ndtr(mean / deviation), dtype=float)]
-    moments.append(mean * moments[0] + edge)
-    for order in (2, 3):  # integration by parts
-        moments.append(mean * moments[order - 1] + (order - 1) * deviation**2 * moments[order - 2])
-    return moments[power], moments[power + 2]
+def _flatness(t: RealArray) -> RealArray:
+    """t² - 1 + e^(-t²) for t >= 0, of small t by its series t⁴/2 - t⁶/6 + …."""
+    square = t**2
+    small = np.minimum(square, 0.1)
+    series = small**2 * np.polynomial.polynomial.polyval(small, [(-1.0) ** k / math.factorial(k) for k in range(2, 13)])
+    return np.where(square < 0.1, series, square + np.expm1(-square))
 
 
 def _curvature_moment(power: int) -> float:
