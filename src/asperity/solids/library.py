@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, ClassVar, Self
 
 from ..core import require, units
@@ -195,12 +196,14 @@ class MaterialRecord(Record):
     hardness: Sourced | None = None
     yield_stress: Sourced | None = None
     noun: ClassVar[str] = "material"
-    kinds: ClassVar[Mapping[str, str]] = {
-        "youngs_modulus": "pressure",
-        "poisson_ratio": "ratio",
-        "hardness": "pressure",
-        "yield_stress": "pressure",
-    }
+    kinds: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {
+            "youngs_modulus": "pressure",
+            "poisson_ratio": "ratio",
+            "hardness": "pressure",
+            "yield_stress": "pressure",
+        }
+    )
     required: ClassVar[tuple[str, ...]] = ("youngs_modulus", "poisson_ratio")
 
     @property
@@ -305,12 +308,14 @@ class LiquidRecord(Record):
     molar_volume: Sourced | None = None
     viscosity: Sourced | None = None
     noun: ClassVar[str] = "liquid"
-    kinds: ClassVar[Mapping[str, str]] = {
-        "surface_tension": "surface tension",
-        "temperature": "temperature",
-        "molar_volume": "molar volume",
-        "viscosity": "viscosity",
-    }
+    kinds: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {
+            "surface_tension": "surface tension",
+            "temperature": "temperature",
+            "molar_volume": "molar volume",
+            "viscosity": "viscosity",
+        }
+    )
     required: ClassVar[tuple[str, ...]] = ("surface_tension", "temperature")
 
     @property
