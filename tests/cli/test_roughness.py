@@ -45,7 +45,7 @@ def test_all_quantities_are_listed(run: Runner, film: Path) -> None:
         assert text in result.stdout
     for word in ("core height Sk", "density of summits η", "fractal dimension of profiles D"):
         assert word in result.stdout
-    assert "For the spectra alone the surface was filled: 6 points" in result.stdout
+    assert "Only for the spectra the surface was filled: 6 points" in result.stdout
 
 
 def test_json_holds_what_python_finds(run: Runner, film: Path) -> None:

@@ -92,7 +92,7 @@ def test_two_slopes_are_found():
 
 def test_holes_are_left_out_and_filled_for_spectra_alone(with_holes):
     found = asp.characterise(with_holes)
-    assert any("For the spectra alone" in remark and "40 points" in remark for remark in found.remarks)
+    assert any("Only for the spectra" in remark and "40 points" in remark for remark in found.remarks)
     assert found.heights.Sq == asp.rms_height(with_holes)
     filled = asp.characterise(asp.filled(with_holes))
     assert found.moments.spectral == filled.moments.spectral

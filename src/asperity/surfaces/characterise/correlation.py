@@ -17,7 +17,7 @@ from ..surface import Surface
 from .heights import mean_height, rms_height
 from .slopes import axis_index, increments, mean_square, stencil_sums
 
-# Autocovariance R(r) = <h(x) h(x + r)> of the heights about their mean, and the correlation lengths read from it.
+# Autocovariance and correlation lengths.
 
 
 LagRange: TypeAlias = tuple[int, int]
@@ -29,7 +29,7 @@ DROP_1E, DROP_TENTH, DROP_ISO = math.exp(-1.0), 0.1, 0.2
 
 @dataclass(frozen=True, eq=False)
 class Autocovariance:
-    """R at the lags (k dx, l dy), 0 <= k <= K and -L <= l <= L, of a map; R(-r) = R(r).
+    """R(r) = <h(x) h(x + r)> at the lags r = (k dx, l dy), 0 <= k <= K and -L <= l <= L; R(-r) = R(r).
 
     ``values`` (K + 1, 2 L + 1) in m², ``pairs`` number of pairs of points behind each of them, NaN where there is none;
     ``spacing`` (dx, dy) and ``size`` of the map in m.
@@ -52,8 +52,8 @@ class Autocovariance:
 
     def at(self, lag: tuple[int, int]) -> float:
         """R in m² at the ``lag`` (k, l) in pixels, of either sign."""
-        k, moved = lag if lag[0] >= 0 else (-lag[0], -lag[1])
-        return float(self.values[k, self.range[1] + moved])
+        along_x, along_y = lag if lag[0] >= 0 else (-lag[0], -lag[1])
+        return float(self.values[along_x, self.range[1] + along_y])
 
     def along(self, axis: str) -> tuple[RealArray, RealArray]:
         """Lags (m) from 0 along +``axis`` and R (m²) there.
@@ -83,17 +83,17 @@ class Autocovariance:
         return first_crossing(lags, values, drop * self.mean_square, logarithmic=logarithmic)
 
     def within(self, largest: LagRange) -> Autocovariance:
-        """The part with lags up to ``largest`` pixels, for maps of the centre and for the texture."""
-        k, moved = (min(have, wanted) for have, wanted in zip(self.range, largest, strict=True))
-        part = (slice(0, k + 1), slice(self.range[1] - moved, self.range[1] + moved + 1))
+        """The part with lags up to ``largest`` pixels."""
+        most_x, most_y = (min(pair) for pair in zip(self.range, largest, strict=True))
+        part = (slice(0, most_x + 1), slice(self.range[1] - most_y, self.range[1] + most_y + 1))
         return Autocovariance(self.values[part].copy(), self.pairs[part].copy(), self.spacing, self.size)
 
 
 def autocovariance(surface: Surface) -> Autocovariance:
     """Autocovariance of ``surface`` about the mean of its valid points, at all lags.
 
-    A complete periodic surface: circular, up to half the map. Otherwise the sum over the valid pairs over their
-    number, which is unbiased but scatters at lags beyond a quarter of the map. Missing points need no filling.
+    For a complete periodic surface it is circular, up to half the map. Otherwise it is the mean over the valid pairs,
+    which is unbiased but has a large variance at lags beyond a quarter of the map. Missing points need no filling.
     """
     valid = ~surface.mask
     heights = np.where(surface.mask, 0.0, surface.heights - mean_height(surface)).astype(np.float64, copy=False)
@@ -133,8 +133,8 @@ def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) ->
     spectrum = transform.forward(work)
     spectrum *= spectrum.conj()
     full = transform.backward(spectrum, out=work)
-    k, moved = largest
-    sums: RealArray = np.concatenate([full[: k + 1, transform.shape[1] - moved :], full[: k + 1, : moved + 1]], axis=1)
+    positive_x, (_, most_y) = full[: largest[0] + 1], largest
+    sums: RealArray = np.concatenate([positive_x[:, full.shape[1] - most_y :], positive_x[:, : most_y + 1]], axis=1)
     return sums
 
 
@@ -147,7 +147,7 @@ def _complete_pairs(surface: Surface, largest: LagRange) -> RealArray:
     return pairs
 
 
-# The structure function, and slopes and curvatures as functions of the scale over which they are taken.
+# Structure function and scale-dependent slopes and curvatures.
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,8 +164,8 @@ class ScaleDependence:
     """Slope and curvature of profiles along ``axis`` over stencils of total length ℓ (Sanner et al. 2022).
 
     ``slope_length`` (m) and ``slope`` = <[(h(x+ℓ) - h(x))/ℓ]²>^½; ``curvature_length`` (m), ``curvature`` (1/m) =
-    <[(h(x+ℓ/2) - 2h(x) + h(x-ℓ/2))/(ℓ/2)²]²>^½ and ``sharpest`` (1/m), the least of these second derivatives, negative
-    at peaks. At the shortest stencils they are the finite-difference slope and curvature of the map.
+    <[(h(x+ℓ/2) - 2h(x) + h(x-ℓ/2))/(ℓ/2)²]²>^½ and ``sharpest`` (1/m), the smallest of these second derivatives,
+    negative at peaks. At the shortest stencils they are the finite-difference slope and curvature of the map.
     """
 
     axis: str
@@ -230,7 +230,7 @@ def scale_dependence(
         Distances between neighbouring points of the stencils in pixels; by default geometric, five per factor of two,
         up to a quarter of the map.
     structure
-        Structure function along the axis, from which the slopes follow, if it is known already.
+        Structure function along the axis, from which the slopes follow, if already computed.
 
     Raises
     ------
@@ -254,11 +254,11 @@ def scale_dependence(
 
 
 def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float = 0.5) -> float:
-    """Stencil length in m below which a tip of ``tip_radius`` (m) may have shaped the map; discard shorter waves.
+    """Stencil length in m below which a tip of ``tip_radius`` (m) may have distorted the map; discard shorter waves.
 
-    It is where the least scale-dependent second derivative reaches -``factor``/``tip_radius``, interpolated between
-    the stencils (Sanner et al. 2022, eq. 10, which found the factor 1/2 empirically). 0 if the sharpest peak is
-    blunter than that at every length, infinity if sharper at every length.
+    There the smallest scale-dependent second derivative reaches -``factor``/``tip_radius``, interpolated between the
+    stencils (Sanner et al. 2022, eq. 10, with the empirical factor 1/2). 0 if the sharpest peak is blunter at every
+    length, infinity if it is sharper at every length.
 
     Raises
     ------
@@ -283,35 +283,28 @@ def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float 
 
 
 def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
-    """Whole numbers up to ``largest`` (1 at least), ``per_octave`` to a factor of two where there are so many.
-
-    The same numbers for every ``largest``, so that curves of different reach share their points.
-    """
+    """Integers from 1 to ``largest``, up to ``per_octave`` per factor of two, the same for every ``largest``."""
     count = 1 + math.ceil(per_octave * math.log2(max(1, largest)))
     spaced = np.unique(np.rint(2.0 ** (np.arange(count) / per_octave)).astype(int))
     return tuple(int(lag) for lag in spaced if lag <= max(1, largest))
 
 
 # Fractal dimension and amplitude of the profiles of a surface, from the structure function.
-#
-# S(τ) = C η^(2D-3) τ^(4-2D) (Ganti & Bhushan 1995) with the resolution η of the map; the Weierstrass-Mandelbrot profile of
-# Majumdar & Bhushan (1990) has S = B(D) G^(2(D-1)) τ^(4-2D)/ln γ, which turns C into G.
 
 
 GAMMA = 1.5
 """Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G (Majumdar & Bhushan 1990)."""
 
-_FIRST_LAGS = (4, 2)  # pixels; below four the instrument and interpolation have a share, below two they rule
+_FIRST_LAGS = (4, 2)  # pixels; shorter lags are affected by the instrument and by interpolation
 _MARGIN = 0.04  # accuracy of D on sampled Weierstrass-Mandelbrot profiles; smooth profiles give 1 within it
-_FEWEST = 3  # lags of a line with a residual
+_FEWEST = 3  # smallest number of lags of a line with a residual
 
 
 @dataclass(frozen=True)
 class FractalParameters:
-    """Fit of a power law to the structure function along ``axis``.
-
+    """Fit of a power law to the structure function along ``axis``: S(τ) = C η^(2D-3) τ^(4-2D) (Ganti & Bhushan 1995).
     ``dimension`` D of the profile (that of the surface is D + 1) and ``dimension_error``, the standard error of the
-    straight line: the lags are correlated, so it tells of curvature rather than of sampling; ``amplitude`` C and
+    straight line, which shows curvature rather than sampling error, since the lags are correlated; ``amplitude`` C and
     ``resolution`` η (= pixel) in m; ``roughness`` G in m for γ = 1.5, NaN if not self-affine; ``first_lag``,
     ``last_lag`` of the fit in m; ``residual`` rms of ln S about the line.
     """
@@ -334,7 +327,7 @@ class FractalParameters:
 
     @property
     def self_affine(self) -> bool:
-        """Whether D lies clearly between 1 and 2, without which the profile is no fractal in the fitted range."""
+        """Whether D lies between 1 and 2 by more than its accuracy, so that the profile is fractal in this range."""
         return _is_fractal(self.dimension)
 
 
@@ -355,9 +348,10 @@ def fractal_parameters(
         ``x`` or ``y``.
     lags
         Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than three would remain) to
-        a tenth of the map, or to where the structure function reaches the mean square height, half of its limit.
+        a tenth of the map, or to the lag where the structure function reaches the mean square height, half of its
+        limit.
     structure
-        Structure function along the axis, if it is known already; its lags in the default range are fitted.
+        Structure function along the axis, if already computed; its lags in the default range are fitted.
 
     Raises
     ------
@@ -417,7 +411,7 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
 def structure_coefficient(dimension: float) -> float:
     """B(D) = π (2π)^(4-2D)/[2 Γ(5-2D) sin π(2-D)], the factor of S = B G^(2(D-1)) τ^(4-2D)/ln γ.
 
-    For a profile of frequencies γ^n in cycles per length; papers that count them in radians lack (2π)^(4-2D).
+    For a profile with the frequencies γ^n in cycles per length; papers that use radians omit (2π)^(4-2D).
 
     Raises
     ------
@@ -451,7 +445,7 @@ def fractal_roughness(dimension: float, amplitude: float, resolution: float, gam
     """G in m from C η^(2D-3) = B(D) G^(2(D-1))/ln γ; NaN unless 1 < D < 2."""
     if not 1.0 < dimension < 2.0:
         return math.nan
-    # in logarithms: G of a smooth surface underflows
+    # in logarithms, because G of a smooth surface underflows
     log_power = math.log(amplitude) + (2.0 * dimension - 3.0) * math.log(resolution)
     log_power += math.log(math.log(gamma) / structure_coefficient(dimension))
     return math.exp(log_power / (2.0 * (dimension - 1.0)))

@@ -46,7 +46,7 @@ def height_parameters(surface: Surface) -> HeightParameters:
 def mean_height(surface: Surface) -> float:
     """Mean of the valid heights in m."""
     valid = _valid(surface)
-    return float(valid[0] + (valid - valid[0]).mean())  # a large common offset must not cost digits
+    return float(valid[0] + (valid - valid[0]).mean())  # avoids cancellation with a large common offset
 
 
 def rms_height(surface: Surface) -> float:
@@ -105,7 +105,7 @@ def _valid(surface: Surface) -> RealArray:
 def deviations(surface: Surface) -> RealArray:
     """Heights (N,) of the valid points less their mean, in m."""
     valid = _valid(surface)
-    shifted = valid - valid[0]  # a large common offset must not cost digits
+    shifted = valid - valid[0]  # avoids cancellation with a large common offset
     deviations: RealArray = shifted - shifted.mean()
     return deviations
 
@@ -116,14 +116,14 @@ def _defined(value: float, what: str) -> float:
     return value
 
 
-# How the heights are distributed, beside the normal distribution of the same deviation.
+# Height distribution.
 
 
 @dataclass(frozen=True, eq=False)
 class HeightDistribution:
     """Probability density of the heights about their mean: ``edges`` (n + 1,) in m, ``density`` (n,) in 1/m.
 
-    ``deviation`` is Sq in m, that of the normal distribution to compare with.
+    ``deviation`` is Sq in m.
     """
 
     edges: RealArray
@@ -141,7 +141,7 @@ class HeightDistribution:
 def height_distribution(surface: Surface, bins: int | None = None) -> HeightDistribution:
     """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the highest.
 
-    By default there are as many bins as Rice's rule says, 2 N^(1/3), up to 100.
+    By default the number of bins follows Rice's rule, 2 N^(1/3), up to 100.
 
     Raises
     ------
@@ -158,13 +158,12 @@ def height_distribution(surface: Surface, bins: int | None = None) -> HeightDist
     return HeightDistribution(edges, density, float(np.sqrt(np.mean(np.square(z)))))
 
 
-# How much of a map is its tilt, which has to be removed before most numbers mean anything.
+# Tilt.
 
 
 def tilt_share(surface: Surface) -> float:
-    """Share of the mean square height that lies in the best plane, 0 to 1; exact for a complete map, 0 for a flat one.
-
-    On a map with holes the fits along x and y are not independent, and the share is an estimate.
+    """Share of the mean square height in the least-squares plane, 0 to 1; 0 for a flat map. It is exact for a complete
+    map and an estimate with missing points, since the fits along x and y are then not independent.
     """
     z = np.where(surface.mask, 0.0, surface.heights - mean_height(surface))
     total = float(np.einsum("ij,ij", z, z))

@@ -1,4 +1,4 @@
-"""The areal material ratio (Abbott-Firestone, bearing area) curve and what is read from it (ISO 25178-2, 4.5)."""
+"""The areal material ratio (Abbott-Firestone, bearing area) curve and its parameters (ISO 25178-2, 4.5)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..surface import Surface
 from .heights import deviations
 
 CORE_LINES = ("least squares", "secant")
-"""How the core line is laid through the 40 % of the curve with the least slope."""
+"""Definitions of the core line through the 40 % of the curve with the smallest slope."""
 
 _CORE = 0.4  # share of the curve in the window of the core line, ISO 13565-2 and ISO 25178-2
 
@@ -26,8 +26,8 @@ class MaterialRatioCurve:
     """Height against the share of the area above it.
 
     ``heights`` (N,) of the valid points about their mean in m, highest first. The k-th of them (from 1) has the
-    material ratio p = (k - 1/2)/N; the curve is linear in between and constant beyond the ends. Ratios are shares of
-    one, not per cent. This is a geometric cut of the surface, not a contact area.
+    material ratio p = (k - 1/2)/N; the curve is linear in between and constant beyond the ends. Ratios are fractions,
+    not per cent. The curve describes a geometric section, not a contact area.
     """
 
     heights: RealArray
@@ -154,8 +154,8 @@ def material_ratio_curve(surface: Surface) -> MaterialRatioCurve:
 def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
     """Core of ``curve`` by its 40 % window of least slope (the first, if several) (ISO 25178-2, 4.5.7 to 4.5.11).
 
-    ``line`` is ``least squares`` (ISO: through the curve in the window) or ``secant`` (through its ends, as many
-    programs have it; for Gaussian heights 2 % more Sk and 4 % less Smr1).
+    ``line`` is ``least squares`` (ISO: fitted to the curve in the window) or ``secant`` (through its ends, as in many
+    programs; for Gaussian heights Sk is 2 % larger and Smr1 4 % smaller).
 
     Raises
     ------

@@ -23,7 +23,7 @@ from .spectrum import PowerSpectrum
 class SlopeTensor:
     """Mean products of the slopes: ``xx`` <h_x²>, ``xy`` <h_x h_y>, ``yy`` <h_y²>, dimensionless.
 
-    Its axes show the texture: along ``direction`` slopes are steepest, the lay is across it.
+    Its principal axes describe the texture: profiles along ``direction`` are steepest, the lay is perpendicular to it.
     """
 
     xx: float
@@ -95,8 +95,8 @@ class DifferenceMoments:
 def difference_moments(surface: Surface) -> DifferenceMoments:
     """Moments of ``surface`` by forward first and central second differences over all valid pairs and triples.
 
-    A periodic surface wraps. Differences see the spectrum times [sin(q d/2)/(q d/2)]² per derivative: waves shorter
-    than about eight pixels are underestimated (McCool 1987).
+    A periodic surface wraps. Each derivative multiplies the spectrum by [sin(q d/2)/(q d/2)]²: waves shorter than about
+    eight pixels are underestimated (McCool 1987).
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How the measured numbers depend on the size of the scan and on the sampling interval (Poon & Bhushan 1995)."""
+"""Dependence of roughness parameters on the size of the scan and on the sampling interval (Poon & Bhushan 1995)."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ STUDIED = (
 fractal dimension, density (1/m²) and radius 1/<κ> (m) of the summits."""
 
 MODES = ("pick", "average")
-"""How points are thinned out: every n-th is picked (which aliases), or blocks are averaged (which removes variance)."""
+"""Ways to coarsen a map: every n-th point is picked (which aliases), or blocks are averaged (which removes variance)."""
 
 
 @dataclass(frozen=True, eq=False)
 class SamplingStudy:
     """Quantities of parts of one surface against their ``length`` (m): the scan size or the sampling interval.
 
-    ``kind`` and ``form`` (what was removed from every part) in words; ``length`` increasing; ``parts`` number of parts
-    behind each; ``mean`` and ``scatter`` (standard deviation over the parts) by name of the quantity, see ``STUDIED``,
+    ``kind`` of the study and ``form`` removed from every part; ``length`` increasing; ``parts`` number of parts for
+    each length; ``mean`` and ``scatter`` (standard deviation over the parts) by name of the quantity, see ``STUDIED``,
     NaN where it is not defined on any part.
     """
 
@@ -52,7 +52,7 @@ class SamplingStudy:
     def independent_range(self, name: str, tolerance: float = 0.05) -> tuple[float, float]:
         """Longest range of lengths (m) over which the means of ``name`` differ by ``tolerance`` at most.
 
-        NaN twice if there is none: then the quantity depends on the scan and has no value of its own.
+        Two NaN if there is none: the quantity then depends on the scan at every length.
 
         Raises
         ------
@@ -79,7 +79,7 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
     surface
         Measured surface; missing points are left out.
     form
-        What is removed from every window: ``mean``, ``plane`` or ``quadratic``.
+        Form removed from every window: ``mean``, ``plane`` or ``quadratic``.
     smallest
         Least number of points along a side of a window.
     most
@@ -112,7 +112,7 @@ def sampling_interval_study(
     mode
         ``pick`` takes every n-th point, with all offsets; ``average`` takes the means of blocks of n x n points.
     form
-        What is removed from every map: ``mean``, ``plane`` or ``quadratic``.
+        Form removed from every map: ``mean``, ``plane`` or ``quadratic``.
     smallest
         Least number of points along a side.
     most
@@ -140,17 +140,14 @@ def _halvings(points: int, least: int) -> list[int]:
 
 
 def _windows(surface: Surface, shape: tuple[int, int], most: int) -> Iterator[Surface]:
-    """Windows of ``shape`` points that do not overlap, at most ``most``, spread evenly; too empty ones are left out."""
-    starts = [(i, j) for i in _starts(surface.shape[0], shape[0]) for j in _starts(surface.shape[1], shape[1])]
+    """Windows of ``shape`` points that do not overlap, evenly spread, at most ``most``; those over half empty are omitted."""
+    along_x, along_y = (range(0, n - width + 1, width) for n, width in zip(surface.shape, shape, strict=True))
+    starts = [(i, j) for i in along_x for j in along_y]
     for i, j in _spread_evenly(starts, most):
         part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
         whole = shape == surface.shape
         if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
             yield _like(surface, surface.heights[part], 1, periodic=surface.periodic and whole)
-
-
-def _starts(points: int, width: int) -> range:
-    return range(0, points - width + 1, width)
 
 
 def _picked(surface: Surface, step: int, most: int) -> Iterator[Surface]:
@@ -201,7 +198,7 @@ def _dimension(surface: Surface, axis: str) -> float:
 def _or_nan(measure: Callable[[], float]) -> float:
     try:
         return measure()
-    except InputError:  # not defined on a part this small or this full of holes
+    except InputError:  # undefined on a part with too few valid points
         return math.nan
 
 

@@ -21,7 +21,7 @@ from ...core.grid import Grid
 from ..generate.power_laws import PowerLaws
 from .spectrum import LOST_MODES, PowerSpectrum, RadialSpectrum, default_edges, radial_spectrum
 
-# The form that spectra are fitted with: a plateau, one or two power laws and a floor.
+# The model: a plateau, one or two power laws and a floor.
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +29,7 @@ class SpectralModel:
     """C(q) = C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a floor.
 
     Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its roll-off. Convention of
-    Jacobs, Junge & Pastewka (2017). It serves ``asperity.generate.gaussian`` as a spectrum.
+    Jacobs, Junge & Pastewka (2017). ``asperity.generate.gaussian`` accepts it as a spectrum.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ class SpectralModel:
     crossover_wavelength
         λ_c = 2π/q_c <= λ_r in m where the exponent changes; needed with two exponents.
     floor
-        Constant C_n in m⁴ that is added: white noise of the mean square height C_n/(dx dy).
+        Added constant C_n in m⁴: white noise of the mean square height C_n/(dx dy).
     shortest_wavelength
-        Shortest wave in m; 0 for all that a grid holds.
+        Shortest wave in m; 0 for no limit but the grid.
     longest_wavelength
         Longest wave in m, at least λ_r; equal to it, there is no plateau.
 
@@ -142,7 +142,7 @@ class SpectralModel:
         return f"{start}, {self.level:.4g} m^4 at {self.rolloff_wavelength:.4g} m, {laws}{bend}{floor}"
 
 
-# Greatest Whittle likelihood of one shape of spectrum: starting values, optimisation, standard errors.
+# Maximum Whittle likelihood of one shape of spectrum: starting values, optimisation, standard errors.
 
 
 _STARTS = 3  # best of the grid of starting values that are optimised
@@ -154,7 +154,7 @@ _NEAREST = 0.1  # least ln(q_c/q_r) of two power laws
 
 @dataclass(frozen=True)
 class Shape:
-    """Form of a spectrum: whether it has a ``plateau``, the number of power laws ``slopes``, whether it has a ``floor``."""
+    """Form of a spectrum: with or without ``plateau`` and ``floor``, and the number ``slopes`` of power laws."""
 
     plateau: bool
     slopes: int
@@ -210,8 +210,10 @@ class Solution:
             covariance = np.linalg.inv(information)
         except np.linalg.LinAlgError:
             covariance = np.full_like(information, np.nan)
-        names = _names(self.shape)
-        if self.shape.plateau and self.shape.slopes == 2:  # ln q_c = ln q_r + the fitted distance
+        shape = self.shape
+        names = ["level"] + ["rolloff_wavelength"] * shape.plateau + ["crossover_wavelength"] * (shape.slopes == 2)
+        names += ["exponent_1", "exponent_2"][: shape.slopes] + ["floor"] * shape.floor
+        if shape.plateau and shape.slopes == 2:  # ln q_c = ln q_r + the fitted distance
             into = np.eye(len(names))
             into[names.index("crossover_wavelength"), names.index("rolloff_wavelength")] = 1.0
             covariance = into @ covariance @ into.T
@@ -220,7 +222,7 @@ class Solution:
 
 
 def fitted_shape(rings: RadialSpectrum, shape: Shape) -> Solution:
-    """Parameters of ``shape`` with the greatest likelihood, from the best of several starts."""
+    """Parameters of ``shape`` with the maximum likelihood, from the best of several starts."""
     from scipy.optimize import minimize
 
     unit = (float(np.exp(np.mean(np.log(rings.q)))), float(np.exp(np.mean(np.log(rings.psd)))))
@@ -250,13 +252,6 @@ def fitted_shape(rings: RadialSpectrum, shape: Shape) -> Solution:
             break
         values, least = trials[int(np.argmin(reached))], min(reached)
     return Solution(shape, values, unit, least * scale)
-
-
-def _names(shape: Shape) -> list[str]:
-    names = ["level"]
-    names += ["rolloff_wavelength"] if shape.plateau else []
-    names += ["crossover_wavelength"] if shape.slopes == 2 else []
-    return names + ["exponent_1", "exponent_2"][: shape.slopes] + (["floor"] if shape.floor else [])
 
 
 def _split(shape: Shape, values: RealArray) -> tuple[float, float, float, tuple[float, ...], float]:
@@ -339,7 +334,7 @@ def _bounds(shape: Shape, log_q: RealArray, measured: RealArray) -> list[tuple[f
     return bounds + ([(float(log_i.min()) - 12.0, float(log_i.max()))] if shape.floor else [])
 
 
-# The wavenumber beyond which a spectrum vanishes, as that of a generated or filtered surface does.
+# Short cut-off of generated or filtered surfaces.
 
 
 _RINGS = 8  # over which the spectrum is extrapolated
@@ -347,10 +342,10 @@ _DROP = 0.02  # share of the extrapolation below which all of the rest must lie
 
 
 def short_cutoff(spectrum: PowerSpectrum, rings: RadialSpectrum) -> float:
-    """Wavenumber in rad/m of the last mode before the spectrum drops to nothing; NaN if it does not.
+    """Wavenumber in rad/m of the last mode before the spectrum drops to zero; NaN if it does not.
 
-    The drop is where all further rings lie below 2 % of the power law through the eight rings before: by the scatter of
-    a periodogram, rings of some modes never do. The wavenumber is that of the last single mode above this level.
+    The drop is where all further rings lie below 2 % of the power law through the eight rings before, which does not
+    happen by the scatter of a periodogram. The wavenumber is that of the last single mode above this level.
     """
     with np.errstate(divide="ignore"):
         log_q, log_c = np.log(rings.q), np.log(rings.psd)
@@ -371,10 +366,10 @@ def _last_mode(spectrum: PowerSpectrum, rings: RadialSpectrum, ring: int, law: t
     return float(above.max(initial=rings.high[ring - 1]))
 
 
-_TOP = 0.95  # share of the Nyquist wavenumber up to which modes serve
-_FIRST_WINDOWED = 2.5  # first two modes of a windowed map are mixed with its mean
-_PLATEAU_MODES = 10.0  # fewer modes below the roll-off say nothing of a plateau
-_FEWEST_RINGS = 8  # two more than the parameters of the richest shape
+_TOP = 0.95  # share of the Nyquist wavenumber up to which modes are fitted
+_FIRST_WINDOWED = 2.5  # modes; the window mixes the first two with the mean
+_PLATEAU_MODES = 10.0  # smallest number of modes below the roll-off that identifies a plateau
+_FEWEST_RINGS = 8  # two more than the parameters of the largest shape
 
 SHAPES = tuple(
     Shape(plateau, slopes, floor) for slopes in (1, 2) for plateau in (False, True) for floor in (False, True)
@@ -389,7 +384,7 @@ class SpectralFit:
     ``model``; ``errors``: relative standard error of ``level``, ``rolloff_wavelength``, ``crossover_wavelength`` and
     ``floor``, absolute one of ``exponent_1``, ``exponent_2``, for the parameters that were fitted (Fisher information,
     modes lost to the window counted); ``first``, ``last`` wavenumber (rad/m) of the fitted range; ``short_cutoff``
-    wavelength (m) below which the spectrum vanishes, NaN if it goes on to the end of the range; ``mean_square_ratio``,
+    wavelength (m) below which the spectrum vanishes, NaN if it extends to the end of the range; ``mean_square_ratio``,
     ``slope_ratio`` mean square height and slope of the model over those of the spectrum in the range; ``rings`` the
     spectrum that was fitted; ``candidates`` Bayesian information criterion, less the best, by shape.
     """
@@ -407,7 +402,7 @@ class SpectralFit:
 
     @property
     def has_rolloff(self) -> bool:
-        """Whether the scan shows a plateau; without one, its roll-off lies beyond the scan."""
+        """Whether the spectrum has a plateau; otherwise the roll-off wavelength exceeds the scan size."""
         return self.model.has_plateau
 
     @property
@@ -425,7 +420,7 @@ def fit_spectrum(
     reliable_wavelength: float = 0.0,
     model_error: float = 0.0,
 ) -> SpectralFit:
-    """Fit ``spectrum`` by the shape that the Bayesian information criterion prefers.
+    """Fit ``spectrum`` by the shape selected by the Bayesian information criterion.
 
     Parameters
     ----------
@@ -433,12 +428,12 @@ def fit_spectrum(
         Spectrum of a levelled surface.
     plateau, slopes, floor
         Whether the model has a plateau, how many power laws (1 or 2), whether it has a floor of white noise; by default
-        the criterion decides. A plateau of less than ten modes is found only if it is asked for.
+        selected by the criterion. A plateau of fewer than ten modes is accepted only if ``plateau`` is True.
     reliable_wavelength
         Shortest wavelength in m that the instrument resolves (see ``tip_cutoff``); shorter ones are left out.
     model_error
-        Relative error of the form itself, which no real surface has exactly; 0.1 keeps the thousands of short waves of a
-        measured map from ruling the fit, 0 suits surfaces that were generated with such a spectrum.
+        Relative error of the model, which no real surface follows exactly; 0.1 keeps the thousands of short waves of a
+        measured map from dominating the fit, 0 is for surfaces generated with such a spectrum.
 
     Raises
     ------
@@ -450,9 +445,12 @@ def fit_spectrum(
     require.finite(reliable_wavelength, "shortest reliable wavelength (m)")
     rings, cutoff = _usable(spectrum, reliable_wavelength)
     lost = LOST_MODES[spectrum.window] ** 2
-    weighed = _with_model_error(rings, lost, require.finite(model_error, "relative error of the model"))
+    error = require.finite(model_error, "relative error of the model")
+    # fewer modes, so that the relative variance of a ring's mean is 2 lost/N + error²
+    weighed = replace(rings, modes=1.0 / (1.0 / rings.modes + error**2 / (2.0 * lost)))
     found = _solutions(weighed, rings, (plateau, slopes, floor))
-    criteria = {item.shape.name: _criterion(item, weighed, lost) for item in found}
+    information = math.log(0.5 * float(weighed.modes.sum()))  # logarithm of the number of independent modes
+    criteria = {item.shape.name: item.deviance / lost + item.shape.parameters * information for item in found}
     best = min(found, key=lambda item: criteria[item.shape.name])
     model = replace(best.model(2.0 * math.pi / rings.low[0]), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
     return SpectralFit(
@@ -468,31 +466,21 @@ def fit_spectrum(
     )
 
 
-def _criterion(item: Solution, rings: RadialSpectrum, lost: float) -> float:
-    """Bayesian information criterion: -2 ln L + k ln(number of independent modes)."""
-    return item.deviance / lost + item.shape.parameters * math.log(0.5 * float(rings.modes.sum()))
-
-
 def _ratio(model: SpectralModel, rings: RadialSpectrum, power: int) -> float:
     """Mean square height (``power`` 0) or slope (2) of ``model`` over that of the spectrum, in the range of ``rings``."""
     weight = rings.modes * rings.q**power
     return float(weight @ model.psd(rings.q) / (weight @ rings.psd))
 
 
-def _with_model_error(rings: RadialSpectrum, lost: float, error: float) -> RadialSpectrum:
-    """Rings that count as few modes as give their means the variance 2 ``lost``/N + ``error``² relative to C²."""
-    return replace(rings, modes=1.0 / (1.0 / rings.modes + error**2 / (2.0 * lost)))
-
-
 def _usable(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[RadialSpectrum, float]:
-    """Rings that serve a fit, and the short cut-off wavelength (m, NaN if there is none)."""
+    """Rings that are fitted, and the short cut-off wavelength (m, NaN if there is none)."""
     first = 0.0 if spectrum.window == "none" else _FIRST_WINDOWED * 2.0 * np.pi / min(spectrum.grid.size)
     last = _TOP * spectrum.nyquist
     if reliable_wavelength > 0.0:
         last = min(last, 2.0 * np.pi / reliable_wavelength)
     edges = default_edges(spectrum)
     edges = np.unique(np.clip(edges, max(first, edges[0]), max(last, edges[0])))
-    rings = radial_spectrum(spectrum, edges) if edges.size > 1 else _empty(spectrum)
+    rings = radial_spectrum(spectrum, edges)
     cutoff = short_cutoff(spectrum, rings)
     if not math.isnan(cutoff):
         edges = np.unique(np.minimum(edges, cutoff))
@@ -505,27 +493,21 @@ def _usable(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[Radial
     return rings, 2.0 * math.pi / cutoff
 
 
-def _empty(spectrum: PowerSpectrum) -> RadialSpectrum:
-    none = np.empty(0)
-    return RadialSpectrum(none, none, none, none, none, spectrum.window)
-
-
 def _solutions(
     weighed: RadialSpectrum, rings: RadialSpectrum, wishes: tuple[bool | None, int | None, bool | None]
 ) -> list[Solution]:
-    """Fits of the shapes that agree with the ``wishes``; a plateau that was not asked for must be seen."""
-    found = [fitted_shape(weighed, shape) for shape in SHAPES if _wanted(shape, wishes)]
-    return [item for item in found if wishes[0] is not None or _plateau_is_seen(item, rings)]
+    """Fits of the shapes that agree with the ``wishes``; unless prescribed, a plateau needs enough modes."""
+    found = [
+        fitted_shape(weighed, shape)
+        for shape in SHAPES
+        if all(
+            wish in (None, has) for wish, has in zip(wishes, (shape.plateau, shape.slopes, shape.floor), strict=True)
+        )
+    ]
+    if wishes[0] is not None:
+        return found
+    return [item for item in found if not item.shape.plateau or _modes_on_plateau(item, rings) >= _PLATEAU_MODES]
 
 
-def _wanted(shape: Shape, wishes: tuple[bool | None, int | None, bool | None]) -> bool:
-    features = (shape.plateau, shape.slopes, shape.floor)
-    return all(wish is None or wish == feature for wish, feature in zip(wishes, features, strict=True))
-
-
-def _plateau_is_seen(item: Solution, rings: RadialSpectrum) -> bool:
-    """Whether a plateau, if the shape has one, is held by enough modes."""
-    if not item.shape.plateau:
-        return True
-    on_plateau = rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength]
-    return bool(on_plateau.sum() >= _PLATEAU_MODES)
+def _modes_on_plateau(item: Solution, rings: RadialSpectrum) -> float:
+    return float(rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength].sum())

@@ -31,11 +31,11 @@ WINDOWS = ("none", "hann", "radial hann")
 """Kinds of window."""
 
 LOST_MODES = {"none": 1.0, "hann": 35.0 / 18.0, "radial hann": 2.0}
-"""Factor per axis by which a window lowers the number of independent modes: <w⁴>/<w²>², in one dimension."""
+"""Factor per axis by which a window reduces the number of independent modes: <w⁴>/<w²>², in one dimension."""
 
 
 def chosen_window(window: str, surface: Surface) -> str:
-    """Kind of window for ``surface``: as named, or by ``auto`` none for a periodic surface and hann otherwise.
+    """Kind of window for ``surface``: as named; ``auto`` gives none for a periodic surface and hann otherwise.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def chosen_window(window: str, surface: Surface) -> str:
 
 
 def line_window(kind: str, n: int) -> RealArray:
-    """Weights at ``n`` points of a line; a line too short for a Hann window (one or two points) gets none."""
+    """Weights at ``n`` points of a line; all one if the line is too short for a Hann window (one or two points)."""
     if kind == "none" or n < 3:
         return np.ones(n)
     return _normalised(0.5 * (1.0 - np.cos(2.0 * np.pi * np.arange(n) / n)))
@@ -73,7 +73,7 @@ def _normalised(weights: RealArray) -> RealArray:
     return normalised
 
 
-_ROUNDING = 1e-9  # relative error of Parseval's identity that rounding can make on any map
+_ROUNDING = 1e-9  # upper bound of the rounding error of Parseval's identity, relative
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,8 @@ class PowerSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class RadialSpectrum:
-    """Mean of C over rings of modes: a ring holds the modes with ``low`` < q <= ``high`` (rad/m); empty ones are left out.
+    """Mean of C over rings of modes: a ring holds the modes with ``low`` < q <= ``high`` (rad/m); empty rings are
+    omitted.
 
     ``q`` log-mean wavenumber (rad/m), ``psd`` arithmetic mean of C (m⁴), ``modes`` number of modes of both half planes,
     of which half are independent; ``window`` of the spectrum.
@@ -134,7 +135,7 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
         Complete surface; level a measured one first.
     window
         ``auto`` (none for a periodic surface, hann otherwise), ``none``, ``hann`` (separable) or ``radial hann``.
-        Without a window, the jump between opposite borders of a non-periodic map hides spectra steeper than q^-3.
+        Without a window, the jump between opposite borders of a non-periodic map masks spectra steeper than q^-3.
 
     Raises
     ------
@@ -151,15 +152,20 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     psd: RealArray = np.square(amplitudes.real) + np.square(amplitudes.imag)
     psd *= surface.grid.pixel_area / surface.grid.n_points
     spectrum = PowerSpectrum(surface.grid, psd, kind)
-    _require_parseval(spectrum.mean_square, float(np.mean(np.square(heights))))
-    psd[0, 0] = 0.0  # a window gives the mean back; it carries no roughness
+    direct = float(np.mean(np.square(heights)))
+    if abs(spectrum.mean_square - direct) > _ROUNDING * direct:
+        raise ArithmeticError(
+            f"sum over the spectrum is {spectrum.mean_square:g} m^2 but the mean square of the heights is {direct:g} m^2: "
+            "the Fourier transform is wrong."
+        )
+    psd[0, 0] = 0.0  # the window restores a mean height, which is no roughness
     return spectrum
 
 
 def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto") -> ProfileSpectrum:
     """Mean over all lines of the spectrum of the profiles along ``axis``, each about its own mean.
 
-    ``window`` as for :func:`power_spectrum`, ``radial hann`` excepted.
+    ``window`` as for :func:`power_spectrum`, except ``radial hann``.
 
     Raises
     ------
@@ -186,7 +192,7 @@ def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto")
 
 
 def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, per_decade: int = 20) -> RadialSpectrum:
-    """Arithmetic mean of C over rings of modes (never of log C, which is low by Euler's constant).
+    """Arithmetic mean of C over rings of modes (the mean of log C would be low by Euler's constant).
 
     Parameters
     ----------
@@ -216,9 +222,9 @@ def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, 
 def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: bool = False) -> RealArray:
     """Edges in rad/m of logarithmic rings from just below the longest wave to the Nyquist circle.
 
-    With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not complete, and their mean is that
-    of all directions only where the surface is isotropic. A mode on an edge counts in the ring below, independent of
-    rounding: the edges are 1e-9 above their nominal wavenumbers.
+    With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not complete, and their mean is
+    that of all directions only where the surface is isotropic. A mode on an edge counts in the ring below, independent
+    of rounding: the edges are 1e-9 above their nominal wavenumbers.
     """
     shortest = 2.0 * np.pi / max(spectrum.grid.size)
     dx, dy = spectrum.grid.spacing
@@ -230,29 +236,18 @@ def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: boo
     return edges
 
 
-def _require_parseval(spectral: float, direct: float) -> None:
-    if abs(spectral - direct) > _ROUNDING * direct:
-        raise ArithmeticError(
-            f"sum over the spectrum is {spectral:g} m^2 but the mean square of the heights is {direct:g} m^2: "
-            "the Fourier transform went wrong."
-        )
-
-
-# What an isotropic random surface of known spectrum shows on a window of finite size and pixel.
-#
-# The spectra are functions C(q) in the convention of Jacobs, Junge & Pastewka (2017), such as the method ``psd`` of
-# ``SpectralModel`` or ``SelfAffine``.
+# Expected moments of an isotropic random surface of known spectrum C(q) on a window of finite size and pixel.
 
 
 IsotropicPsd: TypeAlias = Callable[[RealArray], RealArray]
-"""C in m⁴ at wavenumbers in rad/m."""
+"""C in m⁴ at wavenumbers in rad/m, such as the method ``psd`` of ``SpectralModel`` or ``SelfAffine``."""
 
 DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 """Degree of the polynomial that levelling by a form removes."""
 
 _NODES = 10  # Gauss-Legendre nodes of a piece
 _PIECES = 12  # pieces per factor of ten of wavenumber
-_UNFILTERED = 150.0  # q L/2 beyond which levelling passes all but 1e-4 of the power
+_UNFILTERED = 150.0  # q L/2 beyond which levelling removes less than 1e-4 of the power
 _ANGLES = 3.0  # trapezoidal points on a quarter circle per unit of q L/2
 
 
@@ -277,11 +272,11 @@ def mean_square_after_levelling(
     degree = DEGREES[require.one_of(form, DEGREES, "form to be removed")]
     shorter, longer = sorted(require.positive(side, "side of a window (m)") for side in size)
     high = 2.0 * np.pi / require.positive(shortest_wavelength, "shortest wavelength (m)")
-    low = max(2.0 * np.pi / longest_wavelength, 1e-3 / longer)  # longer waves are planes to 1e-6 of the window
+    low = max(2.0 * np.pi / longest_wavelength, 1e-3 / longer)  # longer waves are planes on the window to 1e-6
     bend = min(high, 2.0 * _UNFILTERED / shorter)
     filtered = 0.0
     if bend > low:
-        # as fine as the ripples of the Bessel functions, which repeat every π in q L/2
+        # resolves the oscillations of the Bessel functions, of period π in q L/2
         q, weight = _nodes(_with_ripples(low, bend, longer))
         passed = np.array([_passed(float(wavenumber), size, degree) for wavenumber in q])
         filtered = float((weight * q * psd(q)) @ passed)
@@ -302,7 +297,7 @@ def expected_difference_moments(
     """Expected mean squares of the first (m2) and second (m4, 1/m²) differences over ``spacing`` Δ in m along a line.
 
     m2 = (1/2π) ∫ q C 2[1 - J0(qΔ)]/Δ² dq, m4 = (1/2π) ∫ q C 2[3 - 4 J0(qΔ) + J0(2qΔ)]/Δ⁴ dq over the waves between the
-    two wavelengths in m. Against the moments of the continuous surface they tell how far the pixel is too coarse.
+    two wavelengths in m. Compared with the moments of the continuous surface they show the error of the pixel size.
     ``bends``: wavelengths in m at which C has a kink, for accuracy beyond 1e-4.
 
     Raises
@@ -327,10 +322,10 @@ def expected_difference_moments(
 
 
 def effective_samples(spectrum: PowerSpectrum) -> float:
-    """Number of independent heights N_eff = (Σ C)²/Σ C² of a Gaussian surface with this periodogram; NaN if it is flat.
+    """Number of independent heights N_eff = (Σ C)²/Σ C² of a Gaussian surface with this periodogram; NaN if flat.
 
-    The mean square height then scatters by sqrt(2/N_eff) from map to map, the rms height by sqrt(1/(2 N_eff)). The
-    squares of a periodogram are twice the squared spectrum on average, which is taken into account.
+    The relative scatter from map to map is sqrt(2/N_eff) for the mean square height and sqrt(1/(2 N_eff)) for the rms
+    height. The squares of a periodogram are on average twice the squared spectrum, which is accounted for.
     """
     grid = spectrum.grid
     columns = np.full(spectrum.psd.shape[1], 2.0)
@@ -343,7 +338,7 @@ def effective_samples(spectrum: PowerSpectrum) -> float:
 
 
 def _passed(q: float, size: tuple[float, float], degree: int) -> float:
-    """Share of a wave of wavenumber ``q`` that the levelling of a window passes, averaged over all directions."""
+    """Share of the power at wavenumber ``q`` that remains after levelling a window, averaged over all directions."""
     reach = 0.5 * q * max(size)
     count = 16 + math.ceil(_ANGLES * reach)
     angle = (np.arange(count) + 0.5) * (0.5 * np.pi / count)
@@ -364,7 +359,7 @@ def _logarithmic(low: float, high: float) -> RealArray:
 
 
 def _with_ripples(low: float, high: float, length: float) -> RealArray:
-    """Edges of pieces, logarithmic and nowhere longer than one ripple 2π/``length``."""
+    """Edges of pieces, logarithmic and nowhere longer than one oscillation 2π/``length``."""
     edges = _logarithmic(low, high)
     pieces = [np.linspace(a, b, 2 + int((b - a) * length / (2.0 * np.pi)))[:-1] for a, b in pairwise(edges)]
     return np.append(np.concatenate(pieces), high)

@@ -1,4 +1,4 @@
-"""Everything about a surface at once."""
+"""All roughness quantities of a surface."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ from .spectrum import (
 from .summits import ProfilePeaks, Summits, SummitStatistics, profile_peaks, summit_statistics, summits
 from .texture import AngularSpectrum, angular_spectrum, texture_lengths
 
-# Measurements that not every surface allows.
+# Quantities that are not defined on every surface.
 
 
 T = TypeVar("T")
 
 
 class Attempts:
-    """Runs measurements; one that the surface does not allow gives None and leaves a sentence in ``remarks``."""
+    """Evaluates quantities; one that is undefined for the surface gives None and adds a sentence to ``remarks``."""
 
     def __init__(self) -> None:
         self.remarks: list[str] = []
@@ -71,7 +71,7 @@ class Attempts:
         return self(f"{what} along x", lambda: measure("x")), self(f"{what} along y", lambda: measure("y"))
 
 
-# The functions behind the numbers of a characterisation, each computed once.
+# Functions from which the quantities follow, each computed once.
 
 
 _MODEL_ERROR = 0.1  # of power laws fitted to measured maps, which are not periodic
@@ -154,11 +154,11 @@ def completed(surface: Surface, fill: str | None, attempt: Attempts) -> Surface:
         return surface
     complete = filled(surface, fill)  # type: ignore[arg-type]  # checked by the function
     step = complete.origin.history[-1]
-    attempt.remarks.append(f"For the spectra alone the surface was {step}; all other numbers leave these points out.")
+    attempt.remarks.append(f"Only for the spectra the surface was {step}; all other quantities exclude these points.")
     return complete
 
 
-# The groups of numbers that make up the characterisation of a surface.
+# The groups of quantities.
 
 
 _NAN = math.nan
@@ -237,10 +237,10 @@ class SpectralParameters:
 
 @dataclass(frozen=True)
 class Sampling:
-    """How far the map speaks for the surface, if its heights are Gaussian.
+    """Sampling error of the map, for Gaussian heights.
 
     ``effective_samples`` number of independent heights; ``Sq_error`` relative scatter of Sq from map to map,
-    1/sqrt(2 N_eff); ``tip_cutoff`` length (m) below which the tip may have shaped the map, NaN if no tip was given.
+    1/sqrt(2 N_eff); ``tip_cutoff`` length (m) below which the tip may have distorted the map, NaN if no tip was given.
     """
 
     effective_samples: float
@@ -273,7 +273,7 @@ def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
 
 
 def undefined(kind: type[T], **known: Any) -> T:
-    """Group of the dataclass ``kind`` with NaN for all that is not ``known``."""
+    """Instance of the dataclass ``kind`` with NaN for all fields that are not ``known``."""
     return kind(**{item.name: known.get(item.name, _NAN) for item in fields(kind)})  # type: ignore[arg-type]
 
 
@@ -286,8 +286,9 @@ class Characterisation:
 
     ``heights``, ``spatial``, ``hybrid``, ``functional``: parameters of ISO 25178-2; ``moments``, ``summits``,
     ``peaks_x``, ``peaks_y``, ``fractal_x``, ``fractal_y``, ``spectrum``: statistics for contact theories; ``sampling``:
-    how sure they are; ``curves`` and ``spectra``: the functions behind them; ``remarks``: what could not be computed or
-    was done first, one sentence each. ``values()`` lists every number with its unit, definition and source.
+    their sampling error; ``curves`` and ``spectra``: the functions from which they follow; ``remarks``: one sentence
+    for each quantity that could not be computed and each assumption. ``values()`` lists every quantity with unit,
+    definition and source.
     """
 
     surface: Surface
@@ -327,28 +328,29 @@ class Characterisation:
         return tuple(sorted({*self._KEYS, *self.surface.citation_keys}))
 
     def values(self) -> tuple[tuple[Quantity, float], ...]:
-        """Every number with what it is, in the order of ``QUANTITIES``."""
+        """Every quantity with its value, in the order of ``QUANTITIES``."""
         return tuple((quantity, float(attrgetter(quantity.name)(self))) for quantity in QUANTITIES)
 
 
 def characterise(
     surface: Surface, *, fill: str | None = "harmonic", window: str = "auto", tip_radius: float | None = None
 ) -> Characterisation:
-    """Measure everything about ``surface``: ISO 25178-2 parameters, spectra, correlation, summits, fractal and more.
+    """All roughness quantities of ``surface``: ISO 25178-2 parameters, spectra, correlation, summits, fractal parameters.
 
-    Nothing is levelled, filtered or cropped: prepare the surface first. Heights count from their mean.
+    Nothing is levelled, filtered or cropped: prepare the surface first. Heights are measured from their mean.
 
     Parameters
     ----------
     surface
         Prepared surface, measured or generated; periodic or not, any pixels.
     fill
-        How missing points are filled for the spectra (see ``filled``), or None to do without spectra. All other
-        quantities leave missing points out, whatever is chosen.
+        Method by which missing points are filled for the spectra (see ``filled``), or None for no spectra. All other
+        quantities exclude missing points.
     window
         Window of the spectra, see ``asperity.roughness.power_spectrum``.
     tip_radius
-        Radius in m of the tip of the scanning probe: waves that it may have shaped are left out of the fitted spectrum.
+        Radius in m of the tip of the scanning probe: waves that it may have distorted are excluded from the fitted
+        spectrum.
 
     Raises
     ------
@@ -364,7 +366,7 @@ def characterise(
     curves = measured_curves(surface, attempt)
     spectra = measured_spectra(complete, window, tip_radius=tip_radius, curves=curves, attempt=attempt)
     if not surface.periodic and (share := tilt_share(surface)) > _TILT:
-        attempt.remarks.append(f"A plane carries {percent(share)} of the mean square height; level the surface first.")
+        attempt.remarks.append(f"A plane contains {percent(share)} of the mean square height; level the surface first.")
     return _summary(surface, curves, spectra, attempt)
 
 
@@ -374,6 +376,7 @@ def _summary(surface: Surface, curves: Curves, spectra: SpectralCurves, attempt:
     fractal = attempt.along_axes(
         "fractal dimension", lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis])
     )
+    samples = math.nan if spectra.power is None else effective_samples(spectra.power)
     core = attempt("core of the material ratio curve", lambda: functional_parameters(curves.material_ratio))
     return Characterisation(
         surface,
@@ -388,7 +391,7 @@ def _summary(surface: Surface, curves: Curves, spectra: SpectralCurves, attempt:
         fractal_x=fractal[0] or undefined(FractalParameters, axis="x"),
         fractal_y=fractal[1] or undefined(FractalParameters, axis="y"),
         spectrum=SpectralParameters() if spectra.fit is None else spectral_parameters(spectra.fit),
-        sampling=_sampling(spectra),
+        sampling=Sampling(samples, 1.0 / math.sqrt(2.0 * samples) if samples > 0.0 else math.nan, spectra.tip_cutoff),
         curves=curves,
         spectra=spectra,
         remarks=tuple(attempt.remarks),
@@ -423,8 +426,3 @@ def _hybrid(surface: Surface, summit_curvature: float, attempt: Attempts) -> Hyb
     return HybridParameters(
         Sdq=math.nan if slope is None else slope, Sdr=math.nan if area is None else area, Ssc=summit_curvature
     )
-
-
-def _sampling(spectra: SpectralCurves) -> Sampling:
-    samples = math.nan if spectra.power is None else effective_samples(spectra.power)
-    return Sampling(samples, 1.0 / math.sqrt(2.0 * samples) if samples > 0.0 else math.nan, spectra.tip_cutoff)

@@ -19,7 +19,7 @@ Indices: TypeAlias = NDArray[np.intp]
 """Positions of points along one axis."""
 
 _SIDES = ((1, 0), (0, 1))
-_DIAGONALS = ((1, 1), (1, -1))  # each direction stands for itself and its opposite
+_DIAGONALS = ((1, 1), (1, -1))  # each direction and its opposite
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class Summits:
         (n,) curvatures -∂²h/∂x², -∂²h/∂y², -∂²h/∂x∂y by central differences in 1/m, the first two positive;
         ``kappa_xy`` is NaN where a diagonal neighbour is missing (4 neighbours only).
     candidates
-        Number of points that have all their neighbours and so could have been summits.
+        Number of points that have all their neighbours.
     candidate_area
         Area of these points in m².
     neighbours
@@ -72,7 +72,7 @@ class Summits:
 
     @property
     def principal_curvatures(self) -> tuple[RealArray, RealArray]:
-        """Largest and smallest curvature of each summit in 1/m; the smallest of a few is not positive."""
+        """Largest and smallest curvature of each summit in 1/m; the smallest may be negative."""
         half = np.hypot(0.5 * (self.kappa_x - self.kappa_y), self.kappa_xy)
         return self.curvature + half, self.curvature - half
 
@@ -112,8 +112,8 @@ def summits(surface: Surface, neighbours: int = 8) -> Summits:
     """Points strictly above all their ``neighbours``, all present and valid; equal heights are never summits.
 
     Borders are excluded unless the surface is periodic. With 8 neighbours the density of a well resolved isotropic
-    surface is 1.01 times the true one, with 4 it is 1.31 times: use 8; 4 serves for comparison with the literature.
-    On a surface rough down to the pixel both, and the curvatures, are properties of the sampling.
+    surface is 1.01 times the true one, with 4 it is 1.31 times: use 8, and 4 for comparison with the literature only.
+    On a surface rough down to the pixel densities and curvatures depend on the sampling interval.
 
     Raises
     ------
@@ -122,7 +122,8 @@ def summits(surface: Surface, neighbours: int = 8) -> Summits:
     """
     if neighbours not in (4, 8):
         raise InputError(f"neighbours of a summit must be 4 or 8, but are {neighbours!r}.")
-    padded = _padded(surface)
+    heights = surface.heights.astype(np.float64, copy=False)
+    padded = np.pad(heights, 1, mode="wrap") if surface.periodic else heights
     highest, candidate = _compared(padded, neighbours)
     i, j = np.nonzero(highest)
     number = int(np.count_nonzero(candidate))
@@ -175,28 +176,19 @@ _NO_SUMMITS = SummitStatistics(
 )
 
 
-def _padded(surface: Surface) -> RealArray:
-    """Heights with a rim of one point where the surface is periodic."""
-    h = surface.heights.astype(np.float64, copy=False)
-    return np.pad(h, 1, mode="wrap") if surface.periodic else h
-
-
 def _compared(h: RealArray, neighbours: int) -> tuple[BoolArray, BoolArray]:
     """For the inner points: whether they exceed all neighbours, and whether they and all neighbours are valid."""
     middle = h[1:-1, 1:-1]
     highest, candidate = ~np.isnan(middle), ~np.isnan(middle)
     complete = bool(candidate.all()) and not np.isnan(h).any()
+    nx, ny = middle.shape
     for dx, dy in _SIDES + (_DIAGONALS if neighbours == 8 else ()):
         for sign in (1, -1):
-            neighbour = _shifted(h, sign * dx, sign * dy)
+            neighbour = h[1 + sign * dx :, 1 + sign * dy :][:nx, :ny]
             highest &= middle > neighbour
             if not complete:
                 candidate &= ~np.isnan(neighbour)
     return highest & candidate, candidate
-
-
-def _shifted(h: RealArray, dx: int, dy: int) -> RealArray:
-    return h[1 + dx : h.shape[0] - 1 + dx, 1 + dy : h.shape[1] - 1 + dy]
 
 
 def _curvatures(
@@ -210,7 +202,7 @@ def _curvatures(
     return kappa_x, kappa_y, kappa_xy
 
 
-# Peaks of the profiles of a surface: the quantities of Whitehouse & Archard (1970).
+# Profile peaks (Whitehouse & Archard 1970).
 
 
 @dataclass(frozen=True)
@@ -219,8 +211,8 @@ class ProfilePeaks:
 
     ``density`` peaks per length and ``zero_crossings`` crossings of the mean plane per length (1/m); ``mean_height``,
     ``height_deviation`` above the mean plane (m); ``mean_curvature``, ``curvature_deviation`` (1/m);
-    ``rho_1``, ``rho_2`` correlation of the heights of neighbouring points and of next neighbours, from which the
-    theory of Whitehouse & Archard predicts all of these for Gaussian heights.
+    ``rho_1``, ``rho_2`` correlation of the heights one and two points apart, from which the theory of Whitehouse &
+    Archard predicts all the others for Gaussian heights.
     """
 
     axis: str

@@ -1,4 +1,4 @@
-"""Spatial parameters of ISO 25178-2: how far the texture stays correlated, in which direction it runs."""
+"""Spatial parameters of ISO 25178-2: autocorrelation lengths and direction of the texture."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ class AngularSpectrum:
 
     @property
     def peak(self) -> float:
-        """Std: direction in rad, [0, π), of the waves that carry most; the lay runs across it. NaN for a flat map."""
+        """Std: direction in rad, [0, π), of the strongest waves; the lay is perpendicular to it. NaN for a flat map."""
         return math.nan if np.isnan(self.density).any() else float(self.angle[int(np.argmax(self.density))])
 
 
 def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> TextureLengths:
-    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first crossings along rays, one a degree.
+    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first crossings along rays, one per degree.
 
     Rays end at half the map; R is interpolated bilinearly.
 
@@ -63,7 +63,9 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     )
     centre = autocovariance.within((half[0], half[1]))
     angles = np.deg2rad(np.arange(180.0))
-    distances = _ray_distances(centre, angles)
+    farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
+    step = min(centre.spacing) / _RAY_STEPS
+    distances = step * np.arange(int(farthest / step) + 2)
     lengths = _crossings(centre, angles, distances, drop)
     found = np.isfinite(lengths)
     if not found.any() or autocovariance.mean_square == 0.0:
@@ -79,9 +81,9 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
 def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
     """Spectrum summed over sectors within the Nyquist circle, from the third mode of a windowed map on.
 
-    Sectors are as wide as it takes to hold two modes at the Nyquist circle, one degree at least; each is the sum over
-    its modes per their number and times its area, so that the square arrangement of modes does not show. The angle of
-    the largest density is Std (ISO 25178-2, 4.3.3); it is sensitive to noise, the axis of the slope tensor is not.
+    Sectors hold at least two modes at the Nyquist circle and span at least one degree; the value of a sector is the
+    mean over its modes, which removes the effect of the square lattice of modes. The angle of the largest density is
+    Std (ISO 25178-2, 4.3.3), which is more sensitive to noise than the axis of the slope tensor.
     """
     qx, qy = spectrum.grid.wavevector()
     q = spectrum.grid.wavenumber()
@@ -98,17 +100,10 @@ def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
     return AngularSpectrum(middle, density / total if total > 0.0 else np.full(count, np.nan))
 
 
-def _ray_distances(centre: Autocovariance, angles: RealArray) -> RealArray:
-    """Distances (m) from 0 along the rays, up to the farthest corner."""
-    reach = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
-    step = min(centre.spacing) / _RAY_STEPS
-    return step * np.arange(int(reach / step) + 2)
-
-
 def _crossings(centre: Autocovariance, angles: RealArray, distances: RealArray, drop: float) -> RealArray:
     """Distance (m) of the first fall to ``drop`` R(0) along each ray, NaN where there is none inside the range.
 
-    Distances are walked in blocks from the origin, so that no more of the map is read than the rays need.
+    Distances are evaluated in blocks from the origin, up to the last crossing.
     """
     lengths = np.full(angles.size, np.nan)
     open_rays = np.arange(angles.size)
@@ -132,12 +127,13 @@ def _bilinear(centre: Autocovariance, x: RealArray, y: RealArray) -> RealArray:
     """R at the lags (x, y) in m by bilinear interpolation, NaN outside the range."""
     k_max, l_max = centre.range
     flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
-    k, moved = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
-    outside = (k > k_max) | (moved < 0.0) | (moved > 2 * l_max)
+    row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
+    outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
     low_k, low_l = (
-        np.clip(np.floor(c).astype(int), 0, top) for c, top in ((k, max(0, k_max - 1)), (moved, max(0, 2 * l_max - 1)))
+        np.clip(np.floor(c).astype(int), 0, top)
+        for c, top in ((row, max(0, k_max - 1)), (column, max(0, 2 * l_max - 1)))
     )
-    part_k, part_l = k - low_k, moved - low_l
+    part_k, part_l = row - low_k, column - low_l
     next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
     v = centre.values
     lower = v[low_k, low_l] * (1.0 - part_l) + v[low_k, next_l] * part_l

@@ -1,4 +1,4 @@
-"""Parts of a surface, other grids, and edges that join periodically."""
+"""Cropping, slicing, resampling, and making a surface periodic."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ...core.values import Length, LengthRange, Number, Points
 from ..surface import Surface
 from .level import recorded, require_complete
 
-# Cropping to a rectangle.
+# Cropping.
 
 
 @checked
@@ -30,7 +30,7 @@ def cropped(
     """Part of the surface between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from its corner, rounded to whole pixels.
 
     An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result is x1 - x0 to
-    within one pixel. A cropped periodic surface is no longer periodic and needs new levelling.
+    within one pixel. A cropped periodic surface is not periodic; level it again.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def _pixels(surface: Surface, limits: tuple[float, float] | None, axis: int) -> 
     return first, last
 
 
-# One line of a map as a surface of one row, for contacts in plane strain.
+# One line of a map, for contacts in plane strain.
 
 
 Position: TypeAlias = float | Literal["middle"]
@@ -92,7 +92,7 @@ def sliced(
     ] = None,
     length: Annotated[Length, "length along y that forces and areas belong to"] = 1.0,
 ) -> Surface:
-    """The line of ``surface`` at ``y``, or that at ``x`` turned into the x direction, as a surface (n, 1).
+    """One line of ``surface``, at ``y`` or at ``x``, as a surface (n, 1) along x.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def sliced(
         raise InputError(f"line of a map must be given by exactly one of x and y, but is given by x={x!r}, y={y!r}.")
     axis = 0 if y is None else 1
     position = x if y is None else y
-    number = _index(surface, position, axis)
+    number = _line_number(surface, position, axis)
     heights = np.take(surface.heights, number, axis=axis)[:, None]
     at = show((number + 0.5) * surface.grid.spacing[axis], "m")
     step = f"sliced: line at {'xy'[axis]} = {at} ({heights.size} points)"
@@ -116,7 +116,7 @@ def sliced(
     )
 
 
-def _index(surface: Surface, position: Position | None, axis: int) -> int:
+def _line_number(surface: Surface, position: Position | None, axis: int) -> int:
     count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
     if position == "middle":
         return count // 2
@@ -128,7 +128,7 @@ def _index(surface: Surface, position: Position | None, axis: int) -> int:
     return min(int(place / spacing), count - 1)
 
 
-# Change of the number of points at constant physical size.
+# Resampling at constant physical size.
 
 
 @checked
@@ -138,7 +138,7 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     A periodic surface is resampled in Fourier space: zeros are added, or short waves removed (node 0 stays in place,
     the Nyquist lines of even sizes are split in halves). Any other surface is interpolated by a bicubic spline along
     an axis that becomes finer and averaged over pixel areas along an axis that becomes coarser (pixel areas stay in
-    place). Removing short waves and averaging both lower the rms height; neither folds short waves back.
+    place). Removing short waves and averaging both reduce the rms height; neither aliases.
 
     Raises
     ------
@@ -239,7 +239,7 @@ def _interpolated(heights: RealArray, new: int) -> RealArray:
     return interpolated
 
 
-# Making a measured surface periodic: by a taper at the borders or by removal of its smooth component.
+# Periodic surfaces by a taper at the borders or by removal of the smooth component.
 
 
 @checked
@@ -249,7 +249,7 @@ def tapered(
         float, Number(above=0.0, most=0.5), "width of the tapered strip at each border as a fraction of the side"
     ] = 0.1,
 ) -> Surface:
-    """Periodic surface whose heights fall to their mean along the borders by a cosine (Tukey) taper.
+    """Periodic surface whose heights are tapered to their mean at the borders (cosine or Tukey taper).
 
     Raises
     ------
@@ -266,12 +266,11 @@ def tapered(
 
 
 def periodised(surface: Surface) -> Surface:
-    """Periodic surface: the surface less the smooth component that carries the jumps between opposite borders.
+    """Periodic surface: the surface less the smooth component that contains the jumps between opposite borders.
 
     The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the map and holds
-    the jumps at its borders, so the discrete Laplacian (curvature) of all interior points and the mean height are
-    kept. A periodic surface is returned as it is. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx²
-    and 1/dy².
+    the jumps at its borders, so that the discrete Laplacian of all interior points and the mean height are preserved. A
+    periodic surface is returned unchanged. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx² and 1/dy².
 
     Raises
     ------

@@ -20,11 +20,11 @@ _METHODS = {"harmonic": "harmonic interpolation", "mean": "the mean height", "ne
 
 @checked
 def filled(surface: Surface, method: Annotated[FillMethod, "how missing points are filled"] = "harmonic") -> Surface:
-    """Surface without missing points; valid points are untouched and the history states how many were filled.
+    """Surface without missing points; valid points are unchanged and the history records how many were filled.
 
     ``harmonic`` solves ∇²h = 0 in every hole with the heights on its rim (zero normal slope at the border of the
     map), ``nearest`` takes the closest valid height and ``mean`` the mean of the valid heights. Fills are smooth:
-    they lower mean square slopes and curvatures near the holes.
+    they reduce mean square slopes and curvatures near the holes.
 
     Raises
     ------

@@ -20,16 +20,15 @@ from ..characterise.correlation import scale_dependence, tip_cutoff
 from ..surface import Surface
 from .level import recorded, require_complete
 
-# Local regression with a Gaussian window: the smoothing behind the areal filters of ISO 16610-61 and -71.
-#
-# At every node a polynomial of order 0, 1 or 2 in x and y is fitted to its surroundings with the weights
-# s(x, y) = exp[-π (x/(γ λx))² - π (y/(γ λy))²], and its value there is the smooth surface. γ is such that a wave of the length
-# λ passes by one half: sqrt(ln 2/π) for order 0 and 1, 0.7309 for order 2.
+# Local regression with a Gaussian window (ISO 16610-61 and -71): at every node a polynomial of order 0, 1 or 2 in x and
+# y is fitted with the weights s(x, y) = exp[-π (x/(γ λx))² - π (y/(γ λy))²]; its value there is the smooth surface. γ
+# gives a wave of length λ the transmission one half: sqrt(ln 2/π) for order 0 and 1, 0.7309 for order 2.
 
 
 _FIRST = math.log(2.0)  # transmission e^-t with t = π γ² at the cut-off
 _SECOND = 1.6783469900166605  # (1 + t) e^-t = 1/2, the transmission of order 2 in any number of dimensions
 _RIDGE = 1e-10  # of the trace, where the weights leave a coefficient undetermined
+_NO_WEIGHT = 1e-13  # sum of weights that is no more than rounding: no valid node within reach
 _ROWS = 1 << 15  # nodes whose equations are solved together, to bound the memory
 
 
@@ -39,7 +38,7 @@ def gamma(order: int) -> float:
 
 
 def transmission(ratio: RealArray | float, order: int = 0) -> RealArray:
-    """Amplitude transmission of a wave of the length λ on an endless surface; ``ratio`` λc/λ, both dimensionless."""
+    """Amplitude transmission of a wave of length λ on an infinite surface; ``ratio`` λc/λ, both dimensionless."""
     t = (_SECOND if order == 2 else _FIRST) * np.square(np.asarray(ratio, dtype=float))
     values: RealArray = (1.0 + t) * np.exp(-t) if order == 2 else np.exp(-t)
     return values
@@ -47,9 +46,10 @@ def transmission(ratio: RealArray | float, order: int = 0) -> RealArray:
 
 @dataclass(frozen=True, eq=False)
 class LocalRegression:
-    """The fit prepared for one grid: transfer functions of the moments of the window along x and y.
+    """Local regression on one grid: transfer functions of the moments of the window along x and y.
 
-    ``along_x[a]`` (px, 1) and ``along_y[b]`` (1, py // 2 + 1) of s(u) (u/λ)^a; ``padded`` is the grid itself if it is periodic.
+    ``along_x[a]`` (px, 1) and ``along_y[b]`` (1, py // 2 + 1) of s(u) (u/λ)^a; ``padded`` is the grid itself if it is
+    periodic.
     """
 
     shape: tuple[int, int]
@@ -59,7 +59,7 @@ class LocalRegression:
     along_y: tuple[ComplexArray, ...]
 
     def smooth(self, heights: RealArray, weights: RealArray) -> RealArray:
-        """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 where ``heights`` (m) are to be left out."""
+        """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 to exclude ``heights`` (m)."""
         transform = RealTransform(self.padded, thread_count())
         of_weights = self._transformed(transform, weights)
         of_heights = self._transformed(transform, weights * heights)
@@ -67,7 +67,9 @@ class LocalRegression:
         right = [self._moment(transform, of_heights, *power) for power in powers]
         if len(powers) == 1:
             total = self._moment(transform, of_weights, 0, 0)
-            return _ratio(right[0], total)
+            nothing = np.full(total.shape, np.nan)
+            values: RealArray = np.divide(right[0], total, out=nothing, where=total > _NO_WEIGHT)
+            return values
         sums = {
             (a, b): self._moment(transform, of_weights, a, b)
             for a in range(2 * self.order + 1)
@@ -97,7 +99,7 @@ def local_regression(
     """
     width = gamma(order)
     counts = [math.floor(reach * width / gamma(0) * c / d + 1e-9) for c, d in zip(cutoff, grid.spacing, strict=True)]
-    beyond = (0, 0) if periodic else (counts[0], counts[1])  # zeros after the last node keep the borders apart
+    beyond = (0, 0) if periodic else (counts[0], counts[1])  # zero padding separates opposite borders
     nx, ny = (n if periodic else fast_length(n + k) for n, k in zip(grid.shape, beyond, strict=True))
     padded = (nx, ny)
     windows = [
@@ -111,19 +113,12 @@ def local_regression(
 
 
 def _windows(n: int, count: int, step: float, width: float, highest: int) -> list[RealArray]:
-    """exp(-π (u/γ)²) u^a, a = 0 … ``highest``, at u = k ``step``, |k| <= ``count``, wrapped on ``n`` nodes from node 0 on."""
+    """exp(-π (u/γ)²) u^a, a = 0 … ``highest``, at u = k ``step``, |k| <= ``count``, periodic on ``n`` nodes."""
     offsets = np.arange(-count, count + 1)
     u = offsets * step
     window = np.exp(-np.pi * (u / width) ** 2)
     window /= window.sum()
     return [np.bincount(offsets % n, window * u**a, n).astype(np.float64) for a in range(highest + 1)]
-
-
-def _ratio(right: RealArray, total: RealArray) -> RealArray:
-    """right/total, NaN where no node with a weight is near (total is no more than rounding)."""
-    enough = total > 1e-13
-    values: RealArray = np.divide(right, total, out=np.full(right.shape, np.nan), where=enough)
-    return values
 
 
 def _solved(powers: list[tuple[int, int]], sums: dict[tuple[int, int], RealArray], right: list[RealArray]) -> RealArray:
@@ -134,7 +129,7 @@ def _solved(powers: list[tuple[int, int]], sums: dict[tuple[int, int], RealArray
     total = flat[0, 0]
     for start in range(0, values.size, _ROWS):
         part = slice(start, start + _ROWS)
-        near = total[part] > 1e-13
+        near = total[part] > _NO_WEIGHT
         matrix = np.empty((int(near.sum()), count, count))
         vector = np.empty((matrix.shape[0], count, 1))
         for i, (a, b) in enumerate(powers):
@@ -142,7 +137,7 @@ def _solved(powers: list[tuple[int, int]], sums: dict[tuple[int, int], RealArray
             for j, (c, d) in enumerate(powers):
                 matrix[:, i, j] = flat[a + c, b + d][part][near]
         ridge = _RIDGE * np.trace(matrix, axis1=1, axis2=2)
-        matrix[:, range(1, count), range(1, count)] += ridge[:, None]  # the constant itself is never shrunk
+        matrix[:, range(1, count), range(1, count)] += ridge[:, None]  # not applied to the constant term
         found = np.full(near.size, np.nan)
         found[near] = np.linalg.solve(matrix, vector)[:, 0, 0]
         values[part] = found
@@ -156,10 +151,10 @@ KINDS = ("gaussian", "robust", "sharp")
 """Filters."""
 
 FINEST = 4.0
-"""Shortest cut-off in pixels: at 3 pixels 56 % of the wave would pass instead of half."""
+"""Shortest cut-off in pixels: at 3 pixels the transmission at the cut-off would be 0.56 instead of 0.5."""
 
 _BIWEIGHT = 4.4478  # times the median of |residual|: three standard deviations of normal residuals
-_LEAST_WEIGHT = 1e-6  # of an outlier, so that no neighbourhood is without any weight
+_LEAST_WEIGHT = 1e-6  # of an outlier, so that every neighbourhood has some weight
 _SETTLED = 1e-3  # relative change of the biweight's width at which the robust iteration ends
 _MOST_PASSES = 50
 _ROUNDING = 1e-9
@@ -176,11 +171,11 @@ def filtered(
 ) -> Surface:
     """Surface without waves shorter than ``short`` (S-filter) and longer than ``long`` (L-filter); one or both.
 
-    ``gaussian`` (ISO 16610-61): a wave of the length of the cut-off passes by one half, one of λ by 2^-(short/λ)². Missing
-    points and borders take no part: the weights of the valid nodes in reach are normalised. ``robust`` (ISO 16610-71): nodes
-    far from the smooth surface lose weight, (1 - (r/c)²)² with c = 4.4478 times the median of |r|, until c settles; spikes
-    and deep valleys then leave no halo. ``sharp``: all waves between the cut-offs pass whole and all others are removed, for
-    periodic surfaces only. Missing points stay missing.
+    ``gaussian`` (ISO 16610-61): the transmission is one half at the cut-off and 2^-(short/λ)² at the wavelength λ; at
+    borders and missing points the weights of the valid nodes within reach are normalised. ``robust`` (ISO 16610-71):
+    nodes at the distance r from the smooth surface have the weight (1 - (r/c)²)² with c = 4.4478 times the median of
+    |r|, iterated until c converges; spikes and deep valleys then do not distort their surroundings. ``sharp``: ideal
+    band-pass between the cut-offs, for periodic surfaces only. Missing points stay missing.
 
     Parameters
     ----------
@@ -191,14 +186,15 @@ def filtered(
     kind
         ``gaussian``, ``robust`` or ``sharp``.
     order
-        Of the polynomial fitted around each node: 0 as in ISO 16610-61; 1 keeps tilts and 2 curved forms up to the borders.
+        Order of the local polynomial: 0 as in ISO 16610-61; 1 preserves planes and 2 quadratic forms up to the borders.
     reach
         Half width of the window in cut-offs; 1 is exact to 2e-7, 0.5 to 1 %.
 
     Raises
     ------
     InputError
-        If no cut-off is given, one is out of range, they are out of order, or a sharp filter is asked for where it cannot be.
+        If no cut-off is given, one is out of range, they are out of order, or a sharp filter is applied to a surface
+        that is not periodic or not complete.
     """
     require.one_of(kind, KINDS, "kind of filter")
     if order not in (0, 1, 2):
@@ -272,11 +268,11 @@ def _robust(heights: RealArray, surface: Surface, fit: LocalRegression) -> RealA
 
 
 def _sharp(surface: Surface, cutoffs: dict[str, tuple[float, float]]) -> RealArray:
-    """Heights of the waves between the cut-offs; the mean passes a short cut-off alone."""
+    """Heights of the waves between the cut-offs; a long cut-off also removes the mean."""
     require_complete(surface, "filtered sharply")
     if not surface.periodic:
         raise InputError(
-            "surface must be periodic for a sharp filter, whose waves would run around its borders, but is not. "
+            "surface must be periodic for a sharp filter, which acts across its borders, but is not. "
             "Use the gaussian filter, or periodised() first."
         )
     transform = RealTransform(surface.shape, thread_count())
@@ -293,14 +289,14 @@ def _text(cutoff: tuple[float, float]) -> str:
     return along_x if cutoff[0] == cutoff[1] else f"{along_x} along x and {along_y} along y"
 
 
-# What the tip of an instrument may have shaped is removed.
+# Removal of waves distorted by the tip of an instrument.
 
 
 _KEYS = ("Sanner2022",)
 
 
 def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
-    """Wavelength in m below which a tip of ``tip_radius`` (m) may have shaped the map; 0 if nowhere, infinite if everywhere.
+    """Wavelength in m below which a tip of ``tip_radius`` (m) may have distorted the map; may be 0 or infinite.
 
     The longer of the stencil lengths along x and y at which the sharpest peak has the curvature 1/(2 R) (Sanner et al.
     2022, eq. 10). SurfaceTopography applies the same criterion along x alone.
@@ -318,8 +314,8 @@ def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
 def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]) -> Surface:
     """Surface without the waves that a tip of ``radius`` (m) may have shaped, by a Gaussian filter.
 
-    Where the tip was sharp enough for every peak at every length, or the cut-off lies below four pixels, which a filter does
-    not resolve, the heights stay as they are; the history tells the cut-off in any case.
+    If the tip was sharp enough for every peak at every length, or the cut-off is below four pixels, which a filter does
+    not resolve, the heights are unchanged; the history records the cut-off in any case.
 
     Raises
     ------
@@ -330,15 +326,17 @@ def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]
     if math.isinf(cutoff):
         raise InputError(
             f"radius of the tip must be small enough for the longest waves of the map, but with {radius:g} m the "
-            "map may be shaped by the tip at every length. Check the radius and the units of the heights."
+            "map may be distorted by the tip at every length. Check the radius and the units of the heights."
         )
     tip = f"tip of radius {show(radius, 'm', 3)}"
     if cutoff < FINEST * max(surface.grid.spacing):
         reach = "no wave" if cutoff == 0.0 else f"waves below {show(cutoff, 'm', 3)}, less than four pixels,"
-        return _told(surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed")
-    return _told(filtered(surface, short=cutoff), f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}")
+        return _with_step(surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed")
+    return _with_step(
+        filtered(surface, short=cutoff), f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}"
+    )
 
 
-def _told(surface: Surface, step: str) -> Surface:
+def _with_step(surface: Surface, step: str) -> Surface:
     origin = surface.origin.continued(step, _KEYS)
     return Surface(surface.heights, surface.dx, surface.dy, periodic=surface.periodic, origin=origin)

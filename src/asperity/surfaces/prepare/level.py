@@ -1,4 +1,4 @@
-"""Level a surface, take out spikes and offsets of scan lines."""
+"""Levelling, removal of spikes and of offsets between scan lines."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ...core.values import Axis, Positive, Whole
 from ..characterise.heights import rms_height
 from ..surface import Surface
 
-# What preparation steps share: complete maps in, the change of the rms height in the record.
+# Used by all preparation steps.
 
 
 def require_complete(surface: Surface, word: str) -> None:
-    """Refuse a surface with missing points; ``word`` says what it was to be, such as ``"tapered"``.
+    """Raise an error for missing points; ``word`` is the participle of the step, such as ``"tapered"``.
 
     Raises
     ------
@@ -36,42 +36,43 @@ def require_complete(surface: Surface, word: str) -> None:
 def recorded(
     surface: Surface, heights: RealArray, step: str, *, periodic: bool, citation_keys: tuple[str, ...] = ()
 ) -> Surface:
-    """``surface`` with other ``heights`` (nx, ny) in m; the history tells ``step`` and both rms heights."""
+    """``surface`` with other ``heights`` (nx, ny) in m; the history records ``step`` and both rms heights."""
     after = Surface(heights, surface.dx, surface.dy, periodic=periodic)
     change = f"{step} (rms {show(rms_height(surface), 'm', 3)} -> {show(rms_height(after), 'm', 3)})"
     origin = surface.origin.continued(change, citation_keys)
     return Surface(after.heights, surface.dx, surface.dy, periodic=periodic, origin=origin)
 
 
-# Removal of mean, tilt, curvature or any polynomial by least squares.
+# Levelling.
 
 
 _DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 HIGHEST_DEGREE = 20
-"""Of a polynomial form: 231 coefficients."""
+"""Highest degree of a polynomial form: 231 coefficients."""
 
-_ROBUST_WIDTH = 3.0 * 1.482602218505602  # three standard deviations of a normal distribution in units of its MAD
+_NORMAL = 1.482602218505602  # standard deviation of a normal distribution over its median absolute deviation
+_ROBUST_WIDTH = 3.0 * _NORMAL
 _ROBUST_PASSES = 50
-_BLOCK = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
+_FACTORISED_TOGETHER = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
 
 
 def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = False) -> Surface:
     """Surface less its least-squares ``form`` over the valid points.
 
-    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2 (``quadratic``) or of any
-    whole number up to 20, found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling is a
-    high-pass filter: it lowers the rms height of a surface with waves as long as the map, the more the higher the degree.
-    A periodic surface stays periodic only without its mean: a plane less, it no longer meets itself at its borders.
+    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2 (``quadratic``) or
+    of any whole number up to 20, found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling
+    is a high-pass filter: it reduces the rms height of a surface with waves as long as the map, the more the higher the
+    degree. A periodic surface stays periodic only if no more than the mean is removed.
 
     Parameters
     ----------
     surface
-        Surface; missing points take no part.
+        Surface; missing points have no weight.
     form
         ``mean``, ``plane``, ``quadratic`` or the total degree.
     robust
-        Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until they no
-        longer change: for surfaces whose peaks or pits would tilt the plane.
+        Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until the
+        excluded points no longer change: for surfaces whose peaks or pits would tilt the plane.
 
     Raises
     ------
@@ -108,11 +109,14 @@ def _degree(form: str | int) -> tuple[int, str]:
 
 def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealArray:
     """Polynomial at all nodes, shape (nx, ny), m, by least squares over those ``used``."""
-    along_x, along_y = (_legendre(n, degree) for n in surface.shape)
+    along_x, along_y = (  # Legendre polynomials at equally spaced points on [-1, 1], (n, degree + 1)
+        np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1), degree)
+        for n in surface.shape
+    )
     powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
     offset = float(np.nanmean(surface.heights))
     triangle: RealArray = np.zeros((0, len(powers) + 1))
-    rows = max(1, _BLOCK // surface.shape[1])
+    rows = max(1, _FACTORISED_TOGETHER // surface.shape[1])
     for start in range(0, surface.shape[0], rows):
         part = slice(start, start + rows)
         valid = used[part]
@@ -137,17 +141,10 @@ def _solved(triangle: RealArray, unknowns: int, form: str) -> RealArray:
     return solution
 
 
-def _legendre(count: int, degree: int) -> RealArray:
-    """Legendre polynomials 0 … degree at ``count`` equally spaced points on [-1, 1], shape (count, degree + 1)."""
-    points = np.linspace(-1.0, 1.0, count) if count > 1 else np.zeros(1)
-    return np.polynomial.legendre.legvander(points, degree)
+# Spikes and scan lines.
 
 
-# Spikes of an instrument are masked; offsets between its scan lines are removed.
-
-
-_NORMAL = 1.482602218505602  # standard deviation of a normal distribution over its median absolute deviation
-_BLOCK_OUTLIERS = 1 << 18  # nodes whose windows are sorted together, to bound the memory
+_SORTED_TOGETHER = 1 << 18  # heights, to bound the memory
 
 
 @checked
@@ -159,8 +156,8 @@ def despiked(
 ) -> Surface:
     """Surface whose spikes are missing points: nodes far from the median of their ``window`` x ``window`` neighbourhood.
 
-    Far is more than ``threshold`` standard deviations of these distances, estimated from their median (1.4826 MAD), which
-    spikes do not move. Fill the points afterwards, or leave them out. Heights are never clipped.
+    The limit is ``threshold`` standard deviations of these distances, estimated robustly from their median (1.4826
+    MAD). Fill the points afterwards, or leave them missing. Heights are never clipped.
 
     Raises
     ------
@@ -186,8 +183,8 @@ def line_corrected(
 ) -> Surface:
     """Surface without the offsets between scan lines: the lines run along the fast ``axis`` of the instrument.
 
-    From each line the median of its differences to the line before is removed, summed up from the first line on. All that
-    varies across the lines alone goes with the offsets; spectra and slopes along the lines are not touched.
+    The offset of a line is the cumulative sum of the medians of the differences between successive lines. Height
+    variations only across the lines are removed as well; spectra and slopes along the lines are unchanged.
 
     Raises
     ------
@@ -196,18 +193,13 @@ def line_corrected(
     """
     lines = surface.heights.astype(np.float64)
     lines = lines if axis == "x" else lines.T  # lines[:, j] is one scan line
-    steps = np.array([_median(lines[:, j] - lines[:, j - 1]) for j in range(1, lines.shape[1])])
+    differences = [line[~np.isnan(line)] for line in np.diff(lines, axis=1).T]
+    steps = [float(np.median(numbers)) if numbers.size else 0.0 for numbers in differences]
     offsets = np.concatenate([[0.0], np.cumsum(steps)])
     offsets -= offsets.mean()
     corrected = lines - offsets[None, :]
     text = f"line-corrected: offsets between lines along {axis} (rms {show(float(offsets.std()), 'm', 3)}) removed"
     return recorded(surface, corrected if axis == "x" else corrected.T, text, periodic=surface.periodic)
-
-
-def _median(values: RealArray) -> float:
-    """Median of the numbers among ``values``, 0 if there are none."""
-    numbers = values[~np.isnan(values)]
-    return float(np.median(numbers)) if numbers.size else 0.0
 
 
 def _local_median(surface: Surface, window: int) -> RealArray:
@@ -217,7 +209,7 @@ def _local_median(surface: Surface, window: int) -> RealArray:
     mode = {"mode": "wrap"} if surface.periodic else {"mode": "constant", "constant_values": np.nan}
     padded = np.pad(heights, half, **mode)
     median = np.empty(heights.shape)
-    rows = max(1, _BLOCK_OUTLIERS // (window**2 * heights.shape[1]))
+    rows = max(1, _SORTED_TOGETHER // (window**2 * heights.shape[1]))
     for start in range(0, heights.shape[0], rows):
         end = min(start + rows, heights.shape[0])
         block = np.lib.stride_tricks.sliding_window_view(padded[start : end + 2 * half], (window, window))
