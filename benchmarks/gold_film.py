@@ -15,7 +15,7 @@ import numpy as np
 from peers import installed, make
 
 import asperity as asp
-from asperity.io.documents import checked
+from asperity.run.document import checked
 from asperity.run.build import Case, build
 
 STUDY = Path(__file__).parents[1] / "examples" / "campaigns" / "gold_film_area.toml"

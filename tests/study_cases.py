@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from asperity.io.study_documents import study_from_table
+from asperity.studies.documents import study_from_table
 from asperity.studies.executors import Task, call
 from asperity.studies.plan import Plan, make_plan
 

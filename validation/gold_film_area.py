@@ -21,7 +21,7 @@ from page import Claim, Page, Table, write_page
 
 import asperity as asp
 from asperity import roughness
-from asperity.io.documents import checked
+from asperity.run.document import checked
 from asperity.run.build import build
 from asperity.theories import Persson
 

@@ -50,6 +50,7 @@ LIMITS: dict[str, dict[str, str]] = {
 
 CACHES: dict[str, str] = {
     "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made asks for it",
+    "asperity.run.document.document_model": "follows from the parts, which do not change; building it takes 20 ms, and every case of a study is checked by it",
     "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document asks for its parts",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign asks 10⁵ times",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",

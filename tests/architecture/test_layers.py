@@ -102,7 +102,7 @@ def test_upward_and_sideways_imports_are_found() -> None:
         ("asperity.run.executor", "from ..report import page"),
         ("asperity.report.page", "from ..studies import sweep"),
         ("asperity.studies.sweep", "from ..cli import main"),
-        ("asperity.io.documents", "from ..report import html"),
+        ("asperity.run.document", "from ..report import html"),
         ("asperity.web.app", "from ..cli import main"),
         ("asperity.data", "from ..core import grid"),
     ]

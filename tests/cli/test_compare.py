@@ -12,7 +12,7 @@ import pytest
 from cli.conftest import BODY, SCALE, Runner
 
 import asperity as asp
-from asperity.io.documents import load_document
+from asperity.run.document import load_document
 
 FILES = {"report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml"}
 

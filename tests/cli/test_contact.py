@@ -10,8 +10,8 @@ import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
 
 import asperity as asp
-from asperity.io.documents import load_document
 from asperity.io.results import load
+from asperity.run.document import load_document
 
 
 def test_prints_problem_result_and_status(run: Runner, matrix: Path) -> None:

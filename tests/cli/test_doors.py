@@ -13,7 +13,7 @@ from cli.conftest import Runner
 from study_cases import PROBLEM, InProcess
 
 import asperity as asp
-from asperity.io.documents import checked, save_document
+from asperity.run.document import checked, save_document
 from asperity.studies.quantities import computed
 
 FLAT = {key: value for key, value in PROBLEM.items() if key not in ("body", "control")}

@@ -9,7 +9,7 @@ import numpy as np
 from cli.conftest import SCALE, Runner
 
 import asperity as asp
-from asperity.io.documents import load_document
+from asperity.run.document import load_document
 
 COATED = ("--body", "E=100GPa,nu=0.3,H=9GPa:2nm/E=100GPa,nu=0.3,H=0.1GPa")
 PATH = ("--path", "30MPa,0,40MPa,0", "--path-steps", "3")

@@ -10,8 +10,8 @@ from cli.conftest import BODY, LOAD, SCALE, Runner
 
 from asperity import InputError
 from asperity.cli.preparing import PreparationOptions, step_names, steps
-from asperity.io.documents import load_document
 from asperity.io.results import load
+from asperity.run.document import load_document
 
 
 def kinds(**options: object) -> list[str]:

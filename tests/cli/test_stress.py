@@ -10,8 +10,8 @@ import pytest
 from cli.conftest import LOAD, SCALE, Runner
 
 import asperity as asp
-from asperity.io.documents import load_document
 from asperity.io.results import load, open_tree
+from asperity.run.document import load_document
 
 COATED = ("--body", "E=200GPa,nu=0.25,H=20GPa,name=film:100nm/E=100GPa,nu=0.3,Y=1GPa,name=base")
 
@@ -139,9 +139,8 @@ def test_options_over_a_document(run: Runner, matrix: Path, tmp_path: Path) -> N
     assert first.exit_code == 0, first.stderr
     second = run("contact", "--from", document, "--friction", 0.1, "--stress-in", "body", "--save-document", changed)
     assert second.exit_code == 0, second.stderr
-    stress = load_document(changed).stress
-    assert stress is not None
-    assert (stress.friction, stress.depths) == (0.1, (5e-9,))
+    asked = load_document(changed)
+    assert (asked.friction.coefficient, asked.stress.depths) == (0.1, (5e-9,))
 
 
 def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
@@ -155,15 +154,15 @@ def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        (("--friction", "-0.1"), "--friction must be at least zero, but is -0.1"),
+        (("--friction", "-0.1"), "--friction must be at least zero, but is '-0.1'"),
         (("--direction", "90"), "--direction must have a unit"),
         (("--depths", "1nm,5"), "part 2 of --depths must have a unit"),
         (("--depths", "1nm,"), "part 2 of --depths must be a number with a unit"),
         (("--section", "middle"), '--section must be a position such as "y=max"'),
         (("--section", "x=max,y=max"), "--section must give exactly one of x and y"),
-        (("--section", "y=5"), "y of --section must have a unit"),
+        (("--section", "y=5"), "y of part 1 of --section must have a unit"),
         (("--section", "y=99um"), "y of a stress section must be at most the length 6 µm"),
-        (("--profile", "x=1kg"), "x of --profile must be a length"),
+        (("--profile", "x=1kg"), "x of part 1 of --profile must be a length"),
         (("--deepest", "0nm"), "--deepest must be greater than zero"),
         (("--criterion", "hope"), "--criterion must be 'von_mises' or 'tresca'"),
         (("--tensile-strength", "1"), "--tensile-strength must have a unit"),

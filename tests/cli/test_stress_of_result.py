@@ -9,9 +9,9 @@ import pytest
 from cli.conftest import Runner
 
 import asperity as asp
-from asperity.io.documents import checked, dumps, load_document
 from asperity.io.results import document_in, load, open_tree, save
 from asperity.run.build import build
+from asperity.run.document import checked, dumps, load_document
 
 COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=base"
 
@@ -60,9 +60,7 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
     html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")
     assert "Largest stresses inside each layer" in html
     assert "film" in later.stdout
-    stress = load_document(document).stress
-    assert stress is not None
-    assert stress.friction == 0.3
+    assert load_document(document).friction.coefficient == 0.3
 
 
 def test_the_document_in_the_result_says_what_options_do_not(run: Runner, plain: Path, tmp_path: Path) -> None:

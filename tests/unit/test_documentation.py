@@ -14,10 +14,10 @@ from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
-from asperity.io.build_film import build_film
-from asperity.io.build_stress import build_stress
-from asperity.io.documents import load_document, loads
-from asperity.io.study_documents import study_from_table
+from asperity.parts.menisci import Menisci
+from asperity.parts.stress import Stress
+from asperity.run.document import load_document, loads
+from asperity.studies.documents import study_from_table
 from asperity.studies.plan import make_plan
 
 ROOT = Path(__file__).parents[2]
@@ -204,19 +204,26 @@ def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     page = (ROOT / "docs/how-to/wet-contact.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `(--[a-z-]+) ([^`]+)` \| `([^`]+)` \|", page, re.MULTILINE)
-    assert len(rows) == 9
-    head = 'version = 1\nbody = "DLC"\ncontrol = { force = "1 mN" }\n'
-    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\n[film]\n'
+    assert len(rows) == 10
+    head = 'version = 2\nbody = "DLC"\ncontrol = { force = "1 mN" }\n'
+    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\n'
     base = {"liquid": 'liquid = "PFPE"', "thickness": 'thickness = "1 nm"'}
     for option, value, key in rows:
         more = {**base, "liquid": 'liquid = "water"'} if option == "--humidity" else base
-        (tmp_path / "p.toml").write_text(head + "\n".join(more.values()), encoding="utf-8")
+        (tmp_path / "p.toml").write_text(head + "[film]\n" + "\n".join(more.values()), encoding="utf-8")
         words = ["contact", "--from", "p.toml", option, value, "--save-document", "q.toml", "--force"]
         assert CliRunner().invoke(app, words).exit_code == 0, option
         name = key.split(" = ")[0]
-        wanted = "\n".join([*(line for known, line in more.items() if known != name), key])
-        found = load_document(tmp_path / "q.toml").film
-        assert build_film(found, tmp_path) == build_film(loads(head + wanted).film, tmp_path), option
+        lines = [line for known, line in more.items() if known != name]
+        wanted = head + in_table("film", [*lines, key])
+        found = load_document(tmp_path / "q.toml")
+        assert Menisci().asked(found, tmp_path) == Menisci().asked(loads(wanted), tmp_path), option
+
+
+def in_table(name: str, keys: list[str]) -> str:
+    """Keys of a document, those in full before the table ``name`` with the others."""
+    whole = [key for key in keys if key.startswith("friction.")]
+    return "\n".join([*whole, f"[{name}]", *(key for key in keys if key not in whole)])
 
 
 def commands(path: Path) -> list[str]:
@@ -262,14 +269,14 @@ def test_the_options_of_stresses_and_their_keys_mean_the_same(scan, tmp_path, mo
     page = (ROOT / "docs/how-to/coated-contact.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `(--[a-z-]+[^`]*)` \| `([^`]+)` \|", page, re.MULTILINE)
     assert len(rows) > 8
-    head = 'version = 1\nbody = "DLC:1um/steel"\ncounter_body = "steel"\n'
-    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol = { force = "1 mN" }\n[stress]\n'
+    head = 'version = 2\nbody = "DLC:1um/steel"\ncounter_body = "steel"\n'
+    head += 'surface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol = { force = "1 mN" }\n'
     for option, key in rows:
-        (tmp_path / "p.toml").write_text(head, encoding="utf-8")
+        (tmp_path / "p.toml").write_text(head + "[stress]", encoding="utf-8")
         words = ["contact", "--from", "p.toml", *option.split(maxsplit=1), "--save-document", "q.toml", "--force"]
         assert CliRunner().invoke(app, words).exit_code == 0, option
-        found, wanted = load_document(tmp_path / "q.toml").stress, loads(head + key).stress
-        assert build_stress(found) == build_stress(wanted), option
+        found, wanted = load_document(tmp_path / "q.toml"), loads(head + in_table("stress", [key]))
+        assert Stress().asked(found, tmp_path) == Stress().asked(wanted, tmp_path), option
 
 
 def test_the_problem_document_of_the_guide_is_valid():

@@ -15,8 +15,8 @@ from .preparing import PreparationOptions
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
-    from ..io.documents import ProblemDocument
     from ..run.build import Case
+    from ..run.document import ProblemDocument
     from ..studies.comparison import Comparison
 
 NAMES_IN_FOLDER = ("report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml")
@@ -37,8 +37,8 @@ def compare(
 
     Exit code 0: done; 1: a load did not converge (it is empty and named); 2: input that cannot be used; 130: interrupted.
     """
-    from ..io.documents import checked, relocated
     from ..run.build import build
+    from ..run.document import checked, relocated
     from .perform import output_folder
     from .show import print_files
 
@@ -127,10 +127,10 @@ def _compared(case: Case, pressures: RealArray | None, options: CompareOptions) 
 
 def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> None:
     """Write everything into ``folder``; the load of the document is the highest."""
-    from ..io.documents import save_document
     from ..io.schemas.problem import ControlTable
     from ..plots.comparison import comparison_figures, save_comparison_plots
     from ..report.comparison import write_comparison_report
+    from ..run.document import save_document
     from ..studies.comparison_files import export_comparison_csv, save_comparison
 
     highest = ControlTable.model_validate({"mean_pressure": f"{float(comparison.pressures[-1])!r} Pa"})

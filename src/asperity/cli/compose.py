@@ -57,7 +57,7 @@ def composed(
     """Document without load and solver for the surface in ``file``."""
     if bodies.body is None:
         raise InputError("--body must be given, such as --body DLC; the command `asperity materials` lists the names.")
-    table: dict[str, Any] = {"version": 1, "surface": _surface(file, reading, preparation)}
+    table: dict[str, Any] = {"version": 2, "surface": _surface(file, reading, preparation)}
     if bodies.counter_surface is not None:
         counter = _surface(bodies.counter_surface, reading, preparation)
         table["counter_surface"] = {**counter, "mirror": bodies.mirror or "x", **_place(bodies)}

@@ -7,20 +7,20 @@ from typing import Annotated, Any
 
 import typer
 
+from .asked import part_names, part_options, with_parts
+from .declared import Given, offers
 from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions, SourceOptions
 from .preparing import PreparationOptions
-from .stressing import StressOptions
-from .wetting import FilmOptions
 
 
+@offers(part_options)
 def contact(
     source: SourceOptions,
     reading: ReadingOptions,
     preparation: PreparationOptions,
     bodies: BodyOptions,
     solve: SolveOptions,
-    film: FilmOptions,
-    stress: StressOptions,
+    given: Given,
     output: OutputOptions,
 ) -> None:
     """Press a rough surface against another body: contact area, pressure and gap; menisci and stresses if asked for.
@@ -32,10 +32,8 @@ def contact(
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
     """
-    from ..io.documents import checked
+    from ..run.document import checked
     from .perform import perform
-    from .stressing import stress_names, with_stress
-    from .wetting import film_names, with_film, without_shared_friction
 
     if source.from_ is None:
         table, names = _from_options(source.file, reading, preparation, bodies, solve)
@@ -44,11 +42,9 @@ def contact(
         require_no_surface(source.file, reading, preparation, bodies)
         table, names = table_of_document(source.from_, bodies, solve), {}
         where, base = f"problem document {source.from_}", source.from_.parent
-    if output.plastic_load:
-        table = {"plastic_load": {}, **table}
-    table = with_film(table, film, stress)
-    table = with_stress(table, without_shared_friction(stress, table), wanted=output.wants_stress)
-    document = checked(table, where, names | (stress_names(table) | film_names() if source.from_ is None else {}))
+    asked = (*(output.with_ or ()), *(["plastic_load"] if output.plastic_load else ()))
+    table = with_parts(table, given, (*asked, *(["stress"] if output.wants_stress else ())))
+    document = checked(table, where, names | part_names(given, everything=source.from_ is None))
     raise typer.Exit(perform(document, base, output))
 
 
@@ -61,7 +57,7 @@ def demo(
     """Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."""
     from importlib import resources
 
-    from ..io.documents import loads
+    from ..run.document import loads
     from .perform import perform
     from .show import say
 
@@ -94,7 +90,7 @@ def table_of_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> d
     """The document at ``path`` with what the options replace in it."""
     from dataclasses import replace
 
-    from ..io.documents import read_table
+    from ..run.document import read_table
     from .compose import overlaid
 
     table: dict[str, Any] = read_table(path)

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
+from .declared import Given
+
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """``command`` with every parameter that is a dataclass replaced by one keyword for each field.
@@ -15,7 +17,9 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     A field is annotated and given a default exactly like a parameter of a typer command.
     """
     declared = inspect.signature(command, eval_str=True).parameters
-    groups: dict[str, Any] = {name: p.annotation for name, p in declared.items() if is_dataclass(p.annotation)}
+    groups: dict[str, Any] = {
+        name: p.annotation for name, p in declared.items() if is_dataclass(p.annotation) and p.annotation is not Given
+    }
     shown: list[inspect.Parameter] = []
     for name, parameter in declared.items():
         if name in groups:

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from . import campaigns, compare, contact, generate, info, materials, results, stress, theory
+from .declared import Lazy, late
 from .failures import Reporting
 from .groups import grouped
 
@@ -41,7 +42,11 @@ COMMANDS: tuple[Callable[..., None], ...] = (
 """The commands in the order of the help."""
 
 for _command in COMMANDS:
-    app.command()(grouped(_command))
+    flat = grouped(_command)
+    if "offered" in flat.__dict__:
+        app.command(_command.__name__, cls=Lazy)(late(flat))
+    else:
+        app.command()(flat)
 app.add_typer(generate.app)
 app.add_typer(theory.app)
 

@@ -150,6 +150,12 @@ class OutputOptions:
             OUTPUT,
         ),
     ] = False
+    with_: Annotated[
+        list[str] | None,
+        option(
+            "--with", "Compute this part with its defaults: stress, plastic_load, … May be repeated.", OUTPUT, "PART"
+        ),
+    ] = None
     save_document: Annotated[
         Path | None, option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
     ] = None

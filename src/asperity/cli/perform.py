@@ -11,7 +11,7 @@ from .failures import NOT_CONVERGED, OK
 from .options import OutputOptions
 
 if TYPE_CHECKING:
-    from ..io.documents import ProblemDocument
+    from ..run.document import ProblemDocument
     from ..run.execute import Outcome
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
@@ -27,8 +27,8 @@ STRESS_NAMES = ("stress", "stress.csv")
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
     """Run ``document``, whose relative paths start at ``base_folder``; return the exit code."""
     from ..io.atomic import require_new_files
-    from ..io.documents import relocated
     from ..run.build import build
+    from ..run.document import relocated
     from ..run.execute import execute
     from .progress import stage
     from .show import print_files, print_problem, print_result
@@ -49,10 +49,10 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
 
 def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> None:
     """Write everything into ``folder``, with the ``document`` whose paths start there."""
-    from ..io.documents import dumps, save_document
     from ..io.export import export_csv
     from ..io.results import save
     from ..plots.contact import save_plots
+    from ..run.document import dumps, save_document
 
     result, text = outcome.result, dumps(document)
     save_document(document, folder / "problem.toml")
@@ -115,8 +115,8 @@ def output_folder(out: Path | None, *, force: bool) -> Iterator[Path | None]:
 
 
 def _write_files(outcome: Outcome, document: ProblemDocument, base_folder: Path, output: OutputOptions) -> None:
-    from ..io.documents import relocated, save_document
     from ..io.export import export_csv, export_vtk
+    from ..run.document import relocated, save_document
 
     if output.save_document is not None:
         moved = relocated(document, base_folder, output.save_document.parent)

@@ -67,10 +67,10 @@ def cite(
 ) -> None:
     """Print the papers behind the numbers of a result or a problem."""
     from ..core.citations import cite as references
-    from ..io.build_stress import build_stress
-    from ..io.documents import load_document, loads
     from ..io.results import contact_of, document_in, load
+    from ..parts.stress import Stress
     from ..run.build import build
+    from ..run.document import load_document, loads
     from ..stress.survey import Planned
     from .show import say
 
@@ -78,5 +78,5 @@ def cite(
         say(references(build(load_document(file), file.parent)))
         return
     result, text = load(file), document_in(file)
-    asked = None if text is None else loads(text).stress
-    say(references(result, *(() if asked is None else (Planned(build_stress(asked), contact_of(result).problem),))))
+    asked = None if text is None else Stress().asked(loads(text), file.parent)
+    say(references(result, *(() if asked is None else (Planned(asked, contact_of(result).problem),))))

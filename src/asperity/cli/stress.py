@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from .asked import part_names, part_options, with_parts
+from .declared import Given, offers
 from .options import OUTPUT
 from .panel import options_of
 from .results import Result
-from .stressing import StressOptions, stress_names, with_stress
 
 if TYPE_CHECKING:
-    from ..io.documents import ProblemDocument
+    from ..run.document import ProblemDocument
     from ..run.execute import Outcome
     from ..stress.survey import StressRequest
 
@@ -41,9 +42,10 @@ class StressOutput:
         return [path for path in (self.stress_vtk, self.stress_nc) if path is not None]
 
 
+@offers(lambda: part_options("friction", "stress"))
 def stress(
     file: Result,
-    wanted: StressOptions,
+    given: Given,
     output: StressOutput,
     threads: Annotated[
         int | None, typer.Option("--threads", help="Threads of the transforms; all cores by default.")
@@ -60,9 +62,9 @@ def stress(
     """
     from ..contact.advice import advise, review
     from ..io.atomic import require_new_files
-    from ..io.build_stress import check_stress
-    from ..io.documents import relocated
     from ..io.results import contact_of, document_in, load
+    from ..parts.stress import Stress
+    from ..run.document import relocated
     from ..run.execute import analysed
     from .failures import NOT_CONVERGED, OK
     from .perform import output_folder, write_volume
@@ -71,8 +73,8 @@ def stress(
 
     require_new_files(output.files, overwrite=output.force)
     result, written = contact_of(load(file)), output.files
-    request, document = _asked(document_in(file), wanted)
-    check_stress(request, result.problem)
+    request, document = _asked(document_in(file), given)
+    Stress().check(request, result.problem)
     with output_folder(output.out, force=output.force) as folder:
         asks = {"stress": request, "yielding": True}
         outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)
@@ -87,19 +89,25 @@ def stress(
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 
 
-def _asked(text: str | None, wanted: StressOptions) -> tuple[StressRequest, ProblemDocument | None]:
+def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocument | None]:
     """What is asked for, and the document in the result, whose ``text`` is given, with that in it."""
-    from ..io.build_stress import build_stress
-    from ..io.documents import checked_stress, loads
+    from ..parts.stress import stress_request
+    from ..run.document import checked_parts, loads
 
     document = None if text is None else loads(text)
-    before = None if document is None else document.stress
-    start = {} if before is None else {"stress": before.model_dump(mode="json", exclude_none=True)}
-    table = with_stress(start, wanted, wanted=True)
-    checked = checked_stress(table, "command line", stress_names(table))
-    request = build_stress(checked)
-    _require_same_coupling(request, None if before is None else build_stress(before))
-    return request, None if document is None else document.model_copy(update={"stress": checked})
+    before: Any = None if document is None or getattr(document, "stress") is None else document  # noqa: B009
+    tables = ("friction", "stress")
+    start = (
+        {}
+        if before is None
+        else {name: getattr(before, name).model_dump(mode="json", exclude_none=True) for name in tables}
+    )
+    table = with_parts(start, given, ("stress",))
+    checked = checked_parts(table, "command line", part_names(given, everything=True))
+    request = stress_request(checked.stress, checked.friction)
+    _require_same_coupling(request, None if before is None else stress_request(before.stress, before.friction))
+    asked = {name: getattr(checked, name) for name in tables}
+    return request, None if document is None else document.model_copy(update=asked)
 
 
 def _require_same_coupling(request: StressRequest, before: StressRequest | None) -> None:
@@ -121,8 +129,8 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
 
 def _write_folder(outcome: Outcome, document: ProblemDocument | None, folder: Path) -> list[str]:
     """Write everything into ``folder``; return the names."""
-    from ..io.documents import dumps, save_document
     from ..plots.contact import save_plots
+    from ..run.document import dumps, save_document
     from .perform import STRESS_NAMES, write_parts
 
     names = ["report.html", "plots", *STRESS_NAMES]

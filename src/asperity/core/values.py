@@ -276,7 +276,7 @@ class Choice(Values):
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         """The words."""
-        return {"enum": list(self.words.values())}
+        return {"enum": list(dict.fromkeys(self.words.values()))}
 
 
 @dataclass(frozen=True)

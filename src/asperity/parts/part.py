@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..core.quantity import Quantity
+    from ..core.settings import Settings
     from ..core.status import Advice, Status
     from ..plots.picture import Figure
 
@@ -138,13 +139,16 @@ class Words:
 class Part:
     """Base of all parts, which hold no state.
 
-    A part is asked for by its ``table`` in the document, which several parts may share; without one it is always asked for. It
-    is computed after the solve, in the order of the registry, and reads what the parts before it have found.
+    A part is asked for by its ``table`` in the document, of which one part declares the ``settings`` and others may share them;
+    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. The part is computed after the
+    solve, in the order of the registry, and reads what the parts before it have found.
     """
 
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     table: ClassVar[str] = ""
+    settings: ClassVar[type[Settings] | None] = None
+    in_every_document: ClassVar[bool] = False
     quantities: ClassVar[tuple[Quantity, ...]] = ()
 
     def settings_in(self, document: Any) -> Any:
@@ -167,7 +171,7 @@ class Part:
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Values of the quantities."""
-        raise NotImplementedError
+        return Found()
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Figures for report and folder."""

@@ -7,6 +7,7 @@ import warnings
 from importlib import metadata
 
 from .contact import Contact
+from .friction import Friction
 from .load_path import LoadPath
 from .menisci import Menisci, WetTheory
 from .part import Part
@@ -18,6 +19,7 @@ GROUP = "asperity.parts"
 
 BUILT_IN: tuple[Part, ...] = (
     Contact(),
+    Friction(),
     Menisci(),
     WetTheory(),
     LoadPath(),

@@ -117,7 +117,24 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         if part.name in asks:
             part.check(asks[part.name], problem)
     control, path = build_load(document.control)
-    return Case(document, problem, control, path, build_solver(document.solver, problem), asks)
+    case = Case(document, problem, control, path, build_solver(document.solver, problem), asks)
+    _refuse_together(case)
+    return case
+
+
+def _refuse_together(case: Case) -> None:
+    """Refuse what is not solved together yet."""
+    couplings = case.couplings
+    if case.path and "film" in couplings:
+        raise InputError("control must give one load with a film, not a path: menisci are solved for one load.")
+    if case.path and couplings:
+        raise InputError(
+            "friction.coupled (--coupled) must be left out with a load path: a coupled, sliding contact is solved for one load."
+        )
+    if len(couplings) > 1:
+        raise InputError(
+            "friction.coupled must be false with a film: menisci and coupled friction are not solved together."
+        )
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

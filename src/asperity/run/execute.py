@@ -22,14 +22,14 @@ from ..contact.solvers.active_set.linear_system import normal_stiffness
 from ..contact.state import InterfaceState
 from ..contact.wet import solve_wet
 from ..core.engine import CpuEngine
-from ..core.errors import AsperityError, InputError
+from ..core.errors import AsperityError
 from ..core.status import Advice, Status
-from ..io.documents import ProblemDocument, checked, load_document
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
 from ..plots.picture import Figure
 from .build import Case, build
+from .document import ProblemDocument, checked, load_document
 
 
 @dataclass(frozen=True, eq=False)
@@ -234,10 +234,6 @@ class _Solving:
     def solved(self) -> tuple[Solved, Status]:
         """The contact with its couplings, and how the solve ended."""
         case, couplings = self.case, self.case.couplings
-        if case.path and couplings:
-            raise InputError(
-                "stress.coupled (--coupled) must be left out with a load path: a coupled, sliding contact is solved for one load."
-            )
         path, coupled = None, dict[str, Any]()
         if case.path:
             path, result = self._path()
@@ -316,7 +312,7 @@ class _Solving:
             slid = solve_sliding(
                 case.problem,
                 case.control,
-                asked.friction,
+                asked.coefficient,
                 direction=asked.direction,
                 solver=case.solver if case.chooses_solver else None,
                 progress=progress,

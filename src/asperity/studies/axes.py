@@ -11,8 +11,8 @@ import numpy as np
 
 from ..core import require
 from ..core.errors import InputError
-from ..io.documents import ProblemDocument, checked
 from ..io.schemas.study import AxisTable
+from ..run.document import ProblemDocument, checked
 from .edits import Edit, edited
 from .places import Place, locate, problem_table
 

@@ -13,7 +13,7 @@ from ..core.errors import FileFormatError, OutputError
 if TYPE_CHECKING:
     import xarray
 
-    from ..io.study_documents import LoadedStudy
+    from .documents import LoadedStudy
     from .failures import Cause
     from .plan import Plan
     from .run import RunSummary, Watch
@@ -95,8 +95,8 @@ class Campaign:
 
     def dataset(self) -> xarray.Dataset:
         """Results on the axes of the study, labelled, SI; NaN where a case failed or is missing."""
-        from ..io.study_documents import study_text
         from .collect import dataset
+        from .documents import study_text
 
         return dataset(self.plan, self.records, study=study_text(self.study, self.folder))
 
@@ -156,7 +156,7 @@ def run_study(
 
 def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | None = None) -> Campaign:
     """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``."""
-    from ..io.study_documents import load_study, study_from_table, study_text
+    from .documents import load_study, study_from_table, study_text
 
     if isinstance(study, Mapping):
         loaded, target = study_from_table(study, Path()), Path("study" if folder is None else folder)
@@ -185,7 +185,7 @@ def open_study(folder: str | Path) -> Campaign:
     FileFormatError
         If there is none.
     """
-    from ..io.study_documents import load_study
+    from .documents import load_study
 
     place = Path(folder)
     if place.is_file():

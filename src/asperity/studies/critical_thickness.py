@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from ..io.documents import checked
 from ..io.schemas.study import CriticalThicknessTable
+from ..run.document import checked
 from .axes import Axis, Base, Point, values_of
 from .edits import Change, Edit, edited
 from .places import locate, problem_table

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from ..io.documents import checked
 from ..io.provenance import software
 from ..run.build import Case, build
+from ..run.document import checked
 from ..run.execute import Warm, execute
 from .edits import edited, from_plain
 from .store import Record

@@ -15,10 +15,10 @@ from ..core.arrays import file_digest
 from ..core.errors import InputError
 from ..core.settings import Settings
 from ..core.values import Written, WrittenPair
-from ..io.documents import tidy
 from ..io.quantities import quantity
 from ..io.schemas.problem import CONTROLS, ProblemDocument
 from ..io.schemas.values import NONE
+from ..run.document import RENAMED, tidy
 
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
@@ -89,6 +89,7 @@ def locate(document: ProblemDocument, path: str) -> Place:
     InputError
         If there is none; the message names the nearest ones that there are.
     """
+    path = RENAMED.get(path, path)
     known = {place.path: place for place in scalars(document)}
     if path not in known:
         near = difflib.get_close_matches(path, known, n=3, cutoff=0.5)

@@ -13,10 +13,10 @@ from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
-from ..io.study_documents import LoadedStudy
 from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
+from .documents import LoadedStudy
 from .edits import Edit, edited_content
 from .places import content, problem_table
 from .quantities import computed, measures

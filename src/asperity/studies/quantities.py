@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 from ..core.errors import InputError
 from ..core.quantity import Quantity
-from ..io.documents import ProblemDocument
 from ..parts.registry import parts
+from ..run.document import ProblemDocument
 
 
 def measures() -> dict[str, Quantity]:

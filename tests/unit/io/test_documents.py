@@ -13,7 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from asperity import FileFormatError, InputError, OutputError
-from asperity.io.documents import (
+from asperity.io.schemas.body_text import body_from_text
+from asperity.run.document import (
     ProblemDocument,
     checked,
     dumps,
@@ -23,7 +24,6 @@ from asperity.io.documents import (
     relocated,
     save_document,
 )
-from asperity.io.schemas.body_text import body_from_text
 
 SMALL: Mapping[str, Any] = {
     "version": 1,
@@ -329,7 +329,7 @@ def test_documents_do_not_change() -> None:
     ("tables", "expected"),
     [
         ({"version": None}, "version must be given, but is missing."),
-        ({"version": 2}, "version must be 1, but is 2."),
+        ({"version": 3}, "version must be 2, but is 3."),
         (
             {"control": {"mean_pressure": "50"}},
             "control.mean_pressure must have a unit, such as \"50 kPa\", but is '50'",
@@ -403,13 +403,13 @@ def test_documents_do_not_change() -> None:
         ({"body": "DLC:5/steel"}, "body.layers[1].thickness must have a unit, such as \"5 nm\", but is '5'"),
         ({"body": "DLC/steel"}, "body must give the thickness of every layer, such as DLC:5nm, but layer 1 is 'DLC';"),
         ({"body": 5}, "body must be a table, but is 5."),
-        ({"stress": {"friktion": 0.3}}, "stress.friktion is not a known key; did you mean friction?"),
+        ({"stress": {"friktion": 0.3}}, "stress.friktion is not a known key; did you mean criterion?"),
         (
             {"stress": {"friction": -0.3}},
-            "stress.friction must be at least zero, but is -0.3. Turn the direction by 180 deg",
+            "friction.coefficient must be at least zero, but is -0.3. Turn the direction by 180 deg",
         ),
-        ({"stress": {"friction": "some"}}, "stress.friction must be a number, but is 'some'."),
-        ({"stress": {"direction": "90"}}, "stress.direction must have a unit, such as \"10 deg\", but is '90'"),
+        ({"stress": {"friction": "some"}}, "friction.coefficient must be a number, but is 'some'."),
+        ({"stress": {"direction": "90"}}, "friction.direction must have a unit, such as \"10 deg\", but is '90'"),
         ({"stress": {"depths": ["1 nm", "5"]}}, "stress.depths[2] must have a unit"),
         ({"stress": {"depths": ["-1 nm"]}}, "stress.depths[1] must be at least zero, but is '-1 nm'."),
         ({"stress": {"depths": "1 nm, 2"}}, "stress.depths[2] must have a unit"),
@@ -420,7 +420,10 @@ def test_documents_do_not_change() -> None:
         ({"stress": {"sections": 5}}, "stress.sections must be a list, but is 5."),
         ({"stress": {"profiles": [{"x": "-1 nm"}]}}, "stress.profiles[1].x must be at least zero"),
         ({"stress": {"criterion": "hope"}}, "stress.criterion must be 'von_mises' or 'tresca', but is 'hope'."),
-        ({"stress": {"inside": "middle"}}, "stress.inside must be 'body' or 'counter_body', but is 'middle'."),
+        (
+            {"stress": {"inside": "middle"}},
+            "stress.inside must be one of body, counter_body, counter, but is 'middle'.",
+        ),
         ({"body": {"layers": [COATING]}}, "body.base must be given together with layers"),
         ({"body": {"layers": [], "base": "steel"}}, "body.layers must hold at least one layer, but is empty"),
         (
@@ -522,7 +525,7 @@ def test_relocated_paths_lead_to_the_same_files(tmp_path: Path) -> None:
 
 def test_schema_is_json_and_names_every_table() -> None:
     schema = json.loads(json.dumps(json_schema()))
-    assert set(schema["properties"]) == set(ProblemDocument.model_fields)
+    assert set(schema["properties"]) == {*ProblemDocument.model_fields, "friction", "film", "stress", "plastic_load"}
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]
     assert {"type": "string"} in body["anyOf"], "a body may be one line of text"

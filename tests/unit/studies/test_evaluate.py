@@ -10,10 +10,10 @@ import pytest
 from study_cases import LOADS, PROBLEM, SEEDS, InProcess, plan
 
 import asperity as asp
-from asperity.io.documents import checked
 from asperity.io.schemas.study import StopTable
 from asperity.parts.contact import Contact
 from asperity.run.build import build
+from asperity.run.document import checked
 from asperity.studies.analysis import analysis
 from asperity.studies.collect import dataset, failures, stopped_at
 from asperity.studies.convergence import step_sizes

@@ -9,7 +9,7 @@ from study_cases import PROBLEM
 
 from asperity.core.arrays import content_digest
 from asperity.core.errors import InputError
-from asperity.io.documents import checked
+from asperity.run.document import checked
 from asperity.studies.places import content, locate, problem_table, replaced, scalars
 
 DOCUMENT = checked(PROBLEM)

@@ -11,7 +11,7 @@ from study_cases import LOADS, PROBLEM, SEEDS, plan
 
 from asperity.core.arrays import content_digest
 from asperity.core.errors import InputError
-from asperity.io.documents import checked
+from asperity.run.document import checked
 from asperity.studies.edits import edited
 from asperity.studies.places import content
 
@@ -167,7 +167,7 @@ def test_a_file_has_no_grid_to_refine(tmp_path):
 
 
 def test_a_problem_document_is_no_study():
-    from asperity.io.study_documents import study_from_table
+    from asperity.studies.documents import study_from_table
 
     with pytest.raises(InputError, match="must be a study, but is a problem document"):
         study_from_table(PROBLEM, Path())

@@ -10,8 +10,8 @@ from study_cases import InProcess, plan
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.io.documents import checked
 from asperity.run.build import build
+from asperity.run.document import checked
 from asperity.studies.collect import dataset, failures
 from asperity.studies.places import replaced
 from asperity.studies.run import carry_out

@@ -1,4 +1,4 @@
-"""The whole problem document: two surfaces, two bodies, boundary, law, control, film, stress and solver."""
+"""The core of a problem document: two surfaces, two bodies, boundary, law, control and solver. Parts add their tables to it."""
 
 from __future__ import annotations
 
@@ -10,13 +10,8 @@ from ...core.errors import InputError
 from ...core.settings import Settings
 from ...core.values import Count, Force, Fraction, Length, Pressure
 from .bodies import BodyTable
-from .film import FilmTable
-from .stress import StressTable
 from .surfaces import FileSurface, SurfaceTable
 from .values import Method, PathForce, PathLength, PathPressure, PressureOrBody
-
-VERSION = 1
-"""Version of the document that this package reads and writes."""
 
 LOADS = ("mean_pressure", "force", "approach", "mean_gap")
 """What can be prescribed."""
@@ -114,16 +109,10 @@ class SolverTable(Settings):
     threads: Count | None = None
 
 
-class PlasticLoadTable(Settings):
-    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
-
-    share: Fraction = 0.02
-
-
 class ProblemDocument(Settings):
     """A contact problem with its load and solver, as text."""
 
-    version: Literal[1]
+    version: Literal[2]
     title: str = ""
     surface: SurfaceTable
     counter_surface: SurfaceTable | None = None
@@ -132,9 +121,6 @@ class ProblemDocument(Settings):
     boundary: BoundaryTable = BoundaryTable()
     law: LawTable = HardWallTable(kind="hard_wall")
     control: ControlTable
-    film: FilmTable | None = None
-    stress: StressTable | None = None
-    plastic_load: PlasticLoadTable | None = None
     solver: SolverTable = SolverTable()
 
     @model_validator(mode="after")
@@ -147,12 +133,6 @@ class ProblemDocument(Settings):
             raise InputError(
                 'counter_surface.mirror must be given: "x" or "y" for a map measured facing its own body (how it is '
                 'turned over to meet the other one), "none" for one already in the frame of the other surface.'
-            )
-        if self.film is not None and self.control.path is not None:
-            raise InputError("control must give one load with a film, not a path: menisci are solved for one load.")
-        if self.film is not None and self.stress is not None and self.stress.coupled:
-            raise InputError(
-                "stress.coupled must be false with a film: menisci and coupled friction are not solved together."
             )
         if self.body.rigid and self.counter_body.rigid:
             raise InputError("body and counter_body must not both be rigid: give one of them a material.")

@@ -18,9 +18,6 @@ EFFECTIVE = "effective"
 NONE = "0"
 """Turning point of a load path without load."""
 
-PLACES = ("max", "pressure")
-"""Words for positions: of the largest stress, and of the highest pressure."""
-
 MIDDLE = "middle"
 """Word for a position: of the line in the middle of a map."""
 
@@ -60,7 +57,6 @@ class _LengthUnit(Values):
 Channel: TypeAlias = Annotated[str | int, _Channel()]
 HeightUnit: TypeAlias = Annotated[str, _LengthUnit()]
 Method: TypeAlias = Annotated[str, Choice({name: name for name in SOLVERS})]
-PlaceOfMaximum: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=PLACES)]
 PlaceOnMap: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=(MIDDLE,))]
 PressureOrBody: TypeAlias = Annotated[float | str, Number("pressure", above=0.0, words=(FROM_BODY, EFFECTIVE))]
 PathPressure: TypeAlias = Annotated[float | str, Number("pressure", least=0.0, words=(NONE,))]

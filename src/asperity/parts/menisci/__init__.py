@@ -4,18 +4,68 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pydantic import model_validator
+
 from ...core.errors import InputError
 from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.values import Angle, Humidity, Length, NonEmpty, Pressure, SurfaceTension, Viscosity
 from ..part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
     from ...contact.wet import Friction
     from ...contact.wetting import LiquidFilm
     from ...plots.picture import Figure
+
+
+class FilmSettings(Settings):
+    """A liquid film.
+
+    The liquid is a named one or given by its ``surface_tension``, which else replaces that of the named one. Either the
+    ``humidity`` fixes the height of the menisci, and for water the thickness of the film, or ``thickness`` and
+    ``meniscus_height`` are given, the second being the first by default. One ``contact_angle`` is that on the surface
+    opposite the film. Friction is that of the table [friction].
+    """
+
+    liquid: NonEmpty | None = setting(None, option="--liquid", help="Name: water, PFPE; `asperity liquids` lists all")
+    liquids_file: NonEmpty | None = setting(None, option="--liquids-file", help="Your own liquids, a TOML file")
+    surface_tension: SurfaceTension | None = setting(
+        None, option="--surface-tension", help="Instead of that of the liquid: 25mN/m"
+    )
+    humidity: Humidity | None = setting(
+        None, option="--humidity", help="Relative humidity, for the height of the menisci: 80%"
+    )
+    thickness: Length | None = setting(None, option="--film", help="Thickness; from the humidity by default, for water")
+    meniscus_height: Length | None = setting(
+        None, option="--meniscus-height", help="Gap at the rim of a meniscus; --film by default"
+    )
+    contact_angle: tuple[Angle, ...] = setting(
+        ("0 deg",), option="--contact-angle", help="Opposite the film, or on both surfaces: 10deg; 60deg,60deg"
+    )
+    viscosity: Viscosity | None = setting(None, option="--viscosity", help="For the viscous part of friction: 10mPa*s")
+    shear_strength: Pressure | None = setting(
+        None, option="--shear-strength", help="Of the liquid, at which its viscous stress ends: 10MPa"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> FilmSettings:
+        if len(self.contact_angle) not in (1, 2):
+            raise InputError(
+                f'.contact_angle must be one or two angles, such as "10 deg" or ["60 deg", "60 deg"], but is {len(self.contact_angle)}.'
+            )
+        if self.liquid is None and self.surface_tension is None:
+            raise InputError(' must give a liquid, such as "water", or its surface_tension, but gives neither.')
+        if self.liquid is None and self.humidity is not None:
+            raise InputError(" must name its liquid beside a humidity, which needs the molar volume, but does not.")
+        if self.humidity is None and self.thickness is None:
+            raise InputError(' must give the thickness of the film, such as "2 nm", or a humidity, but gives neither.')
+        if self.humidity is not None and self.meniscus_height is not None:
+            raise InputError(" must not give both a humidity and a meniscus_height: the second follows from the first.")
+        return self
 
 
 @dataclass(frozen=True)
@@ -32,6 +82,7 @@ class Menisci(Part):
     name = "film"
     title = "Liquid film and menisci"
     table = "film"
+    settings = FilmSettings
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -41,12 +92,13 @@ class Menisci(Part):
         return WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted | None:
-        """The film and friction that the table [film] describes."""
+        """The film of the table [film], with the friction of the table [friction]."""
         if document.film is None:
             return None
-        from ...io.build_film import build_film
+        from ...contact.wet import Friction
 
-        return Wetted(*build_film(document.film, folder))
+        speed = document.friction.speed
+        return Wetted(_film(document.film, folder), Friction(document.friction.coefficient, speed or 0.0))
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""
@@ -97,3 +149,32 @@ class WetTheory(Part):
         from .words import theory_words
 
         return theory_words(found.detail, solved.found["film"].detail)
+
+
+def _film(table: FilmSettings, folder: Path) -> LiquidFilm:
+    """Film that ``table`` describes; the path of its liquids file starts at ``folder``.
+
+    Raises
+    ------
+    InputError
+        If the liquid is unknown, does not wet, or lacks a value that is needed.
+    """
+    from ...contact.wetting import LiquidFilm
+    from ...solids.library import Liquid, liquid
+
+    tension = math.nan if table.surface_tension is None else table.surface_tension
+    if table.liquid is None:
+        substance = Liquid(tension)
+    else:
+        substance = liquid(table.liquid, library=None if table.liquids_file is None else folder / table.liquids_file)
+        substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+    angles = table.contact_angle
+    sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
+    if table.humidity is not None:
+        thickness = math.nan if table.thickness is None else table.thickness
+        film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
+    else:
+        height = math.nan if table.meniscus_height is None else table.meniscus_height
+        film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
+    known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
+    return replace(film, **known)

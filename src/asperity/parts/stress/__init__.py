@@ -3,18 +3,119 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
+from pydantic import model_validator
+
+from ...core.errors import InputError
 from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure
 from ..part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
     from ...plots.picture import Figure
-    from ...stress.survey import StressRequest, StressSurvey
+    from ...stress.survey import Place, StressRequest, StressSurvey
+    from ..friction import FrictionSettings
+
+
+PLACES = ("max", "pressure")
+"""Words for positions: of the largest stress, and of the highest pressure."""
+
+PlaceOfMaximum: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=PLACES)]
+
+
+def positions_from_text(text: str) -> dict[str, str]:
+    """Positions in text such as ``"y=max"`` or ``"x=30nm, y=max"``, by axis.
+
+    Raises
+    ------
+    InputError
+        If a part is no position; the message lacks the name of the option or key at its beginning.
+    """
+    found: dict[str, str] = {}
+    for part in text.split(","):
+        axis, equals, position = (piece.strip() for piece in part.partition("="))
+        if axis not in ("x", "y") or not equals or not position or axis in found:
+            raise InputError(f' must be a position such as "y=max", "y=pressure" or "x=30nm", but is {text!r}.')
+        found[axis] = position
+    return found
+
+
+class Placed(Settings):
+    """Positions ``x`` and ``y``, each a length or a word; both together may be text such as ``"y=max"``.
+
+    ``"max"`` is the position of the largest stress, ``"pressure"`` that of the highest pressure.
+    """
+
+    x: PlaceOfMaximum | None = None
+    y: PlaceOfMaximum | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_text(cls, value: Any) -> Any:
+        return positions_from_text(value) if isinstance(value, str) else value
+
+
+class SectionTable(Placed):
+    """Vertical plane through the body: exactly one of ``x`` and ``y``.
+
+    With ``"max"`` each kind of stress is shown on the plane through its own maximum (as by Peng 2001, figs. 3.15 - 3.22).
+    """
+
+    @model_validator(mode="after")
+    def _one(self) -> SectionTable:
+        if (self.x is None) == (self.y is None):
+            given = "none" if self.x is None else "both"
+            raise InputError(f' must give exactly one of x and y, such as "y=max", but gives {given}.')
+        return self
+
+
+class ProfileTable(Placed):
+    """Line into the body; a position that is left out is that of the largest equivalent stress, ``"max"``."""
+
+
+Body = Annotated[str, Choice({"body": "body", "counter_body": "counter_body", "counter": "counter_body"})]
+
+
+class StressSettings(Settings):
+    """Stresses that are computed after the contact; those on the section y = max if nothing else is asked for.
+
+    The shear traction is that of the table [friction], unless ``shear`` is false. ``depths`` are planes, ``sections`` vertical
+    planes and ``profiles`` lines down to the depth ``deepest``. The strengths are compared with the largest tension, and with
+    shear and peel of the interfaces.
+    """
+
+    shear: bool = setting(True, option="--shear", help="Whether the friction loads the body, too")
+    inside: Body = setting("body", option="--stress-in", help="The body whose stresses are computed")
+    depths: tuple[NonNegativeLength, ...] = setting((), option="--depths", help="Whole planes: 1nm,5nm,20nm")
+    sections: tuple[SectionTable, ...] = setting(
+        (),
+        option="--section",
+        help="Vertical plane through each maximum: y=max; x=30nm, y=pressure. May be repeated",
+    )
+    profiles: tuple[ProfileTable, ...] = setting(
+        (), option="--profile", help="Line into the body: x=max,y=max; x=30nm,y=pressure. May be repeated"
+    )
+    deepest: Length | None = setting(
+        None, option="--deepest", help="End of sections and profiles; suits the contact by default"
+    )
+    criterion: Literal["von_mises", "tresca"] = setting("von_mises", option="--criterion", help="Of yield")
+    tensile_strength: Pressure | None = setting(
+        None, option="--tensile-strength", help="To compare the largest tension with"
+    )
+    interface_shear_strength: Pressure | None = setting(
+        None, option="--interface-shear-strength", help="To compare the shear of interfaces with"
+    )
+    interface_peel_strength: Pressure | None = setting(
+        None, option="--interface-peel-strength", help="To compare the peel of interfaces with"
+    )
+    precision: Literal["double", "single"] = setting(
+        "double", option="--stress-precision", help="Arithmetic of the stresses"
+    )
 
 
 class Stress(Part):
@@ -23,6 +124,7 @@ class Stress(Part):
     name = "stress"
     title = "Stresses inside the body"
     table = "stress"
+    settings = StressSettings
     quantities = (
         Quantity("max_von_mises", "Pa", "largest von Mises stress"),
         Quantity("max_tension", "Pa", "largest tension (σ₁)"),
@@ -32,22 +134,20 @@ class Stress(Part):
     )
 
     def asked(self, document: Any, folder: Path) -> StressRequest | None:
-        """What the table [stress] asks for."""
-        if document.stress is None:
-            return None
-        from ...io.build_stress import build_stress
-
-        return build_stress(document.stress)
+        """What the table [stress] asks for, with the friction of the table [friction]."""
+        return None if document.stress is None else stress_request(document.stress, document.friction)
 
     def check(self, ask: StressRequest, problem: ContactProblem) -> None:
-        """Refuse stresses that the problem does not have."""
-        from ...io.build_stress import check_stress
+        """Refuse what the problem has no stress for, in the words of documents and options."""
+        from ...solids.elastic import Rigid
 
-        check_stress(ask, problem)
-
-    def coupling(self, ask: StressRequest) -> Mapping[str, Any]:
-        """Shear traction that changes the pressure, if that is asked for."""
-        return {"sliding": ask} if ask.coupled and ask.friction else {}
+        if isinstance(getattr(problem, ask.of), Rigid):
+            asked, other = ("counter body", "body") if ask.of == "counter_body" else ("body", "counter_body")
+            raise InputError(
+                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body "
+                f'(inside = "{other}" in a document, or --stress-in {other}).'
+            )
+        ask.check(problem)
 
     def compute(self, ask: StressRequest, solved: Solved) -> Found:
         """Largest stresses; the survey with sections and profiles as detail."""
@@ -108,3 +208,36 @@ class Yielding(Part):
 def _largest(survey: StressSurvey, parts: str, peak: str) -> float:
     """Largest value of the ``peak`` in all ``parts`` of the ``survey``; NaN where there are none."""
     return max((getattr(part, peak).value for part in attrgetter(parts)(survey)), default=math.nan)
+
+
+def stress_request(table: StressSettings, friction: FrictionSettings) -> StressRequest:
+    """Stresses that ``table`` asks for; the section through the maximum where it asks for none."""
+    from ...stress.criteria import Tresca, VonMises
+    from ...stress.survey import Strengths, StressRequest, WantedProfile, WantedSection
+
+    given = table.given("sections", "profiles")
+    sections = tuple(
+        WantedSection("y", _place(wanted.y)) if wanted.x is None else WantedSection("x", _place(wanted.x))
+        for wanted in table.sections
+    )
+    profiles = tuple(WantedProfile(_place(wanted.x), _place(wanted.y)) for wanted in table.profiles)
+    strengths = {name: given[f"{name}_strength"] for name in vars(Strengths()) if f"{name}_strength" in given}
+    return StressRequest(
+        friction=friction.coefficient if table.shear else 0.0,
+        direction=friction.direction,
+        coupled=friction.coupled,
+        of="counter_body" if table.inside == "counter_body" else "body",
+        depths=table.depths,
+        sections=sections if sections or profiles or table.depths else StressRequest().sections,
+        profiles=profiles,
+        deepest=table.deepest,
+        criterion=Tresca() if table.criterion == "tresca" else VonMises(),
+        strengths=Strengths(**strengths),
+        dtype="float32" if table.precision == "single" else "float64",
+    )
+
+
+def _place(value: float | str | None) -> Place:
+    if value is None or value == PLACES[0]:
+        return "max"
+    return "pressure" if isinstance(value, str) else float(value)

@@ -1,27 +1,34 @@
 """The problem document: one versioned, schema-checked text that describes a contact problem, its load and its solver.
 
-Every shell (command line, study, web) is a way to fill in this document. Quantities are text with units.
+Every shell (command line, study, web) is a way to fill in this document. Quantities are text with units. Beside the core
+(``io.schemas.problem``) it holds the tables that the parts declare.
 """
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from types import MappingProxyType
+from typing import Any, Optional
 
-from ..core.errors import FileFormatError
+from pydantic import Field, create_model
+
+from ..core.errors import FileFormatError, InputError
 from ..core.settings import Settings, validated
-from .atomic import atomic_file
-from .schemas.problem import ProblemDocument
-from .schemas.stress import StressDocument, StressTable
+from ..io.atomic import atomic_file
+from ..io.schemas.problem import ProblemDocument
+from ..parts.registry import parts
 
 __all__ = [
+    "RENAMED",
     "ProblemDocument",
     "checked",
-    "checked_stress",
+    "checked_parts",
+    "document_model",
     "dumps",
     "json_schema",
     "load_document",
@@ -32,6 +39,37 @@ __all__ = [
     "tidy",
     "validated",
 ]
+
+
+RENAMED = MappingProxyType(
+    {
+        "stress.friction": "friction.coefficient",
+        "stress.direction": "friction.direction",
+        "stress.coupled": "friction.coupled",
+        "film.friction": "friction.coefficient",
+        "film.speed": "friction.speed",
+    }
+)
+"""Keys of version 1, and where version 2 has them."""
+
+
+@functools.cache
+def document_model() -> type[ProblemDocument]:
+    """Model of the document: the core, and the table of every part."""
+    made: Any = create_model("ProblemDocument", __base__=ProblemDocument, __doc__=ProblemDocument.__doc__, **_tables())
+    model: type[ProblemDocument] = made
+    return model
+
+
+def _tables() -> dict[str, Any]:
+    """Type and default of the table of each part that declares settings."""
+    made: dict[str, Any] = {}
+    for part in parts():
+        settings: Any = part.settings
+        if settings is not None:
+            optional = (Optional[settings], None)  # noqa: UP045  (a value here, no annotation)
+            made[part.table] = (settings, Field(default_factory=settings)) if part.in_every_document else optional
+    return made
 
 
 def load_document(path: str | os.PathLike[str]) -> ProblemDocument:
@@ -93,12 +131,43 @@ def checked(
     InputError
         If anything is missing, unknown or out of range; the message has one line for each problem.
     """
-    return validated(ProblemDocument, table, where, names)
+    return validated(document_model(), upgraded(table), where, names)
 
 
-def checked_stress(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> StressTable:
-    """The part ``stress`` of ``table``, which has no other; arguments and errors as for :func:`checked`."""
-    return validated(StressDocument, table, where, names).stress
+def checked_parts(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> Any:
+    """The tables of parts in ``table``, which has no others; arguments and errors as for :func:`checked`."""
+    model: type[Settings] = create_model("Parts", __base__=Settings, **_tables())
+    return validated(model, table, where, names)
+
+
+def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
+    """``table`` of version 1 as version 2, in which friction has a table of its own; any other as it is.
+
+    Raises
+    ------
+    InputError
+        If stresses and film have different coefficients of friction.
+    """
+    new = dict(table)
+    if table.get("version") != 1:
+        return new
+    new["version"] = 2
+    friction: dict[str, Any] = {}
+    before = {name: dict(table[name]) for name in ("film", "stress") if isinstance(table.get(name), Mapping)}
+    given = {name: part.get("friction") or 0 for name, part in before.items()}
+    if len(given) == 2 and given["stress"] and given["film"] and given["stress"] != given["film"]:
+        raise InputError(
+            f"stress.friction must be film.friction, but they are {given['stress']!r} and {given['film']!r}: there is one "
+            "friction in a contact, friction.coefficient of version 2."
+        )
+    if given.get("film") and not given.get("stress", True):
+        before["stress"]["shear"] = False
+    for old, key in RENAMED.items():
+        name, _, own = old.partition(".")
+        if own in before.get(name, {}):
+            value = before[name].pop(own)
+            friction[key.partition(".")[2]] = value or friction.get(key.partition(".")[2], value)
+    return {**new, **before, **({"friction": friction} if friction else {})}
 
 
 def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
@@ -127,7 +196,7 @@ def save_document(document: ProblemDocument, path: str | os.PathLike[str], *, ov
 
 def json_schema() -> dict[str, Any]:
     """JSON schema of the document, for forms and editors."""
-    return ProblemDocument.model_json_schema()
+    return document_model().model_json_schema()
 
 
 def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemDocument:

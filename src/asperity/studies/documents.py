@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
-from .documents import ProblemDocument, checked, load_document, read_table, relocated, tidy, validated
-from .schemas.study import StudyDocument
+from ..io.schemas.study import StudyDocument
+from ..run.document import ProblemDocument, checked, load_document, read_table, relocated, tidy, validated
 
 __all__ = ["LoadedStudy", "StudyDocument", "load_study", "study_from_table", "study_text"]
 

@@ -1,0 +1,147 @@
+"""A part written here shows up at every door with no other change, and so does one that an installed package adds."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from cli.conftest import BODY, LOAD, SCALE, Runner
+from study_cases import PROBLEM, InProcess, plan
+
+import asperity as asp
+from asperity.core.quantity import Quantity
+from asperity.core.settings import Settings, setting
+from asperity.core.values import Pressure
+from asperity.parts import registry
+from asperity.parts.part import Found, Part, Solved, Table, Words
+from asperity.run import document as documents
+from asperity.studies.collect import dataset
+from asperity.studies.run import carry_out
+
+
+class HotSettings(Settings):
+    """Where the pressure is high."""
+
+    level: Pressure = setting("100 MPa", help="Pressure from which a point counts")
+
+
+class Hot(Part):
+    """Share of the contact under a high pressure."""
+
+    name = table = "hot"
+    title = "Hot points"
+    settings = HotSettings
+    quantities = (Quantity("hot_share", "1", "share of the contact under a high pressure"),)
+
+    def compute(self, ask: HotSettings, solved: Solved) -> Found:
+        pressure = solved.result.pressure
+        if ask.level > 1e12:
+            raise ValueError("nothing is that hard")
+        return Found({"hot_share": float((pressure >= ask.level).sum() / max((pressure > 0.0).sum(), 1))})
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        share = found.values["hot_share"]
+        return Words(
+            f"Hot: {share:.3g} of the contact.", tables=(("", Table(("Hot", "Value"), (("a", f"{share:.3g}"),))),)
+        )
+
+
+@pytest.fixture
+def entry(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Sets the entry points that are installed, and forgets what was found before."""
+
+    real = registry.metadata.entry_points
+
+    def installed(**objects: Any) -> None:
+        dist = SimpleNamespace(name="hot-spots", version="1.2")
+        found = [
+            SimpleNamespace(name=k, load=lambda v=v: v, dist=dist, module="cli.test_own_part")
+            for k, v in objects.items()
+        ]
+        monkeypatch.setattr(
+            registry.metadata, "entry_points", lambda group="": found if group == registry.GROUP else real(group=group)
+        )
+        registry.parts.cache_clear()
+        documents.document_model.cache_clear()
+
+    yield installed
+    monkeypatch.undo()
+    registry.parts.cache_clear()
+    documents.document_model.cache_clear()
+
+
+def test_it_shows_up_at_every_door(run: Runner, matrix: Path, tmp_path: Path, entry: Any) -> None:
+    entry(hot=Hot)
+    assert "HotSettings" in documents.json_schema()["$defs"]
+    assert "--hot-level" in run("contact", "--help").stdout
+    done = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200MPa", "--out", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    assert "Hot points" in done.stdout
+    outcome = asp.run(tmp_path / "run" / "problem.toml")
+    assert outcome.case is not None
+    assert outcome.case.asks["hot"].level == 2e8
+    share = outcome.values["hot_share"]
+    assert 0.0 < share < 1.0
+    assert f"Hot: {share:.3g} of the contact." in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    refused = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200nm")
+    assert "--hot-level must be a pressure" in refused.stderr
+
+    made = plan(
+        problem={**PROBLEM, "hot": {}},
+        axes=[{"path": "hot.level", "values": ["1 MPa", "1 GPa", "2 TPa"]}],
+        quantities=["hot_share"],
+    )
+    carry_out(made, tmp_path / "r.log", InProcess())
+    data = dataset(made, tmp_path / "r.log")
+    assert data["hot_share"].attrs["long_name"] == "share of the contact under a high pressure"
+    assert float(data["hot_share"][0]) > float(data["hot_share"][1])
+    assert np.isnan(data["hot_share"][2]), "the part failed, the solve survived"
+
+
+def test_a_part_that_fails_is_a_finding(entry: Any) -> None:
+    entry(hot=Hot())
+    outcome = asp.run({**PROBLEM, "hot": {"level": "2 TPa"}})
+    assert outcome.converged
+    assert "Hot points could not be computed: ValueError: nothing is that hard" in [f.message for f in outcome.findings]
+
+
+def test_parts_that_cannot_be_used_are_left_out(entry: Any) -> None:
+    class Taken(Hot):
+        quantities = (Quantity("approach", "m", "taken"),)
+
+    entry(hot=Hot, other=object(), taken=Taken)
+    with pytest.warns(UserWarning, match="is left out") as told:
+        found = registry.parts()
+    assert [part.name for part in found] == [*(part.name for part in registry.BUILT_IN), "hot"]
+    assert len(told) == 2
+
+
+def test_an_installed_package_adds_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A real entry point, as pip leaves it."""
+    folder = tmp_path / "cold_spots-0.3.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: cold-spots\nVersion: 0.3\n", encoding="utf-8")
+    (folder / "entry_points.txt").write_text("[asperity.parts]\ncold = cold_spots:Cold\n", encoding="utf-8")
+    (tmp_path / "cold_spots.py").write_text(
+        "from asperity.core.quantity import Quantity\n"
+        "from asperity.parts.part import Found, Part\n\n"
+        "class Cold(Part):\n"
+        "    name = title = 'cold'\n"
+        "    quantities = (Quantity('least_pressure', 'Pa', 'least pressure'),)\n\n"
+        "    def compute(self, ask, solved):\n"
+        "        return Found({'least_pressure': float(solved.result.pressure.min())})\n",
+        encoding="utf-8",
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    registry.parts.cache_clear()
+    try:
+        assert asp.run(PROBLEM).values["least_pressure"] == 0.0
+        assert registry.versions() == {"cold-spots": "0.3"}
+        assert plan(axes=[{"path": "surface.seed", "values": [1]}], quantities=["least_pressure"])
+    finally:
+        registry.parts.cache_clear()
+        sys.modules.pop("cold_spots", None)
