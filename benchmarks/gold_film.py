@@ -15,8 +15,8 @@ import numpy as np
 from peers import installed, make
 
 import asperity as asp
-from asperity.run.document import checked
 from asperity.run.build import Case, build
+from asperity.run.document import checked
 
 STUDY = Path(__file__).parents[1] / "examples" / "campaigns" / "gold_film_area.toml"
 PIXEL = 1.5e-6 / 512

@@ -21,8 +21,8 @@ from page import Claim, Page, Table, write_page
 
 import asperity as asp
 from asperity import roughness
-from asperity.run.document import checked
 from asperity.run.build import build
+from asperity.run.document import checked
 from asperity.theories import Persson
 
 STUDY = Path(__file__).parents[1] / "examples" / "campaigns" / "gold_film_area.toml"

@@ -74,8 +74,11 @@ class Outcome:
     @property
     def values(self) -> dict[str, Any]:
         """Every scalar by the name of its quantity, SI."""
-        scalars = {item.name for part in parts() for item in part.quantities if not item.dims}
-        return {name: value for found in self.found.values() for name, value in found.values.items() if name in scalars}
+        made: dict[str, Any] = {}
+        for part in parts():
+            values = self.found[part.name].values if part.name in self.found else {}
+            made |= {item.name: values[item.name] for item in part.quantities if item.name in values and not item.dims}
+        return made
 
     @property
     def sections(self) -> Iterator[tuple[Part, Words]]:
