@@ -93,9 +93,13 @@ def _report(campaign: Campaign) -> int:
 
 
 def _print_causes(campaign: Campaign) -> None:
-    from ..report.study import failure_table
+    from ..report.study import failure_table, finding_table
     from .show import console, table
 
-    causes = failure_table(campaign)
-    if causes.cells:
-        console().print(table("Failures by cause", causes.cells, causes.headings))
+    shown = (
+        ("Failures by cause", failure_table(campaign)),
+        ("Warnings and notes of the cases", finding_table(campaign)),
+    )
+    for heading, found in shown:
+        if found.cells:
+            console().print(table(heading, found.cells, found.headings))

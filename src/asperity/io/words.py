@@ -329,7 +329,10 @@ def summary(result: ContactResult) -> str:
     if result.is_plastic:
         plastic = f"{percent(result.plastic_area_fraction)} of the real contact area is at the hardness"
         return f"The bodies touch on {share}. The contact is plastic: {plastic}."
-    return f"The bodies touch on {share}. The contact is elastic.{dents}"
+    limited = not np.isinf(result.problem.law.pressure_cap()).all()
+    verdict = "At most 2 % of it is at the hardness" if result.plastic.any() else "No point is at the hardness"
+    verdict = verdict if limited else "No hardness limits the pressure"
+    return f"The bodies touch on {share}. {verdict}.{dents}"
 
 
 def problem_rows(problem: ContactProblem) -> Rows:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -30,6 +30,7 @@ from ..plots.campaign import (
 )
 from ..plots.picture import CURVE_SIZE, png, save_pictures
 from ..studies.campaign import Campaign, CampaignState
+from ..studies.failures import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
 from .page import rendered
 
@@ -324,14 +325,23 @@ def case_table(campaign: Campaign, data: xarray.Dataset) -> StudyTable:
 
 def failure_table(campaign: Campaign) -> StudyTable:
     """Causes of failures with their number and first case."""
+    return _cause_table(campaign.causes(), "Cause")
+
+
+def finding_table(campaign: Campaign) -> StudyTable:
+    """Warnings and notes of the cases with their number and first case."""
+    return _cause_table(campaign.findings(), "Warning or note")
+
+
+def _cause_table(causes: Iterable[Cause], heading: str) -> StudyTable:
     cells = []
-    for cause in campaign.causes():
+    for cause in causes:
         at = ", ".join(
             f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
             for name, value in cause.first.at.items()
         )
         cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", at))
-    return StudyTable(("Cases", "Cause", "First at"), tuple(cells))
+    return StudyTable(("Cases", heading, "First at"), tuple(cells))
 
 
 def _text(value: float | str, unit: str, *, share: bool = False) -> str:
@@ -388,6 +398,7 @@ def _html(campaign: Campaign, figures: Sequence[StudyFigure] | None) -> str:
         cases=case_table(campaign, data),
         n_cases=int(data["outcome"].size),
         failures=failure_table(campaign),
+        findings=finding_table(campaign),
         figures=[
             {"title": f.title, "caption": f.caption, "picture": base64.b64encode(f.picture).decode("ascii")}
             for f in drawn

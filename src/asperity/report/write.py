@@ -82,7 +82,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
         title=title or _title(result),
         status=outcome.status,
         result=result,
-        summary=summary(result),
+        summary=" ".join([summary(result), *(words.sentence for _, words in outcome.sections if words.alarming)]),
         headline=headline_rows(result),
         inputs=_inputs(result),
         certificate=certificate_rows(result),

@@ -106,6 +106,13 @@ class Campaign:
 
         return analysis(self.dataset(), self.study.document)
 
+    def findings(self) -> tuple[Cause, ...]:
+        """Warnings and notes of the cases, counted by their criterion; each with its first case."""
+        from .collect import findings
+        from .failures import causes
+
+        return causes(findings(self.plan, self.records), by_kind=True)
+
     def causes(self) -> tuple[Cause, ...]:
         """Failed cases grouped by cause."""
         from .collect import failures

@@ -14,6 +14,7 @@ import numpy as np
 from ..contact.certificate import Certificate
 from ..io.provenance import software
 from ..io.words import CERTIFICATE
+from ..parts.registry import versions
 from .axes import Axis
 from .evaluate import CHECKS
 from .failures import Failure
@@ -116,7 +117,7 @@ def _attributes(plan: Plan, citation_keys: list[str], study: str) -> dict[str, s
         "title": plan.document.title,
         "kind": plan.document.kind,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "software": json.dumps(software()),
+        "software": json.dumps(software() | versions()),
         "citation_keys": " ".join(citation_keys),
         "study": study,
     }
@@ -146,6 +147,16 @@ def failures(plan: Plan, path: Path) -> list[Failure]:
             index = tuple(int(number) for number in np.unravel_index(place, plan.shape))
             found[place] = Failure(plan.coordinates(index), error["type"], error["message"])
     return [failure for failure in found.values() if failure is not None]
+
+
+def findings(plan: Plan, path: Path) -> list[Failure]:
+    """What the finished cases of ``plan`` have to say, as level and criterion with its message; of each case the last record."""
+    last: dict[int, Record] = dict(Collected(plan, path).records())
+    found = []
+    for place, record in last.items():
+        at = plan.coordinates(tuple(int(number) for number in np.unravel_index(place, plan.shape)))
+        found += [Failure(at, f"{level} ({criterion})", text) for level, criterion, text in record.get("findings", ())]
+    return found
 
 
 def _feed(stop: Stop, found: dict[int, float], plan: Plan) -> None:

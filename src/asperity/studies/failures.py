@@ -29,10 +29,11 @@ class Cause:
     first: Failure
 
 
-def causes(failures: Iterable[Failure]) -> tuple[Cause, ...]:
-    """Causes of ``failures``, the most frequent first."""
+def causes(failures: Iterable[Failure], *, by_kind: bool = False) -> tuple[Cause, ...]:
+    """Causes of ``failures``, the most frequent first; ``by_kind`` whatever their messages say."""
     groups: dict[tuple[str, str], list[Failure]] = {}
     for failure in failures:
-        groups.setdefault((failure.kind, _NUMBER.sub("#", failure.message)), []).append(failure)
+        text = "" if by_kind else _NUMBER.sub("#", failure.message)
+        groups.setdefault((failure.kind, text), []).append(failure)
     found = [Cause(kind, len(group), group[0]) for (kind, _), group in groups.items()]
     return tuple(sorted(found, key=lambda cause: -cause.count))

@@ -13,6 +13,7 @@ from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
+from ..parts.registry import versions
 from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
@@ -75,8 +76,8 @@ class Plan:
 
     @cached_property
     def _made_by(self) -> list[Any]:
-        """What else the numbers of a case depend on: version and quantities."""
-        return [software()["asperity"], list(self.quantities)]
+        """What else the numbers of a case depend on: version, those of packages that add parts, and quantities."""
+        return [software()["asperity"], *versions().items(), list(self.quantities)]
 
     def paths(self) -> Iterator[tuple[StudyCase, ...]]:
         """Cases that differ in the load alone, together: the unit of work, in the order of the axes, made on the way.

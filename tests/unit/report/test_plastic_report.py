@@ -73,7 +73,7 @@ def test_rows_and_summary(path: asp.LoadPath) -> None:
     assert summary(last).startswith("The bodies do not touch. ")
     assert summary(last).endswith("of the nominal area is indented for good.")
     lighter = asp.solve(top.problem, asp.MeanPressure(1e8), state=top.state)
-    assert "The contact is elastic." in summary(lighter)
+    assert "at the hardness." in summary(lighter)
     assert "indented for good" in summary(lighter)
 
 

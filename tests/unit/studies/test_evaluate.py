@@ -15,7 +15,7 @@ from asperity.parts.contact import Contact
 from asperity.run.build import build
 from asperity.run.document import checked
 from asperity.studies.analysis import analysis
-from asperity.studies.collect import dataset, failures, stopped_at
+from asperity.studies.collect import dataset, failures, findings, stopped_at
 from asperity.studies.convergence import step_sizes
 from asperity.studies.failures import Failure, causes
 from asperity.studies.places import replaced
@@ -142,6 +142,15 @@ def test_causes_that_differ_in_numbers_are_one():
     said = [Failure({"a": 1.0}, "E", f"must be below 5e9 Pa, but is {n}.") for n in (7, 8.5, 1e10)]
     found = causes([Failure({}, "E", "another"), *said])
     assert [(cause.count, cause.first.message) for cause in found] == [(3, said[0].message), (1, "another")]
+
+
+def test_findings_of_the_cases_are_counted(tmp_path):
+    """A layer thinner than a pixel is a warning in every case."""
+    body = {"layers": [{"material": "DLC", "thickness": "1 nm"}], "base": "steel"}
+    made = plan(problem={**PROBLEM, "body": body}, axes=[SEEDS, LOADS])
+    carry_out(made, tmp_path / "r.log", InProcess())
+    counted = {cause.kind: cause.count for cause in causes(findings(made, tmp_path / "r.log"), by_kind=True)}
+    assert counted["note (layer against pixel)"] == 12
 
 
 def test_records_are_plain_json(tmp_path):
