@@ -54,6 +54,4 @@ def test_loads_of_interacting_crests_are_those_of_the_solver(shape, wavelength):
     load, area = shares("far field")
     assert load == pytest.approx(1.0, abs=0.01)
     assert area == pytest.approx(1.0, abs=0.03)
-    # crests that stand alone carry a quarter too much, those that are also displaced by their own load a third too little
-    assert 1.2 < shares("off")[0] < 1.35
-    assert 0.6 < shares("printed")[0] < 0.7
+    assert 1.2 < shares("off")[0] < 1.35  # crests that stand alone carry a quarter too much

@@ -8,6 +8,8 @@ from pathlib import Path
 import figure_10
 import gallery
 import gold_film
+import interacting_crests
+import numpy as np
 import pytest
 import scan_size
 import standard_surface
@@ -17,6 +19,7 @@ RUNS = {
     "gold_film": lambda: gold_film.page(realisations=6),
     "standard_surface": lambda: standard_surface.page(realisations=8),
     "figure_10": lambda: figure_10.page(realisations=1, loads=(0.008, 0.03, 0.1)),
+    "interacting_crests": interacting_crests.page,
     "scan_size": lambda: scan_size.page(count=8, sides=(4e-6, 64e-6)),
 }
 
@@ -59,6 +62,19 @@ def test_moments_of_the_printed_spectrum_are_the_reference(reference):
         row = rows[f"grid_512_{name}"]
         assert found.alpha == pytest.approx(row["nayak_alpha"], rel=1e-9)
         assert found.m0 == pytest.approx((1e-9 * row["sigma_nm"]) ** 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("method", ["complementarity", "least squares"])
+def test_the_published_system_of_crests_gives_the_published_rows(reference, method):
+    rows, area = reference("gw_interaction_asperities"), 4e-12
+    for row in reference("gw_interaction_results"):
+        own = [crest for crest in rows if crest["set"] == row["set"]]
+        columns = (np.array([crest[name] for crest in own]) for name in ("x_m", "y_m", "z_m", "h_m", "lambda_m"))
+        theory = interacting_crests.PublishedCrests(1e11, *columns, area, method=method)
+        found = theory.at_separation(theory.highest - row["delta_m"])
+        assert found.contact_density * area == pytest.approx(row["n_printed"])
+        assert found.area_fraction * area == pytest.approx(row["area_printed_m2"], rel=1e-12)
+        assert found.pressure * area == pytest.approx(row["load_printed_N"], rel=1e-12)
 
 
 @pytest.mark.slow

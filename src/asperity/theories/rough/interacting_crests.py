@@ -32,7 +32,6 @@ from .discrete_summits import DiscreteSummits
 _STEPS = 200
 _TOLERANCE = 1e-13  # of the residual over the approach
 _LIFTED = 1e-9  # share of the approach above which a residual is not rounding of the optimiser
-_SELF_TERM = math.pi  # F_i/(π E* a_i)
 
 _LOAD_STEP, _APPROACH_STEP = 2.0, 1.25  # ratios to the value before from which steps settle where crests crowd
 _FIRST_SHARE = 0.03  # of a load or an approach with so few contacts that the steps settle from any start
@@ -50,24 +49,26 @@ class CrestSystem:
         (n,) largest a² in m² for which the two terms hold, infinite for paraboloids (A_2 = 0).
     coupling
         (n, n) displacement at i per F_j/E* at j in 1/m, zero on the diagonal.
-    self_term
-        Whether F_i/(π E* a_i) is added to ω_i, as in the printed formulation. The approach of a punch already is the
-        displacement of its centre against the far field, so that this counts it twice.
     """
 
     A1: RealArray
     A2: RealArray
     largest: RealArray
     coupling: RealArray
-    self_term: bool = False
 
     def residual(self, w: RealArray, delta: RealArray) -> RealArray:
         """r_i in m."""
-        own = two_term_approach(np.sqrt(w), self.A1, self.A2)
-        if self.self_term:
-            own = own + (8.0 / 3.0 * self.A1 + 64.0 / 15.0 * self.A2 * w) * w / _SELF_TERM
-        values: RealArray = own + self.coupling @ self.loads(w) - delta
+        values: RealArray = self.own_approach(w) + self.coupling @ self.loads(w) - delta
         return values
+
+    def own_approach(self, w: RealArray) -> RealArray:
+        """ω_i in m; the approach of a punch is the displacement of its centre by its own load, too."""
+        return two_term_approach(np.sqrt(w), self.A1, self.A2)
+
+    def own_slope(self, w: RealArray) -> RealArray:
+        """dω_i/dw_i in 1/m."""
+        slope: RealArray = 2.0 * self.A1 + 16.0 / 3.0 * self.A2 * w
+        return slope
 
     def loads(self, w: RealArray) -> RealArray:
         """F_i/E* in m²."""
@@ -80,15 +81,12 @@ class CrestSystem:
 
     def jacobian(self, w: RealArray, among: BoolArray) -> RealArray:
         """dr_i/dw_j of the crests ``among``."""
-        own = 2.0 * self.A1 + 16.0 / 3.0 * self.A2 * w
-        if self.self_term:
-            own = own + (8.0 / 3.0 * self.A1 + 128.0 / 15.0 * self.A2 * w) / _SELF_TERM
         matrix: RealArray = self.coupling[np.ix_(among, among)] * self.load_slope(w)[among]
-        matrix[np.diag_indices_from(matrix)] += own[among]
+        matrix[np.diag_indices_from(matrix)] += self.own_slope(w)[among]
         return matrix
 
     def isolated(self, delta: RealArray) -> RealArray:
-        """w_i of crests that do not feel each other, at most the largest; the self term is left out."""
+        """w_i of crests that do not feel each other, at most the largest."""
         omega = np.maximum(delta, 0.0)
         discriminant = self.A1**2 + 8.0 / 3.0 * self.A2 * omega  # negative beyond the largest approach, 9h/8
         alone = omega / (self.A1 + np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan)))
@@ -104,10 +102,10 @@ class CrestSystem:
         values: RealArray = math.pi * np.max(self.coupling * (w > 0.0), axis=1, initial=0.0)
         return values
 
-    def leading(self, count: int) -> CrestSystem:
+    def leading(self, count: int) -> Self:
         """The ``count`` highest crests."""
         part = slice(0, count)
-        return CrestSystem(self.A1[part], self.A2[part], self.largest[part], self.coupling[part, part], self.self_term)
+        return type(self)(self.A1[part], self.A2[part], self.largest[part], self.coupling[part, part])
 
 
 def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
@@ -268,7 +266,7 @@ def _graded(values: RealArray, ratio: float) -> RealArray:
     return np.concatenate(parts)
 
 
-INTERACTIONS = ("far field", "off", "printed")
+INTERACTIONS = ("far field", "off")
 METHODS = ("complementarity", "least squares")
 SHAPES = ("sine", "paraboloid")
 SHALLOW = 0.15
@@ -298,8 +296,7 @@ class InteractingCrests:
     area
         Nominal area in m².
     interaction
-        ``"far field"``: displacements of point forces between crests; ``"off"``: none; ``"printed"``: the published
-        system, which adds the displacement of each crest by its own force once more and loses two fifths of the load.
+        ``"far field"``: displacements of point forces between crests; ``"off"``: none.
     method
         ``"complementarity"``: Newton steps on the touching crests; ``"least squares"``: the published form, by a library
         optimiser. Both solve the same equations.
@@ -326,6 +323,7 @@ class InteractingCrests:
     name: ClassVar[str] = "interacting-crests"
     title: ClassVar[str] = "Greenwood-Williamson with interacting sinusoidal crests"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Johnson1985")
+    equations: ClassVar[type[CrestSystem]] = CrestSystem
     inputs: ClassVar[tuple[Input, ...]] = (
         E_STAR,
         Input("x", "m", "positions of the crests", many=True),
@@ -519,7 +517,7 @@ class InteractingCrests:
         largest = np.square(TWO_TERMS * wavelength)
         if self.shape == "paraboloid":
             A2, largest = np.zeros_like(A2), np.full_like(largest, np.inf)
-        return CrestSystem(A1, A2, largest, coupling, self_term=self.interaction == "printed")
+        return self.equations(A1, A2, largest, coupling)
 
     def _predicted(self, h: RealArray, states: list[State]) -> Prediction:
         """Prediction from the touching crests at separations ``h`` (n,) in m."""
