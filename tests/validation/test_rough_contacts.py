@@ -25,12 +25,15 @@ RUNS = {
 }
 
 
+EACH = [pytest.param(name, marks=pytest.mark.slow) if name == "peng_stress" else name for name in RUNS]
+
+
 @cache
 def page_of(name):
     return RUNS[name]()
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", EACH)
 def test_every_claim_holds(name):
     page = page_of(name)
     assert page.claims
@@ -38,7 +41,7 @@ def test_every_claim_holds(name):
         assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", EACH)
 def test_page_belongs_to_the_script(name):
     """Title and claims; numbers are those of more surfaces and points."""
     page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")

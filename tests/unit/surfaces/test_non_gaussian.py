@@ -53,6 +53,7 @@ def test_translation_ensemble_meets_its_acceptance_intervals():
     require_accepted("G7", average(statistics(seed) for seed in range(int(rows("G7")[0]["n_realisations"]))))
 
 
+@pytest.mark.slow
 def test_predistorted_translation_has_the_autocovariance_asked_for():
     """Mean over 60 realisations against R, with the standard error of those realisations."""
     spectrum = ExponentialAutocorrelation(2.0, 8.0, correlation_length_y=5.0)
