@@ -1,6 +1,6 @@
 """Contact mechanics of layered rough surfaces.
 
-A module is imported when one of its names is asked for. The stub beside this file says the same to type checkers.
+A module is imported on first use of one of its names. The stub beside this file lists the same names for type checkers.
 """
 
 import sys

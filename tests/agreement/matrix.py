@@ -112,7 +112,7 @@ def crests(stretch: float = 1.0, depth: float = 1e-8, **choices: object):
 
 
 def spheres():
-    """The same crests as spheres that do not feel each other."""
+    """The same crests as spheres without interaction."""
     theory = crests()
     return make("discrete-summits", E, theory.height, np.full(30, R), AREA)
 

@@ -82,7 +82,7 @@ def test_ctrl_c_leaves_a_resumable_state(tmp_path):
     os.killpg(process.pid, signal.SIGINT)
     out, error = process.communicate(timeout=30)
     assert process.returncode == 130, error
-    assert f"Finished cases are kept; go on with: asperity run {path}" in out
+    assert f"Finished cases are kept; resume with: asperity run {path}" in out
     assert "Traceback" not in error
     state = open_study(path).state()
     assert 3 <= state.done < 2000

@@ -1,4 +1,4 @@
-"""How a campaign goes on: a bar on a terminal, else a line now and then; with rate and time left."""
+"""Progress of a campaign: a bar on a terminal, otherwise a line at intervals; with rate and remaining time."""
 
 from __future__ import annotations
 

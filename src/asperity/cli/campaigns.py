@@ -31,12 +31,12 @@ def run(
     ] = None,
     retry: Annotated[bool, typer.Option("--retry", help="Try again what has failed.")] = False,
 ) -> None:
-    """Run a campaign over many contacts, or go on with it: only what is missing is computed.
+    """Run or resume a campaign over many contacts: only missing cases are computed.
 
     Example: asperity run study.toml
 
     Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed); 2: bad input;
-    130: interrupted by Ctrl-C (all finished cases are kept: run it again to go on).
+    130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
     from ..studies.campaign import prepare_study
     from .campaign_progress import watched
@@ -50,7 +50,7 @@ def run(
         with watched(campaign.title) as watch:
             done = campaign.run(workers=workers, dask=dask, retry=retry, watch=watch)
     except KeyboardInterrupt:
-        say(f"Interrupted. Finished cases are kept; go on with: asperity run {study}", "yellow")
+        say(f"Interrupted. Finished cases are kept; resume with: asperity run {study}", "yellow")
         raise typer.Exit(INTERRUPTED) from None
     say(f"computed {done.done} cases, {done.failed} of them failed; {done.found} were there already")
     raise typer.Exit(_report(campaign))

@@ -58,7 +58,7 @@ def _print_kind(kind: type[Described]) -> None:
 
 
 def print_answer(found: Evaluation, *, as_json: bool) -> None:
-    """Print what a theory says, where it leaves its validity, and its sources."""
+    """Print the results of a theory, its limits of validity and its sources."""
     if as_json:
         from ..io.records import answer_record
 

@@ -1,4 +1,4 @@
-"""Checks of resolution and regime, before and after a solve. Each says the criterion, the numbers and what to do."""
+"""Checks of resolution and regime, before and after a solve, each with criterion, numbers and remedy."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LARGEST_AREA_CORRECTION = 0.15
 """Share of the pixel area that the perimeter correction takes, at spots of about ten pixels."""
 
 FEWEST_CONTACT_PIXELS = 10
-"""Pixels in contact below which counting them says little."""
+"""Number of contact pixels below which their count is inaccurate."""
 
 LARGEST_PATCH = 1.0 / 8.0
 """Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the analytic tests)."""
@@ -220,7 +220,7 @@ def _room(result: ContactResult) -> Iterator[Advice]:
                 "warning",
                 "patch against period",
                 f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
-                "feels its periodic images. Use the free boundary or a larger grid.",
+                "interacts with its periodic images. Use the free boundary or a larger grid.",
             )
 
 
@@ -230,7 +230,7 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
             "warning",
             "yield everywhere",
             f"The pressure is at the hardness on {100 * result.plastic_area_fraction:.0f} % of a contact that covers "
-            f"{100 * result.area_fraction:.0f} % of the nominal area: pressure no longer tells position or load apart. "
+            f"{100 * result.area_fraction:.0f} % of the nominal area: the pressure distribution hardly depends on position or load. "
             "Check load, position and hardness.",
         )
 

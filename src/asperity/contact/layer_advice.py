@@ -15,14 +15,18 @@ from .laws import LimitByDepth
 from .problem import ContactProblem
 
 PIXELS_PER_LAYER = 1.0
-"""A pressure that varies from pixel to pixel (wavelength 2 pixels) reaches exp(-pi) = 4 % deep into a layer of one pixel."""
+"""A pressure that varies from pixel to pixel (wavelength 2 pixels) reaches exp(-pi) = 4 % deep into a layer of one
+pixel.
+"""
 
 LARGEST_THICKNESS = 0.5
-"""Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
+"""Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the
+layers.
+"""
 
 
 def layer_advice(problem: ContactProblem) -> Iterator[Advice]:
-    """Layers thinner than a pixel, or so thick that a periodic cell hardly feels what lies below; softer ones below."""
+    """Layers thinner than a pixel, or so thick that the base hardly matters in a periodic cell; softer ones below."""
     for body in (problem.body, problem.counter_body):
         if isinstance(body, Layered):
             yield from _against_pixel(problem, body.reduced)
@@ -65,7 +69,7 @@ def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
 
 
 def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    """A pressure limit says nothing of what lies below the surface, where a softer material may yield first."""
+    """A pressure limit does not describe yield below the surface, where a softer material may yield first."""
     if isinstance(problem.law, LimitByDepth):
         return
     limit = float(np.max(problem.law.pressure_cap()))
@@ -77,7 +81,7 @@ def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
             f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
             f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
             "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
-            "the stresses, which tell the load factor of each layer.",
+            "the stresses, which give the load factor of each layer.",
         )
 
 

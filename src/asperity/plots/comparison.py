@@ -42,7 +42,7 @@ TEXTS = {
     ),
     "gap": (
         "Mean gap against pressure",
-        "Mean gap of the deformed surfaces; of theories that know no other, the separation of the mean planes.",
+        "Mean gap of the deformed surfaces; the separation of the mean planes for theories that define no gap.",
     ),
     "deviation": (
         "Deviation of the area from the numerical solution",

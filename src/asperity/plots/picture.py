@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# One look for all figures: colours that colour-blind readers tell apart, SI-prefixed axes, print resolution.
+# Common style of all figures: colours distinguishable by colour-blind readers, SI-prefixed axes, print resolution.
 
 
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (

@@ -1,4 +1,4 @@
-"""Layer 5: one HTML file that tells everything about a result, or about a surface."""
+"""Layer 8: self-contained HTML reports of results and of surfaces."""
 
 from .roughness import write_roughness_report
 from .write import write_report

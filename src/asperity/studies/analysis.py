@@ -1,4 +1,4 @@
-"""What a study says beyond its cases: means, orders, critical thicknesses, sensitivities, as a labelled dataset."""
+"""Analysis of a study: means, orders, critical thicknesses, sensitivities, as a labelled dataset."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ UNITS = {"order": "1", "remark": "", "error": "1", "count": "1", "floor": "m", "
 def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | None:
     """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a sweep.
 
-    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``, ``error``, ``remark``;
-    critical_thickness: ``floor``, ``ceiling``, ``at_zero``, ``at_infinity``; sensitivity, along ``scalar``: ``low``, ``high``,
-    ``elasticity``, ``slope``.
+    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``,
+    ``error``, ``remark``; critical_thickness: ``floor``, ``ceiling``, ``at_zero``, ``at_infinity``; sensitivity, along
+    ``scalar``: ``low``, ``high``, ``elasticity``, ``slope``.
     """
     if document.monte_carlo is not None:
         stop = document.monte_carlo.stop

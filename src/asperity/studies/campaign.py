@@ -1,4 +1,4 @@
-"""A study in its folder: run, looked at, collected. The names users see."""
+"""A study in its folder: run, inspected, collected."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def run_study(
     retry: bool = False,
     watch: Watch | None = None,
 ) -> Campaign:
-    """Run a study, or go on with it: only cases that its folder does not hold are computed.
+    """Run or resume a study: only cases that its folder does not hold are computed.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def run_study(
     retry
         Whether cases that failed are tried again.
     watch
-        Is told how it goes on.
+        Receives the progress.
 
     Raises
     ------

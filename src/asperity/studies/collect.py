@@ -49,7 +49,9 @@ class Collected:
         return int(np.ravel_multi_index(index, self.plan.shape))
 
     def records(self) -> Iterator[tuple[int, Record]]:
-        """Number of a case on the flattened axes, and its record; of a case that was done again also the older ones, first."""
+        """Number of a case on the flattened axes, and its record; of a case that was done again also the older ones,
+        first.
+        """
         for record in records(self._records):
             key = np.uint64(int(record["key"][:16], 16))
             low, high = np.searchsorted(self._keys, key, "left"), np.searchsorted(self._keys, key, "right")
@@ -60,8 +62,8 @@ class Collected:
 def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     """Results of ``plan`` from the store at ``path``: quantities on the axes, units and labels, NaN where there are none.
 
-    ``outcome`` says what became of each case, ``error`` why it failed. Attributes: the text of the ``study``, software,
-    citation keys. Samples beyond those that were enough are left out.
+    ``outcome`` is the status of each case, ``error`` the cause of its failure. Attributes: the text of the ``study``,
+    software, citation keys. Samples beyond those that were enough are left out.
     """
     import xarray
 

@@ -30,10 +30,14 @@ from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodi
 from .comparison_validity import check, remarks
 
 MOST_CONTACTS = 1000
-"""Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of them, eight times that with twice as many."""
+"""Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of them, eight times that
+with twice as many.
+"""
 
 _PILOT = 5.0
-"""Share of the most contacts, as a divisor, up to which loads are solved first; interaction adds as many where heights differ much."""
+"""Share of the most contacts, as a divisor, up to which loads are solved first; interaction adds as many where heights
+differ much.
+"""
 
 LIGHTEST, HEAVIEST, LOADS = 0.004, 0.25, 12
 """Lowest and highest p/(E* h'_rms), and number of loads, where none are given: about 1 % to 45 % of the area."""
@@ -55,7 +59,7 @@ def compare(
     """Compare the theories of the catalogue with each other and with the boundary-element solution.
 
     Theories are made from what ``roughness_of`` measures on the surface, or on the sum of two. One that cannot be made
-    is listed with its reason, one that cannot carry the highest loads has NaN there and says so.
+    is listed with its reason, one that cannot carry the highest loads has NaN there and a note.
 
     Parameters
     ----------
@@ -74,7 +78,8 @@ def compare(
     numerical
         Whether the contact is solved too, on one load path.
     most_contacts
-        Loads at which more crests touch are left out for the theory of interacting crests, whose time grows with the cube.
+        Loads at which more crests touch are left out for the theory of interacting crests, whose time grows with the
+        cube.
     solver, progress, engine
         See ``solve``.
 
@@ -196,7 +201,7 @@ def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple
 
 
 def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None, str]:
-    """Prediction at as many of the rising ``loads`` as the theory can carry, and what it says of the others."""
+    """Prediction at as many of the rising ``loads`` as the theory can carry, and the error for the others."""
     low, high, found, reason = 0, loads.size, None, ""
     middle = high
     while low < high:

@@ -54,7 +54,7 @@ class TheoryCurve:
 
     @property
     def gap(self) -> RealArray:
-        """(n,) mean gap in m, or the separation of the mean planes where the theory knows no other; NaN if it is none."""
+        """(n,) mean gap in m, or the separation of the mean planes where the theory defines no gap; NaN if neither."""
         own = self.prediction
         if not self.comparable_gap:
             return np.full_like(own.mean_gap, np.nan)
@@ -66,9 +66,9 @@ class TheoryCurve:
 class NumericalCurve:
     """The boundary-element solution along the loads of a comparison; every field (n,), NaN where it did not converge.
 
-    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is freed of their bias (Yastrebov et al. 2017) and is what
-    theories are compared with; ``contact_density`` spots per nominal area in 1/m², ``mean_gap`` in m, ``seconds`` of the
-    whole path, ``solver`` its method.
+    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is freed of their bias (Yastrebov et al. 2017) and is
+    what theories are compared with; ``contact_density`` spots per nominal area in 1/m², ``mean_gap`` in m, ``seconds``
+    of the whole path, ``solver`` its method.
     """
 
     area_fraction: RealArray
@@ -90,7 +90,7 @@ class Comparison:
     problem
         The contact that was solved.
     surface
-        The surface the theories know: that of the problem, or the sum of both.
+        The surface that the theories describe: that of the problem, or the sum of both.
     roughness
         What was measured on it for the theories.
     pressures
@@ -151,7 +151,8 @@ class Comparison:
     def deviation(self, name: str, quantity: str = "area_fraction") -> RealArray:
         """Deviation (n,) of the theory ``name`` from the numerical solution; NaN where one of them has no value.
 
-        ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative, ``gap`` in rms heights.
+        ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative, ``gap`` in rms
+        heights.
         """
         curve = self.curve(name)
         if self.numerical is None:
@@ -187,7 +188,7 @@ def _dataset(comparison: Comparison) -> xarray.Dataset:
         values = [getattr(curve.prediction, name) for curve in curves]
         variables[name] = _of_theories(comparison, values, unit, meaning)
     gaps = [curve.gap for curve in curves]
-    variables["gap"] = _of_theories(comparison, gaps, "m", "mean gap, or separation where the theory knows no gap")
+    variables["gap"] = _of_theories(comparison, gaps, "m", "mean gap, or separation where the theory defines no gap")
     for name, meaning in _DERIVED.items():
         values = [getattr(comparison, name)(curve.prediction.area_fraction) for curve in curves]
         variables[name] = _of_theories(comparison, values, "1", meaning)

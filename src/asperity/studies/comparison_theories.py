@@ -1,4 +1,6 @@
-"""The theories of a comparison: which of the catalogue can be made for a surface and its bodies, and why the others cannot."""
+"""The theories of a comparison: which of the catalogue can be made for a surface and its bodies, and why the others
+cannot.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from ..theories.protocol import SurfaceTheory
 from ..theories.statistics.roughness import Roughness
 
 YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
-"""Parameters that tell a theory with plastic deformation, and one with adhesion."""
+"""Parameters by which theories with plastic deformation, and with adhesion, are recognised."""
 
 
 @dataclass(frozen=True)

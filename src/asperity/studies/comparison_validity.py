@@ -57,7 +57,7 @@ def _isotropy(theory: SurfaceTheory, prediction: Prediction, roughness: Roughnes
         (1.0, ANISOTROPY),
         prediction=prediction,
         citation="Bush1979",
-        message="The surface is anisotropic, and the theory knows the mean over all directions only.",
+        message="The surface is anisotropic, and the theory uses the mean over all directions only.",
     )
     return (isotropy,)
 
@@ -74,7 +74,7 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
     if not isinstance(problem.boundary, Periodic):
         found.append(
             f"The boundary is {problem.boundary.name}: the contact is that of a patch whose borders carry more than "
-            "its middle; theories know an endless surface. Compare with a periodic boundary."
+            "its middle; theories assume an unbounded surface. Compare with a periodic boundary."
         )
     elif "interacting-crests" in theories:
         found.append(
@@ -91,7 +91,7 @@ def _of_layers(problem: ContactProblem, spot: float) -> list[str]:
     thin = min(body.reduced.layers[0].thickness for body in coated)
     size = f" (at the highest load their mean radius is {show(spot, 'm', 3)})" if math.isfinite(spot) else ""
     return [
-        "A body is layered. The numerical solution knows its layers; every theory is one of homogeneous half-spaces and takes "
+        "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous half-spaces and takes "
         f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
         f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
     ]
@@ -107,7 +107,7 @@ def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list
         ]
     known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
     return [
-        f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories know no limit."
+        f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories have no such limit."
     ]
 
 

@@ -163,4 +163,4 @@ def _reason(code: int, said: IO[str]) -> str:
     said.seek(0)
     last = " ".join(said.read().split())[-200:]
     ended = f"signal {-code}" if code < 0 else f"exit code {code}"
-    return f"the worker ended with {ended}{': ' + last if last else ', perhaps for want of memory'}"
+    return f"the worker ended with {ended}{': ' + last if last else ', perhaps for lack of memory'}"

@@ -12,7 +12,7 @@ from ..core.arrays import RealArray
 from ..io.schemas.study import StopTable
 
 CONFIDENCE = 0.95
-"""Confidence of intervals unless the study says otherwise."""
+"""Default confidence of intervals."""
 
 
 @dataclass(frozen=True)

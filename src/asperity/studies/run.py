@@ -22,7 +22,7 @@ FUNCTION = "asperity.studies.evaluate:evaluate_path"
 
 
 class Watch(Protocol):
-    """Is told how a study goes on."""
+    """Receives the progress of a study."""
 
     def update(self, done: int, failed: int, found: int, total: int) -> None:
         """Cases ``done`` and ``failed`` in this run, ``found`` finished from earlier runs, of at most ``total``."""

@@ -1,6 +1,6 @@
 """The roughness of surfaces, as ``asperity.roughness``: every quantity as a function.
 
-``asperity.characterise`` calls them all; ``QUANTITIES`` says what each number is.
+``asperity.characterise`` calls them all; ``QUANTITIES`` defines them.
 """
 
 from ..core.quantity import Quantity

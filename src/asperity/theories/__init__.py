@@ -1,6 +1,6 @@
-"""Closed-form theories: they take and return numbers. A module is imported when one of its names is asked for.
+"""Closed-form theories: they take and return numbers. A module is imported on first use of one of its names.
 
-The stub beside this file says the same to type checkers.
+The stub beside this file lists the same names for type checkers.
 """
 
 from __future__ import annotations

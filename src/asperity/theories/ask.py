@@ -1,4 +1,4 @@
-"""How a theory is asked: by load, pressure, approach or other known numbers, singly or along a curve."""
+"""Evaluation of theories for one kind of argument: load, pressure, approach or others, at one value or along a curve."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from .protocol import QUANTITIES, Described, Input, Limit, curve
 
 # How theories are asked: along which argument, with what given, and what comes out. For people and the command line.
 #
-# The theories of rough surfaces and of single contacts share a few ways (``ways_of``); a theory that is asked in another way
-# names it in its attribute ``ways``, and numbers that depend on nothing but its inputs in ``numbers``.
+# The theories of rough surfaces and of single contacts share a few ways (``ways_of``); a theory that is asked in
+# another way names it in its attribute ``ways``, and numbers that depend on nothing but its inputs in ``numbers``.
 
 
 @dataclass(frozen=True)
@@ -108,14 +108,14 @@ def ways_of(theory: Described | type[Described]) -> tuple[Way, ...]:
 
 
 def numbers_of(theory: Described | type[Described]) -> tuple[Column, ...]:
-    """What ``theory`` tells that depends on nothing but its inputs."""
+    """Results of ``theory`` that depend on its parameters alone."""
     columns: tuple[Column, ...] = getattr(theory, "numbers", ())
     return columns
 
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """What a theory says along one of its ways.
+    """Results of a theory for one kind of argument.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""All theories by name, in families. A new theory is one more line."""
+"""All theories by name, in families; one line per theory."""
 
 from __future__ import annotations
 

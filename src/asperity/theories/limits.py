@@ -1,4 +1,4 @@
-"""Conditions for validity that several theories share."""
+"""Conditions of validity common to several theories."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ GENTLE = 0.3
 
 
 def area_limit(prediction: Prediction, high: float = SMALL_AREA, citation: str = "Greenwood1966") -> Limit:
-    """Contacts few enough not to feel each other through the solid."""
+    """Contacts few enough for their elastic interaction to be negligible."""
     message = "Contacts deform each other and merge; the theory lets them stand alone."
     return Limit("area fraction", prediction.area_fraction, -math.inf, high, citation, message)
 

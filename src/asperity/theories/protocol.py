@@ -1,4 +1,4 @@
-"""What every theory says of itself and answers: one shared protocol, one shared result.
+"""The protocol of all theories: parameters, evaluation, results and limits of validity.
 
 A theory is a frozen value made from its parameters, or from a ``Roughness`` by ``from_roughness``. Arrays in, arrays out;
 what a theory does not define is NaN.
@@ -213,7 +213,9 @@ def curve(values: ArrayLike, what: str, *, positive: bool = False) -> RealArray:
 
 
 def prediction(pressure: RealArray, **known: RealArray) -> Prediction:
-    """Prediction with the ``known`` fields, each (n,) or one number for all; the mean real pressure follows from the area."""
+    """Prediction with the ``known`` fields, each (n,) or one number for all; the mean real pressure follows from the
+    area.
+    """
     undefined = np.full_like(pressure, np.nan)
     fields = {name: undefined for name, _, _ in QUANTITIES} | {"pressure": pressure}
     if "area_fraction" in known and "mean_real_pressure" not in known:
@@ -223,12 +225,12 @@ def prediction(pressure: RealArray, **known: RealArray) -> Prediction:
     return Prediction(**fields)
 
 
-# What theories of one contact have in common: answers at a load, and conditions under which they hold.
+# Theories of one contact.
 
 
 @dataclass(frozen=True, eq=False)
 class ContactAnswer:
-    """One contact at given loads: arrays of one shape; NaN where the theory says nothing.
+    """One contact at given loads: arrays of one shape; NaN where the theory gives no value.
 
     Parameters
     ----------
@@ -272,7 +274,9 @@ class SingleContact(Described, Protocol):
 
 
 SMALL_SLOPE = 0.3
-"""Slope in the contact at which a sphere needs 3 % more approach than its paraboloid (Sneddon 1965): a third of its square."""
+"""Slope in the contact at which a sphere needs 3 % more approach than its paraboloid (Sneddon 1965): a third of its
+square.
+"""
 
 
 def small_slope(criterion: str, slope: RealArray) -> Limit:

@@ -118,5 +118,5 @@ def wet_sentence(result: WetContactResult) -> str:
     share = percent(result.meniscus_area_fraction)
     pull = show(result.meniscus_force, "N")
     if math.isnan(result.relative_meniscus_force):
-        return f"Menisci on {share} of the nominal area pull with {pull}, more than the contact bears."
+        return f"Menisci on {share} of the nominal area pull with {pull}, more than the contact force."
     return f"Menisci on {share} of the nominal area pull with {pull}, {result.relative_meniscus_force:.3g} times the external force."

@@ -124,7 +124,7 @@ def yield_sentence(survey: StressSurvey) -> str:
     """Which part of the body yields first, and when."""
     report, first = survey.yielding, survey.yielding.first
     if first is None:
-        return "No strength of any part of the body is known, so nothing can be said of yield; give hardness or yield stress."
+        return "No strength of any part of the body is known, so yield cannot be assessed; give a hardness or yield stress."
     unknown = list(dict.fromkeys(part.region.name for part in report.regions if math.isnan(part.load_factor)))
     beside = f" The strength of {' and '.join(unknown)} is not known." if unknown else ""
     where = _where(first.peak)

@@ -49,10 +49,10 @@ def rank_ordered(
 
     From a random arrangement of the heights two steps alternate: the amplitudes of the waves are replaced by those of the
     spectrum, then the values by the wanted heights in the same order of rank (Schreiber & Schmitz 1996; Pérez-Ràfols &
-    Almqvist 2019). It ends at the ``tolerance``, or when ten more iterations improve the amplitudes by less than 3 %: spectra
-    that end at long waves leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history tells the error.
-    Spectrum and histogram do not scatter between realisations.
-    Rounding differences between FFT libraries are amplified by the ranks: another library gives another realisation.
+    Almqvist 2019). It ends at the ``tolerance``, or when ten more iterations improve the amplitudes by less than 3 %:
+    spectra that end at long waves leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history records the
+    error. Spectrum and histogram do not scatter between realisations. Rounding differences between FFT libraries are
+    amplified by the ranks: another library gives another realisation.
 
     Parameters
     ----------
@@ -61,7 +61,8 @@ def rank_ordered(
     spectrum
         Any spectrum; it fixes the rms height.
     heights
-        ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and ``describe``.
+        ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and
+        ``describe``.
     seed
         Whole number >= 0 (PCG64).
     last

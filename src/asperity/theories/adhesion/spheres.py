@@ -22,7 +22,7 @@ ADHESION = (
     Column("pull_off", "N", "force that separates the bodies"),
     Column("tabor", "", "Tabor's parameter: JKR for large, DMT for small values"),
 )
-"""What adhesive spheres tell without a load."""
+"""Results of adhesive spheres that do not depend on the load."""
 
 
 def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -> float:
@@ -106,7 +106,7 @@ class JKR:
         InputError
             If a load is below the pull-off force.
         """
-        P = checked(load, "load (N)", -self.pull_off, "A stronger pull parts the bodies.")
+        P = checked(load, "load (N)", -self.pull_off, "A larger tensile force separates the bodies.")
         adhesive = 2.0 * self.pull_off  # 3πwR
         # the root vanishes at pull-off, where rounding may make it negative
         root = np.sqrt(np.maximum(adhesive * (adhesive + 2.0 * P), 0.0))
@@ -240,7 +240,7 @@ class DMT:
         InputError
             If a load is below the pull-off force.
         """
-        P = checked(load, "load (N)", -self.pull_off, "A stronger pull parts the bodies.")
+        P = checked(load, "load (N)", -self.pull_off, "A larger tensile force separates the bodies.")
         return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
@@ -395,7 +395,7 @@ class MaugisDugdale:
         """
         least = maugis_pull_off(self.transition)
         unit = np.pi * self.work * self.radius
-        P = checked(load, "load (N)", float(least.load) * unit, "A stronger pull parts the bodies.") / unit
+        P = checked(load, "load (N)", float(least.load) * unit, "A larger tensile force separates the bodies.") / unit
         ends = np.full_like(P, _NARROWEST), np.full_like(P, np.log(least.ring))
         s = np.exp(bisected(lambda y: P - maugis_at_ring(self.transition, np.exp(y)).load, *ends))
         return self._answer(maugis_at_ring(self.transition, s))

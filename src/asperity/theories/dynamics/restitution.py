@@ -1,4 +1,4 @@
-"""Rebound of a mass from a contact whose damping is in proportion to its force, whatever the law of the force."""
+"""Rebound of a mass from a contact with damping proportional to the force, for any force law."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ def rebound(speed: ArrayLike) -> RealArray:
 
 
 def _excess_of_logarithm(x: RealArray) -> RealArray:
-    """-x - ln(1 - x) = x²/2 + x³/3 + …; for |x| < 0.05 by the series, whose first term left out is 0.05^14/16 of the sum."""
+    """-x - ln(1 - x) = x²/2 + x³/3 + …; for |x| < 0.05 by the series, whose first term left out is 0.05^14/16 of the
+    sum.
+    """
     series = np.polynomial.polynomial.polyval(x, [0.0, 0.0, *(1.0 / k for k in range(2, 16))])
     with np.errstate(divide="ignore"):
         return np.where(np.abs(x) < 0.05, series, -x - np.log1p(-x))

@@ -1,4 +1,4 @@
-"""Hardness that an indenter meets in a coated solid, by its depth (Bhattacharya & Nix 1988; Peng 2001, app. C)."""
+"""Effective hardness of a coated solid as a function of indentation depth (Bhattacharya & Nix 1988; Peng 2001, app. C)."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def _depth(values: ArrayLike) -> RealArray:
     return depth
 
 
-# Hardness of a solid with several coatings, by indentation depth: films on substrates, one below the other.
+# Several coatings, treated successively as films on substrates.
 
 
 _KNOTS = 2000
@@ -204,8 +204,8 @@ class StackHardness:
     def work(self, depth: ArrayLike) -> RealArray:
         """∫ H dd from the surface to ``depth`` in m (any shape, >= 0): work per area in J/m².
 
-        By Gauss's rule between knots a hundredth deeper one than the other; relative error about 1e-10, and 1e-6 where one
-        share passes another between two knots.
+        By Gauss's rule between knots a hundredth deeper one than the other; relative error about 1e-10, and 1e-6 where
+        one share passes another between two knots.
         """
         d = np.asarray(depth, dtype=float)
         below = np.searchsorted(self._knots, d, side="right") - 1

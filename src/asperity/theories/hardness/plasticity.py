@@ -1,4 +1,4 @@
-"""The plasticity indices of a surface and the share of its contact that flows, as theories of their own."""
+"""Plasticity indices of a surface and the plastic share of its contact."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from ..protocol import E_STAR, Input, poissons_ratio
 from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
 from ..statistics.roughness import Roughness
 
-# Interferences at which a summit yields, and the plasticity indices made of them (Greenwood & Williamson 1966; Bhushan 1998).
+# Interferences at which a summit yields, and the plasticity indices made of them (Greenwood & Williamson 1966; Bhushan
+# 1998).
 #
-# Three indices are in use for the same surface: say which one is meant.
+# Three different indices are in use for the same surface.
 
 
 HARDNESS_OVER_YIELD = 2.8
@@ -26,7 +27,8 @@ HARDNESS_OVER_YIELD = 2.8
 
 
 def hardness_coefficient(nu: float) -> float:
-    """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion & Bogy (1987); ``nu`` from 0 to 0.5.
+    """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion & Bogy (1987); ``nu``
+    from 0 to 0.5.
 
     With H = 2.8Y within 2.2 % of the exact value (``sphere_yield_onset``), 0.2 % at ν = 0.3.
     """
@@ -66,7 +68,8 @@ def summit_plasticity_index(height_deviation: float, interference: float) -> flo
 
 
 def profile_plasticity_index(E_star: float, hardness: float, deviation: float, correlation_length: float) -> float:
-    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e) of an exponential autocorrelation in m.
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e) of an exponential autocorrelation
+    in m.
 
     Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads above 0.45.
     """
@@ -95,7 +98,8 @@ class PlasticShares:
 
 @dataclass(frozen=True)
 class PlasticityIndex:
-    """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and what flows.
+    """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and
+    what flows.
 
     Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any.
 

@@ -1,4 +1,4 @@
-"""How rough and how stiff a surface should be for the least real area without plasticity (Bhushan 1984; 1998, sec. 3.2.3)."""
+"""Roughness and modulus for the least real area without plasticity (Bhushan 1984; 1998, sec. 3.2.3)."""
 
 from __future__ import annotations
 

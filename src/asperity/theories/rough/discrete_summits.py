@@ -1,4 +1,4 @@
-"""Asperities one by one: the summits of a map, and identical ones."""
+"""Individual asperities: the summits of a map, and identical ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..protocol import E_STAR, ContactAnswer, Input, Limit, Prediction, curve, p
 from ..single.hertz import HertzPoint
 from ..statistics.roughness import Roughness
 
-# Greenwood & Williamson's theory with the very summits of a map: each its own height and radius, no distribution.
+# Greenwood & Williamson's theory for the individual summits of a map, each with its height and radius.
 
 
 _REACH = 4.0  # ranges of the heights below the lowest summit to which pressures are inverted
@@ -111,7 +111,7 @@ class DiscreteSummits:
         return self.at_separation(separation_at(wanted, self._law, low, self.highest, unit=unit))
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return area_limit(prediction), blunt_summits(prediction, float(self._z.std() / self._r.mean()))
 
     @property
@@ -147,7 +147,7 @@ ROUNDED_ONSET = 0.5  # peak over hardness at p_m = H/3, Bhushan's rounded first 
 
 @dataclass(frozen=True)
 class IdenticalAsperities:
-    """η equal spheres per area that share the load equally and do not feel each other: A_r ∝ p^(2/3).
+    """η equal spheres per area that share the load equally and do not interact: A_r ∝ p^(2/3).
 
     Parameters
     ----------

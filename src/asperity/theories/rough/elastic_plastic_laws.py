@@ -425,7 +425,7 @@ class JacksonGreen(OfElasticPlasticSummits):
         return JacksonGreenSphere(self.E_star, self.radius, self.yield_stress, self.nu)
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits, and a mean contact radius of up to 0.4 R."""
+        """Few contacts without elastic interaction, on blunt summits, and a mean contact radius of up to 0.4 R."""
         mean_area = np.divide(
             prediction.area_fraction,
             prediction.contact_density,

@@ -1,4 +1,4 @@
-"""Rough contact of spherical summits of Gaussian heights that obey any law of an elastic-plastic asperity."""
+"""Rough contact of spherical summits of Gaussian heights with any law of an elastic-plastic asperity."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def at_first_yield(law: ElasticPlasticLaw) -> ContactAnswer:
 def at_interference(law: ElasticPlasticLaw, interference: ArrayLike) -> ContactAnswer:
     """The contact at ``interference`` ω in m, >= 0, of any shape.
 
-    The largest pressure is Hertz's below first yield and NaN beyond, where these laws know the mean alone; the
+    The largest pressure is Hertz's below first yield and NaN beyond, where these laws give the mean pressure only; the
     stiffness is a central difference within the branch of the law.
     """
     omega = checked(interference, "interference (m)")
@@ -146,7 +146,7 @@ class ElasticPlasticSummits:
         return self.at_separation(separation_at(wanted, self._law, low, high, unit=deviation))
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return (area_limit(prediction), blunt_summits(prediction, self.summits.roughness_ratio))
 
     @property
@@ -217,7 +217,7 @@ class OfElasticPlasticSummits:
         return self.model.at_pressure(pressure)
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return self.model.validity(prediction)
 
 

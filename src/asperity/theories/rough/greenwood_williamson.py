@@ -142,7 +142,7 @@ class GreenwoodWilliamson:
         return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return (area_limit(prediction), blunt_summits(prediction, self.roughness_ratio))
 
     def standardised(self, separation: RealArray) -> RealArray:
@@ -356,7 +356,7 @@ def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond
     return float(brentq(excess, _LOWEST, _HIGHEST, xtol=1e-14, rtol=1e-14))
 
 
-# Greenwood & Tripp (1970): two rough surfaces whose summits meet on their shoulders.
+# Greenwood & Tripp (1970): two rough surfaces with misaligned summits.
 
 
 @dataclass(frozen=True)
@@ -454,7 +454,7 @@ class GreenwoodTripp:
         return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return (area_limit(prediction), blunt_summits(prediction, self.height_deviation / self.radius))
 
     @property

@@ -1,4 +1,4 @@
-"""Greenwood & Williamson on the summits of a map, sinusoidal and pressing each other down."""
+"""Greenwood & Williamson on the summits of a map, sinusoidal and with elastic interaction."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ..single.waves import TWO_TERMS, two_term_approach, two_term_load, two_term
 from ..statistics.roughness import Roughness
 from .discrete_summits import DiscreteSummits
 
-# Sinusoidal crests that press each other down: the equations, as a complementarity problem and as least squares.
+# Interacting sinusoidal crests: complementarity problem and least squares.
 #
 # With w_i = a_i² of the contact radii and the far-field approach δ_i = δ - (z_M - z_i) of each crest,
 #
@@ -33,8 +33,8 @@ _STEPS = 200
 _TOLERANCE = 1e-13  # of the residual over the approach
 _LIFTED = 1e-9  # share of the approach above which a residual is not rounding of the optimiser
 
-_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25  # ratios to the value before from which steps settle where crests crowd
-_FIRST_SHARE = 0.03  # of a load or an approach with so few contacts that the steps settle from any start
+_LOAD_STEP, _APPROACH_STEP = 2.0, 1.25  # ratios to the value before for which the iteration converges
+_FIRST_SHARE = 0.03  # of a load or an approach with so few contacts that the iteration converges from any start
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ class CrestSystem:
         return matrix
 
     def isolated(self, delta: RealArray) -> RealArray:
-        """w_i of crests that do not feel each other, at most the largest."""
+        """w_i of crests without interaction, at most the largest."""
         omega = np.maximum(delta, 0.0)
         discriminant = self.A1**2 + 8.0 / 3.0 * self.A2 * omega  # negative beyond the largest approach, 9h/8
         alone = omega / (self.A1 + np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan)))
@@ -116,7 +116,7 @@ def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArra
     InputError
         If a crest is pressed beyond the range of its two terms.
     ConvergenceError
-        If the steps do not settle.
+        If the iteration does not converge.
     """
     w, scale = start.copy(), float(delta.max())
     for _ in range(_STEPS):
@@ -134,8 +134,8 @@ def solve_load(
 ) -> tuple[float, RealArray]:
     """Approach δ in m, and w (n,), at which the loads F_i/E* of the crests sum to ``total`` in m².
 
-    Newton steps in δ and all w at once; crests lie ``depth`` (n,) in m below the highest, and ``delta`` and ``start`` are first
-    values of δ and w.
+    Newton steps in δ and all w at once; crests lie ``depth`` (n,) in m below the highest, and ``delta`` and ``start``
+    are first values of δ and w.
 
     Raises
     ------
@@ -222,7 +222,7 @@ def _not_solved(system: CrestSystem, w: RealArray) -> InputError | ConvergenceEr
             f"contact radii must stay below {TWO_TERMS:.3f} wavelengths, where the two terms of the sine end, but a crest "
             "is pressed deeper. Lower the pressure or the approach."
         )
-    return ConvergenceError(f"interacting crests did not settle in {_STEPS} steps; the crests may be too close.")
+    return ConvergenceError(f"interacting crests did not converge in {_STEPS} steps; the crests may be too close.")
 
 
 def settled(
@@ -333,7 +333,12 @@ class InteractingCrests:
         Input("wavelength", "m", "wavelengths", many=True),
         Input("area", "m^2", "nominal area"),
         Input(
-            "interaction", "", "how crests feel each other", "choice", "far field", tuple((i, i) for i in INTERACTIONS)
+            "interaction",
+            "",
+            "elastic interaction of the crests",
+            "choice",
+            "far field",
+            tuple((i, i) for i in INTERACTIONS),
         ),
         Input(
             "method", "", "how the equations are solved", "choice", "complementarity", tuple((m, m) for m in METHODS)
@@ -396,7 +401,7 @@ class InteractingCrests:
         InputError
             If a crest is pressed beyond the range of its two terms.
         ConvergenceError
-            If the crests do not settle.
+            If the iteration does not converge.
         """
         (_, squares), *_ = self._states(np.array([require.positive(approach, "approach (m)")]))
         return squares
@@ -416,7 +421,7 @@ class InteractingCrests:
         InputError
             If a pressure is not positive, or presses a crest beyond the range of its two terms.
         ConvergenceError
-            If the crests do not settle.
+            If the iteration does not converge.
         """
         wanted = curve(pressure, "pressures (Pa)", positive=True)
         approaches, states = self._loaded(wanted)
@@ -466,7 +471,7 @@ class InteractingCrests:
         states: list[State] = [(system, w)] * path.size
         for n, load in enumerate(loads):
             delta, solved = more * float(alone[n]), 0
-            # crests that the approach uncovers take part in the next round
+            # crests newly in contact are included in the next round
             while solved < (count := int(np.searchsorted(depths, delta, side="left"))):
                 if count > system.count:
                     system = self._system(min(count + count // 4 + 16, depths.size))
@@ -485,7 +490,9 @@ class InteractingCrests:
         return values
 
     def _states(self, deltas: RealArray) -> list[State]:
-        """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one before."""
+        """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one
+        before.
+        """
         z, path = np.asarray(self.height), graded_approaches(deltas)
         counts = np.searchsorted(-z, path - z[0], side="left")
         system = self._system(int(counts.max()))

@@ -57,8 +57,9 @@ class PearsonHeights:
 class KotwalBhushan:
     """Independent spherical summits of one radius, with heights of Pearson's system, against a rigid plane.
 
-    Equations of :class:`~asperity.theories.greenwood_williamson.GreenwoodWilliamson` with F_m(D) = ∫_D^∞ (s - D)^m p(s) ds
-    of the Pearson curve p(s) (Kotwal & Bhushan 1996). Types I and II end: there is no contact above the highest summit.
+    Equations of :class:`~asperity.theories.greenwood_williamson.GreenwoodWilliamson` with F_m(D) = ∫_D^∞ (s - D)^m p(s)
+    ds of the Pearson curve p(s) (Kotwal & Bhushan 1996). Types I and II end: there is no contact above the highest
+    summit.
 
     Parameters
     ----------
@@ -84,9 +85,8 @@ class KotwalBhushan:
     --------
     Few high summits touch on a smaller area than those of Gaussian heights:
 
-    >>> loads = [KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=s, kurtosis=k).at_pressure(1e5) for s, k in ((0, 3), (0.5, 5))]
-    >>> [f"{load.area_fraction[0]:.2e}" for load in loads]
-    ['2.03e-05', '1.11e-05']
+    >>> loads = [KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=s, kurtosis=k).at_pressure(1e5) for s, k in ((0, 3),
+    (0.5, 5))] >>> [f"{load.area_fraction[0]:.2e}" for load in loads] ['2.03e-05', '1.11e-05']
     """
 
     E_star: float
@@ -153,5 +153,5 @@ class KotwalBhushan:
         return self.greenwood_williamson.at_pressure(pressure)
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts that do not feel each other, on blunt summits."""
+        """Few contacts without elastic interaction, on blunt summits."""
         return self.greenwood_williamson.validity(prediction)

@@ -93,7 +93,7 @@ class MajumdarBhushan:
 
     Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by
     powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
-    (1e-19 m²), which says that every real spot is elastic.
+    (1e-19 m²); every real spot is then elastic.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ class MajumdarBhushan:
         return prediction(p, area_fraction=self.sizes.area(spots) / self.nominal_area)
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Spots that are larger than an atom where the theory sees a change, and a largest spot inside the area."""
+        """A critical area larger than an atom, and a largest spot inside the nominal area."""
         spot = self.sizes.largest(prediction.area_fraction * self.nominal_area)
         critical = np.full_like(spot, self.critical_area)
         atom = "The critical spot is smaller than an atom: every real spot is elastic."

@@ -20,7 +20,7 @@ BERKOVICH = 24.5
 
 @dataclass(frozen=True)
 class OliverPharr:
-    """What the start of unloading tells: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
+    """Results from the initial unloading: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ from ..protocol import (
 )
 from .hertz import HertzPoint
 
-# A sinusoid pressed flat: partial contact of a wavy line (Westergaard 1939; Johnson 1985, sec. 13.2).
+# Partial contact of a sinusoid (Westergaard 1939; Johnson 1985, sec. 13.2).
 
 
 @dataclass(frozen=True)
@@ -134,9 +134,9 @@ class Westergaard:
         return share
 
 
-# Crossed waves pressed flat: both ends of the load (Johnson, Greenwood & Higginson 1985).
+# Crossed waves: limits of light load and full contact (Johnson, Greenwood & Higginson 1985).
 #
-# Between the asymptotes there is no closed form; ``asp.solve`` on ``asp.generate.bisinusoid`` has the answer.
+# Between the asymptotes there is no closed form; solve ``asp.generate.bisinusoid`` numerically.
 
 
 LOW_LOAD, HIGH_LOAD = 0.02, 0.95
@@ -287,14 +287,14 @@ class SinusoidalAsperity:
         Raises
         ------
         InputError
-            If a load needs a larger contact, in which the valley around the cap takes part.
+            If a load needs a larger contact, which would include the valley around the cap.
         """
         P = checked(load, "load (N)")
         widest = self.at_radius(0.35 * self.wavelength)
         if np.any(widest.load < P):
             raise InputError(
                 f"load of a cap must be at most that of a contact radius of 0.35 wavelengths, {float(widest.load):.6g} N, "
-                f"but is {float(P.max()):.6g} N. Beyond, the valley around the cap takes part: solve the contact."
+                f"but is {float(P.max()):.6g} N. At larger loads the valley around the cap is in contact: solve the contact numerically."
             )
         a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest.radius))
         return self.at_radius(a)

@@ -1,1 +1,1 @@
-"""What theories need to know of a rough surface: moments, summits, distributions of heights."""
+"""Statistics of rough surfaces that theories use: moments, summits, distributions of heights."""

@@ -1,4 +1,4 @@
-"""An isotropic power spectrum as theories want it: a table, a power law between neighbours, integrals in closed form."""
+"""Isotropic power spectrum as a table with power-law interpolation and closed-form integrals."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What a theory of rough contact may know of a surface: plain numbers in SI units, whatever made them.
+"""Roughness parameters that theories of rough contact use, in SI units.
 
-Theories do not know maps; ``asperity.roughness_of`` measures these numbers on a ``Surface``.
+``asperity.roughness_of`` measures them on a ``Surface``.
 """
 
 from __future__ import annotations

@@ -17,11 +17,12 @@ from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked
 from ..protocol import E_STAR, Input, checked, poissons_ratio
 from ..single.hertz import HertzEllipse, HertzLine, HertzPoint
 
-# Displacement and stress below a circular Hertz contact, pressed and sliding, in closed form.
+# Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
 #
 # The semi-ellipsoidal traction is a row of point sources on an imaginary axis: ∫ sqrt(1 - s²/a²)/ρ dA equals
 # (π/2a) ∫ (a² - t²)/sqrt(r² + (z + it)²) dt over -a < t < a. The integrals of Boussinesq and Cerruti (Johnson 1985,
-# sec. 3.2) are then elementary functions of one complex root; they are Hamilton's (1983), in a form without 0/0 on the axis.
+# sec. 3.2) are then elementary functions of one complex root; they are Hamilton's (1983), in a form without 0/0 on the
+# axis.
 
 
 def hertz_normal(
@@ -62,7 +63,8 @@ def hertz_shear(
     """Displacement (m/Pa) and stress under the shear traction sqrt(1 - r²/a²) along +x on r < a.
 
     Parameters and units as for ``hertz_normal``. With friction μ and peak pressure p0 the sliding contact has
-    ``hertz_normal(...) * p0 + hertz_shear(...) * (μ * p0)``: the counter-body moves toward +x, the trailing edge is at -a.
+    ``hertz_normal(...) * p0 + hertz_shear(...) * (μ * p0)``: the counter-body moves toward +x, the trailing edge is at
+    -a.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     f = _Potentials.of(x, y, z, contact_radius)
@@ -86,7 +88,7 @@ def hertz_shear(
 
 @dataclass(frozen=True, eq=False)
 class _Potentials:
-    """V = ∫ p/ρ dA, χ and Ξ with ∂χ/∂z = V, ∂Ξ/∂z = χ; the digit says how often D = (1/r) ∂/∂r was applied."""
+    """V = ∫ p/ρ dA, χ and Ξ with ∂χ/∂z = V, ∂Ξ/∂z = χ; the digit is the number of applications of D = (1/r) ∂/∂r."""
 
     V: RealArray
     V_z: RealArray
@@ -144,7 +146,8 @@ class _Potentials:
         )
 
 
-# Displacement and stress below a Hertz line contact, pressed and sliding, in plane strain (McEwen 1949; Johnson 1985, sec. 4.2c).
+# Displacement and stress below a Hertz line contact, pressed and sliding, in plane strain (McEwen 1949; Johnson 1985,
+# sec. 4.2c).
 #
 # With w = x + iz the row of line forces sums to S(w) = ∫ p(s) ds/(w - s) = (π/a)(w - sqrt(w² - a²)) for
 # p = sqrt(1 - s²/a²); every component is a combination of S, its derivative and its integral.
@@ -327,7 +330,7 @@ def _integrals(
     return chi_xx, chi_yy, chi_xy
 
 
-# Stresses below Hertz's contacts, pressed and sliding, as theories of their own: point, line and ellipse.
+# Theories of the catalogue: stresses below point, line and elliptical contacts.
 
 
 NU = Input("nu", "", "Poisson's ratio of the body", of="bodies", default=0.3)
@@ -339,7 +342,8 @@ SOME_SHEAR = 1.0
 
 @dataclass(frozen=True)
 class HertzStress:
-    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1).
+    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4,
+    7.1).
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ def cerruti(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, n
 
 # Line forces and uniform strips on a half-space in plane strain (Flamant 1892; Johnson 1985, ch. 2).
 #
-# Plane problems fix displacements up to a constant only; here surface displacements along the force are multiples of ln r.
+# Displacements are defined up to a constant; here surface displacements along the force are multiples of ln r.
 
 
 def flamant_normal(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
@@ -160,7 +160,9 @@ def strip_shear(x: RealArray, z: RealArray | float, half_width: float, *, shear:
 def strip_out_of_plane(
     x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float
 ) -> ElasticFields:
-    """Displacement (m/Pa) and stress under unit shear traction along +y on |x| < half_width (m); see ``strip_pressure``."""
+    """Displacement (m/Pa) and stress under unit shear traction along +y on |x| < half_width (m); see
+    ``strip_pressure``.
+    """
     fields = []
     for X, z_, angle, log, _ in (_end(x, z, half_width), _end(x, z, -half_width)):
         zero = 0.0 * X * nu
@@ -181,7 +183,7 @@ def _plane_strain(xx: RealArray, zz: RealArray, xz: RealArray, nu: float) -> Str
     return StressTensor(xx=xx, yy=nu * (xx + zz), zz=zz, xy=0.0 * xx, xz=xz, yz=0.0 * xx)
 
 
-# Forces on the surface of a half-space as theories of their own: at a point, on a line, on a strip (Johnson 1985, ch. 2 and 3).
+# Theories of the catalogue: point and line forces and strips (Johnson 1985, ch. 2 and 3).
 
 
 SHEAR = Input("shear", "Pa", "shear modulus", of="bodies")

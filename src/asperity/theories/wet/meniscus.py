@@ -1,7 +1,8 @@
 """One liquid meniscus: Laplace and Kelvin equations, the adsorbed film, and the force between a sphere and a flat.
 
 Circular arcs, no gravity, menisci much lower than the sphere; the line force of the surface tension, of relative order
-(height/radius)^(1/2), is left out. Sources: McFarlane & Tabor (1950), Gao, Tian & Bhushan (1995), Bhushan (1998, eq. 55-67).
+(height/radius)^(1/2), is left out. Sources: McFarlane & Tabor (1950), Gao, Tian & Bhushan (1995), Bhushan (1998, eq.
+55-67).
 """
 
 from __future__ import annotations
@@ -92,7 +93,8 @@ def adsorbed_water_film(humidity: float) -> float:
 def droplet_force(
     radius: float, surface_tension: float, wetting: float, *, gap: float = 0.0, immersion: float = math.inf
 ) -> float:
-    """Attraction in N of a sphere to a flat by a ring of liquid around the nearest point: 2πRγ(cos θ1 + cos θ2)/(1 + D/d).
+    """Attraction in N of a sphere to a flat by a ring of liquid around the nearest point: 2πRγ(cos θ1 + cos θ2)/(1 +
+    D/d).
 
     Independent of the amount of liquid where sphere and flat touch (case A); with a ``gap`` D in m between them the
     sphere is immersed by d in m (case B, Bhushan 1998, fig. 35).
@@ -117,9 +119,10 @@ def _touching(radius: float, surface_tension: float, wetting: float) -> float:
     return 2.0 * math.pi * require.positive(radius, "radius of the sphere (m)") * gamma * wetting
 
 
-# Growth of a meniscus that draws liquid from the film around it, until the film holds it back.
+# Growth of a meniscus that draws liquid from the surrounding film, up to equilibrium with the disjoining pressure.
 #
-# A compact model of the kinetic meniscus of Bhushan, Kotwal & Chilamakuri (1998) with all of its trends, not a transcription.
+# A compact model of the kinetic meniscus of Bhushan, Kotwal & Chilamakuri (1998) with all of its trends, not a
+# transcription.
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ class StatisticalMeniscus:
         return balance(self.contact, self._pull, curve(pressure, "pressures (Pa)", positive=True))
 
     def feedback(self, separation: ArrayLike) -> RealArray:
-        """dF_m/dL at separations (n,) in m: the load settles by repeated solution only where this is below one."""
+        """dF_m/dL at separations (n,) in m: repeated solution converges only where this is below one."""
         h = curve(separation, "separations (m)")
         reached = self.contact.standardised(h - self.film_thickness)
         slope = self.largest * self.contact.heights.density(reached) / self.contact.height_deviation
@@ -134,7 +134,8 @@ class StatisticalMeniscus:
 
 
 def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> WetPrediction:
-    """State in which the summits carry ``pressure`` (n,) in Pa and the ``pull`` of the menisci, the densest of several.
+    """Equilibrium of the summits under ``pressure`` (n,) in Pa and the ``pull`` of the menisci, at the smallest
+    separation.
 
     Raises
     ------
@@ -162,7 +163,9 @@ def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> We
 
 
 def _crossing(function: Pull, low: RealArray, high: RealArray, close: float) -> RealArray:
-    """Where ``function`` falls through zero between ``low`` and ``high``, to a step of ``close``: false position (Illinois)."""
+    """Where ``function`` falls through zero between ``low`` and ``high``, to a step of ``close``: false position
+    (Illinois).
+    """
     at_low, at_high = function(low), function(high)
     for _ in range(_STEPS):
         fall = at_high - at_low
@@ -177,7 +180,7 @@ def _crossing(function: Pull, low: RealArray, high: RealArray, close: float) -> 
 
 
 def _separations(contact: GreenwoodWilliamson) -> RealArray:
-    """Separations in m from the densest on, between which no balance is overlooked."""
+    """Separations in m, from the smallest up, spaced closely enough to bracket every equilibrium."""
     end = min(HIGHEST, contact.heights.support[1])
     dense = np.arange(LOWEST, -_NEAR, _FAR_STEP)
     near = np.arange(-_NEAR, min(end, _NEAR) + _STEP, _STEP)
@@ -186,7 +189,7 @@ def _separations(contact: GreenwoodWilliamson) -> RealArray:
     return heights
 
 
-# Meniscus force of rough contacts while the menisci grow: summits near the film are caught one after the other.
+# Meniscus force of rough contacts while the menisci grow and reach further summits.
 
 
 @dataclass(frozen=True)
