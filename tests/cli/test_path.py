@@ -22,7 +22,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     assert result.exit_code == 0, result.stderr
     for text in ("Load path", "External work", "30 MPa", "40 MPa", "through 12 steps", "wrote"):
         assert text in result.stdout
-    names = {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "path.nc", "path.csv"}
+    names = {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "path.csv"}
     assert {path.name for path in out.iterdir()} == names
     plots = {path.stem for path in (out / "plots").iterdir()}
     assert {"load_loop", "area_loop", "energies", "indentation", "residual"} <= plots
@@ -31,7 +31,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     assert document.control.path.mean_pressure == (30e6, "0", 40e6, "0")
     assert document.control.path.steps == 3
 
-    data = asp.open_tree(out / "path.nc")["path"].to_dataset()
+    data = asp.open_tree(out / "result.nc")["path"].to_dataset()
     assert data.sizes["step"] == 12
     np.testing.assert_allclose(data["mean_pressure"][[2, 5, 8, 11]], [30e6, 0.0, 40e6, 0.0], rtol=1e-9)
     assert float(data["plastic_work"].sum()) > 0.0
@@ -45,7 +45,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
-    other = asp.open_tree(tmp_path / "again" / "path.nc")["path"].to_dataset()
+    other = asp.open_tree(tmp_path / "again" / "result.nc")["path"].to_dataset()
     np.testing.assert_array_equal(other["pressure"], data["pressure"])
 
 

@@ -35,9 +35,9 @@ def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
         assert text in result.stdout, text
     assert "yield" in result.stdout.split("Given strengths")[1]
     names = {path.name for path in out.iterdir()}
-    assert names == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "stress", "stress.csv"}
-    fields = sorted(path.name for path in (out / "stress").iterdir())
-    assert fields[:2] == ["planes.nc", "profile_1.nc"]
+    assert names == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "stress.csv"}
+    fields = sorted(open_tree(out / "result.nc")["stress"].children)
+    assert fields[:2] == ["planes", "profile_1"]
     assert all(name.startswith("section_") for name in fields[2:])
     pictures = {path.stem for path in (out / "plots").iterdir()}
     assert {"stress_plane_1", "stress_plane_2", "stress_plane_3", "stress_profile_1"} <= pictures
@@ -46,7 +46,7 @@ def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
 
     solved = load(out / "result.nc")
     field = asp.stress(solved, [0.0, 100e-9], friction=0.3, direction=np.pi / 2.0)
-    planes = open_tree(out / "stress" / "planes.nc")["field"].to_dataset()
+    planes = open_tree(out / "result.nc")["stress/planes"].to_dataset()
     np.testing.assert_allclose(planes["xx"], field.normal_xx, rtol=1e-12)
     with (out / "stress.csv").open(encoding="utf-8") as file:
         rows = {(row["name"], row["quantity"]): float(row["value"]) for row in csv.DictReader(file)}
@@ -191,7 +191,7 @@ def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> Non
     result = run("contact", source, *body, "--resample", 128, "--periodise", *wanted, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.output
     solved = load(tmp_path / "run" / "result.nc")
-    planes = open_tree(tmp_path / "run" / "stress" / "planes.nc")["field"].to_dataset()
+    planes = open_tree(tmp_path / "run" / "result.nc")["stress/planes"].to_dataset()
     scale = solved.max_pressure
     np.testing.assert_allclose(planes["zz"][0], -solved.pressure, atol=1e-9 * scale)
     np.testing.assert_allclose(planes["xz"][0], -0.3 * solved.pressure, atol=1e-9 * scale)

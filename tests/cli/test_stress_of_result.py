@@ -51,10 +51,10 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
     assert at_once.exit_code == 0, at_once.stderr
     names = {path.relative_to(tmp_path / "later") for path in (tmp_path / "later").rglob("*")}
     expected = {path.relative_to(tmp_path / "once") for path in (tmp_path / "once").rglob("*")}
-    assert names == expected - {Path("result.nc"), Path("scalars.csv")}
+    assert names == expected - {Path("scalars.csv")}
     assert (tmp_path / "later" / "stress.csv").read_text() == (tmp_path / "once" / "stress.csv").read_text()
     fields = [
-        open_tree(tmp_path / folder / "stress" / "section_1.nc")["field"].to_dataset() for folder in ("later", "once")
+        open_tree(tmp_path / folder / "result.nc")["stress/section_1"].to_dataset() for folder in ("later", "once")
     ]
     np.testing.assert_array_equal(fields[0]["xz"], fields[1]["xz"])
     html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")

@@ -36,6 +36,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     materials.materials,
     materials.liquids,
     results.plot,
+    results.report,
     results.export,
     results.cite,
 )

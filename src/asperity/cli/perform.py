@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 """What a run leaves in its folder."""
 
-PATH_NAMES = ("path.nc", "path.csv")
-"""What a load path leaves there as well: its steps, and their scalars and energies."""
+PATH_NAMES = ("path.csv",)
+"""What a load path leaves there as well: scalars and energies of its steps."""
 
-STRESS_NAMES = ("stress", "stress.csv")
-"""What stresses leave there: the fields, and the table of the largest ones."""
+STRESS_NAMES = ("stress.csv",)
+"""What stresses leave there as well: the table of the largest ones."""
 
 
 def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions) -> int:
@@ -50,43 +50,32 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
 def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> None:
     """Write everything into ``folder``, with the ``document`` whose paths start there."""
     from ..io.export import export_csv
-    from ..io.results import save
     from ..plots.contact import save_plots
     from ..run.document import dumps, save_document
 
     result, text = outcome.result, dumps(document)
     save_document(document, folder / "problem.toml")
     save_plots(result, folder / "plots")
-    answer = outcome.found["film"].detail if "film" in outcome.found else result
-    save(answer, folder / "result.nc", document=text)
-    export_csv(answer, folder / "scalars.csv")
+    export_csv(outcome.found["film"].detail if "film" in outcome.found else result, folder / "scalars.csv")
     if outcome.path is not None:
-        save(outcome.path, folder / PATH_NAMES[0], document=text)
-        export_csv(outcome.path, folder / PATH_NAMES[1])
+        export_csv(outcome.path, folder / PATH_NAMES[0])
     write_parts(outcome, folder, text, document.title)
 
 
 def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str) -> None:
-    """Write report, pictures of the parts and stress fields of ``outcome`` into ``folder``."""
+    """Write result file, report and pictures of the parts of ``outcome`` into ``folder``."""
     from ..io.export import export_csv
-    from ..io.stress_files import save_stress
     from ..report import write_report
+    from ..run.stored import save_outcome
+
+    save_outcome(outcome, folder / "result.nc", document=document, title=title)
 
     for figure in (figure for figures in outcome.figures.values() for figure in figures):
         if not (path := folder / "plots" / f"{figure.name}.png").exists():
             path.write_bytes(figure.picture)
     write_report(outcome, folder / "report.html", document=document, title=title)
-    if "stress" not in outcome.found:
-        return
-    survey, fields = outcome.found["stress"].detail, folder / STRESS_NAMES[0]
-    export_csv(survey, folder / STRESS_NAMES[1])
-    fields.mkdir()
-    if survey.request.depths:
-        save_stress(survey.planes(survey.request.depths), fields / "planes.nc")
-    for number, section in enumerate(survey.sections, start=1):
-        save_stress(section.field, fields / f"section_{number}.nc")
-    for number, field in enumerate(survey.profiles, start=1):
-        save_stress(field, fields / f"profile_{number}.nc")
+    if "stress" in outcome.found:
+        export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])
 
 
 def write_volume(outcome: Outcome, nc: Path | None, vtk: Path | None, *, force: bool) -> None:

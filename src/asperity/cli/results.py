@@ -1,7 +1,8 @@
-"""The commands on results: ``plot``, ``export`` and ``cite``."""
+"""The commands on results: ``plot``, ``report``, ``export`` and ``cite``."""
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -26,15 +27,40 @@ def plot(
 ) -> None:
     """Draw the figures of a result as PNG files."""
     from ..core import require
-    from ..io.results import load
     from ..plots.contact import figures_of
     from ..plots.picture import save_pictures
+    from ..run.stored import load_outcome
     from .show import print_files
 
-    found = figures_of(load(file))
+    outcome = load_outcome(file)
+    film = outcome.found["film"].detail if "film" in outcome.found else None
+    found = figures_of(outcome.path or film or outcome.result)
+    if kind not in found:
+        figures = (figure for figures in outcome.figures.values() for figure in figures)
+        found = {**{figure.name: partial(bytes, figure.picture) for figure in figures}, **found}
     require.one_of(kind, ("all", *found), "--kind")
     wanted = found if kind == "all" else {kind: found[kind]}
     print_files(save_pictures(wanted, out, overwrite=force))
+
+
+def report(
+    file: Result,
+    out: Annotated[Path, typer.Option("--out", help="The HTML file.", metavar="FILE.html")] = Path("report.html"),
+    force: Force = False,
+) -> None:
+    """Write the report of a result again, from what its file holds.
+
+    Example: asperity report run/result.nc --out again.html
+    """
+    from ..io.results import document_in
+    from ..report import write_report
+    from ..run.stored import load_outcome
+    from .show import print_files
+
+    outcome = load_outcome(file)
+    title = str(outcome.stored.get("report_title", ""))
+    write_report(outcome, out, document=document_in(file), title=title, overwrite=force)
+    print_files((out,))
 
 
 def export(

@@ -133,7 +133,7 @@ def _write_folder(outcome: Outcome, document: ProblemDocument | None, folder: Pa
     from ..run.document import dumps, save_document
     from .perform import STRESS_NAMES, write_parts
 
-    names = ["report.html", "plots", *STRESS_NAMES]
+    names = ["report.html", "result.nc", "plots", *STRESS_NAMES]
     save_plots(outcome.result, folder / "plots")
     if document is not None:
         save_document(document, folder / "problem.toml")

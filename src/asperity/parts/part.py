@@ -57,6 +57,8 @@ class Found:
         Keys of the papers behind them.
     status
         How the part's own computation ended; None if it has no such thing.
+    words
+        What the part has said of it, where it comes from a file; None where it is still to be said.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
@@ -64,6 +66,19 @@ class Found:
     findings: tuple[Advice, ...] = ()
     citation_keys: tuple[str, ...] = ()
     status: Status | None = None
+    words: Words | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """What a file keeps of a part beside the values of its quantities, for figures.
+
+    ``fields`` are stress fields by name, or their planes one after the other; ``facts`` are numbers and text by name, as JSON
+    knows them.
+    """
+
+    fields: Mapping[str, Any] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,6 +195,14 @@ class Part:
     def words(self, found: Found, solved: Solved) -> Words:
         """Sentence and tables for report and terminal."""
         return Words()
+
+    def stored(self, found: Found) -> Stored:
+        """What a file keeps for the figures."""
+        return Stored()
+
+    def restored(self, stored: Stored, solved: Solved) -> Any:
+        """Detail of what was found, for the figures, from what a file has ``stored``."""
+        return None
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the numbers will rest on."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -91,7 +92,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
         sections=[_section(part, words, outcome.figures[part.name]) for part, words in outcome.sections],
         warnings=[item for item in advice if item.level == "warning"],
         notes=[item for item in advice if item.level != "warning"],
-        provenance=_provenance_rows(provenance(result)),
+        provenance=_provenance_rows(json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result)),
         references=[(key, REFERENCES.get(key, "unknown reference")) for key in keys],
         document=document,
     )

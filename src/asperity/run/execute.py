@@ -48,6 +48,8 @@ class Outcome:
         What the user should know before using the numbers, of all parts.
     status
         Whether everything that had to settle did.
+    stored
+        Attributes of the file that it comes from; empty for an outcome of this run.
     """
 
     case: Case | None
@@ -55,6 +57,7 @@ class Outcome:
     found: Mapping[str, Found]
     findings: tuple[Advice, ...]
     status: Status
+    stored: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def result(self) -> ContactResult:
@@ -84,7 +87,9 @@ class Outcome:
     def sections(self) -> Iterator[tuple[Part, Words]]:
         """Every part that has something to say, and its words."""
         for part in parts():
-            if part.name in self.found and (words := part.words(self.found[part.name], self.solved)):
+            if part.name in self.found and (
+                words := self.found[part.name].words or part.words(self.found[part.name], self.solved)
+            ):
                 yield part, words
 
     @cached_property

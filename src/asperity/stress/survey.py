@@ -347,6 +347,10 @@ class StressSurvey:
         """Whole planes at ``depths`` in m, one by one, computed anew."""
         return _planes(self.request, self.result, depths, self.threads)
 
+    def wanted_planes(self) -> Iterator[StressField]:
+        """The whole planes that were asked for, one by one."""
+        return self.planes(self.request.depths) if self.request.depths else iter(())
+
 
 def survey(
     request: StressRequest,

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
@@ -13,12 +16,13 @@ from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure
-from ..part import Found, Part, Solved, Words
+from ..part import Found, Part, Solved, Stored, Words
 
 if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
     from ...plots.picture import Figure
-    from ...stress.survey import Place, StressRequest, StressSurvey
+    from ...stress.field import StressField
+    from ...stress.survey import Place, StressRequest, StressSurvey, SurveyedSection
     from ..friction import FrictionSettings
 
 
@@ -118,6 +122,19 @@ class StressSettings(Settings):
     )
 
 
+@dataclass(frozen=True, eq=False)
+class StoredSurvey:
+    """Stress fields of a file: what figures show of a ``StressSurvey``."""
+
+    sections: tuple[SurveyedSection, ...]
+    profiles: tuple[StressField, ...]
+    planes: StressField | None
+
+    def wanted_planes(self) -> Iterator[StressField]:
+        """The whole planes one by one."""
+        return iter(()) if self.planes is None else (self.planes.only(n) for n in range(len(self.planes.planes)))
+
+
 class Stress(Part):
     """Largest stresses of layers and interfaces."""
 
@@ -169,8 +186,27 @@ class Stress(Part):
         from ...plots.stress import line_figures, map_figure
 
         survey = found.detail
-        planes = enumerate(survey.planes(survey.request.depths), start=1) if survey.request.depths else ()
+        planes = enumerate(survey.wanted_planes(), start=1)
         return (*line_figures(survey), *(map_figure(plane, number) for number, plane in planes))
+
+    def stored(self, found: Found) -> Stored:
+        """Sections, profiles and whole planes."""
+        survey = found.detail
+        fields = {f"section_{number}": item.field for number, item in enumerate(survey.sections, start=1)}
+        fields |= {f"profile_{number}": field for number, field in enumerate(survey.profiles, start=1)}
+        planes = survey.wanted_planes()
+        if (first := next(planes, None)) is not None:
+            fields["planes"] = chain([first], planes)
+        return Stored(fields, {"drawn": [list(item.quantities) for item in survey.sections]})
+
+    def restored(self, stored: Stored, solved: Solved) -> StoredSurvey:
+        """The same fields."""
+        from ...stress.survey import SurveyedSection
+
+        drawn = enumerate(stored.facts["drawn"], start=1)
+        sections = (SurveyedSection(stored.fields[f"section_{number}"], tuple(names)) for number, names in drawn)
+        profiles = (field for name, field in stored.fields.items() if name.startswith("profile_"))
+        return StoredSurvey(tuple(sections), tuple(profiles), stored.fields.get("planes"))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Largest stresses of layers and interfaces."""

@@ -1,0 +1,145 @@
+"""Outcomes as files: one labelled tree with a group for each part, from which report and figures are made again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..core.quantity import Labelled
+from ..core.status import Advice
+from ..io.results import (
+    contact_of,
+    grid_lines,
+    path_from,
+    result_in,
+    result_tree,
+    root_attributes,
+    status_attributes,
+    status_from,
+    stored_tree,
+)
+from ..io.stress_files import field_from, field_node
+from ..io.tree import Node, datatree, write_tree
+from ..parts.part import Found, Part, Solved, Stored, Table, Words
+from ..parts.registry import parts
+from .execute import Outcome, analysed
+
+if TYPE_CHECKING:
+    import xarray
+
+OF_OUTCOME = "of_outcome"
+"""Attribute of the root of a tree that holds the outcome of a document, not a result alone."""
+
+
+def save_outcome(
+    outcome: Outcome, path: str | Path, *, document: str | None = None, title: str = "", overwrite: bool = False
+) -> None:
+    """Write ``outcome``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
+
+    Every part has a group with its values and the words it has said; ``load`` reads the contact, ``load_outcome`` everything.
+
+    Raises
+    ------
+    OutputError
+        If the file does not end in .nc, exists and ``overwrite`` is false, or cannot be written.
+    InputError
+        If the problem holds a type that files do not know.
+    """
+    write_tree(outcome_tree(outcome, document=document, title=title), path, overwrite=overwrite)
+
+
+def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
+    """``outcome`` as ``xarray.DataTree``: one group for each part, units and long names on every variable."""
+    return datatree(outcome_tree(outcome))
+
+
+def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "") -> Node:
+    """Tree of ``outcome``."""
+    details = {name: found.detail for name, found in outcome.found.items()}
+    result = outcome.path or details.get("film") or outcome.result
+    groups = dict(result_tree(result).children)
+    for part in parts():
+        if part.name in outcome.found:
+            groups[part.name] = _group(part, outcome, groups.get(part.name, Node()))
+    attributes = root_attributes(outcome.result, document) | status_attributes(outcome.status)
+    attributes |= {
+        OF_OUTCOME: 1,
+        "citation_keys": " ".join(dict.fromkeys((*outcome.result.citation_keys, *outcome.citation_keys))),
+        "findings": json.dumps([asdict(finding) for finding in outcome.findings]),
+    }
+    return Node((), attributes | ({"report_title": title} if title else {}), groups)
+
+
+def load_outcome(path: str | Path) -> Outcome:
+    """The outcome in the file ``path``: contact, what every part has found and said, findings and status.
+
+    Of a file that holds a result alone, the outcome of what can be said of that.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is missing, damaged, not NetCDF-4, or holds no contact.
+    """
+    tree = stored_tree(path)
+    answer = result_in(tree, path)
+    contact, groups = contact_of(answer), tree.children
+    steps = groups.get("path")
+    course = None if steps is None or "control" not in steps else path_from(steps, contact)
+    if OF_OUTCOME not in tree.attributes:
+        return analysed(contact, {"contact": True, "plasticity": True}, course)
+    solved = Solved(contact.problem, contact.control, contact, course)
+    known = {"film": answer, "path": course}
+    found = {
+        part.name: _found(part, groups[part.name], solved, known.get(part.name))
+        for part in parts()
+        if "words" in groups.get(part.name, Node()).attributes
+    }
+    findings = tuple(Advice(**finding) for finding in json.loads(tree.attributes["findings"]))
+    outcome = Outcome(None, replace(solved, found=found), found, findings, status_from(tree.attributes))
+    return replace(outcome, stored=dict(tree.attributes))
+
+
+def _group(part: Part, outcome: Outcome, before: Node) -> Node:
+    """Group of what ``part`` has found and said, in addition to what the result itself has ``before``."""
+    found = outcome.found[part.name]
+    values = list(before.values)
+    for quantity in part.quantities:
+        if quantity.name in found.values and quantity.name not in before:
+            values.append(Labelled(quantity, found.values[quantity.name]))
+    there = {item.quantity.name for item in values}
+    needed = {dim for item in values for dim in item.quantity.dims}
+    values += [line for line in grid_lines(outcome.result) if line.quantity.name in needed - there]
+    stored = part.stored(found)
+    words = asdict(found.words or part.words(found, outcome.solved))
+    attributes = {"words": json.dumps(words), "facts": json.dumps(dict(stored.facts))}
+    attributes |= {"title": part.title, "citation_keys": " ".join(found.citation_keys)}
+    fields = {name: field_node(field) for name, field in stored.fields.items()}
+    return Node(tuple(values), {**before.attributes, **attributes}, {**before.children, **fields})
+
+
+def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
+    """What ``part`` has found and said, of its group; ``known`` is the detail where the result itself holds it."""
+    values = {item.quantity.name: item.values for item in node.values}
+    fields = {name: field_from(child) for name, child in node.children.items() if "xx" in child}
+    stored = Stored(fields, json.loads(node.attributes["facts"]))
+    detail = known if known is not None else part.restored(stored, solved)
+    keys = tuple(str(node.attributes["citation_keys"]).split())
+    return Found(values, detail, citation_keys=keys, words=_words(json.loads(node.attributes["words"])))
+
+
+def _words(described: Mapping[str, Any]) -> Words:
+    tables = tuple(
+        (str(heading), Table(tuple(table["headings"]), tuple(map(tuple, table["cells"]))))
+        for heading, table in described["tables"]
+    )
+    rows = {name: [(str(label), str(text)) for label, text in described[name]] for name in ("headline", "rows")}
+    return Words(
+        sentence=described["sentence"],
+        tables=tables,
+        remarks=tuple(described["remarks"]),
+        alarming=described["alarming"],
+        **rows,
+    )
