@@ -89,7 +89,11 @@ def load_outcome(path: str | Path) -> Outcome:
     steps = groups.get("path")
     course = None if steps is None or "control" not in steps else path_from(steps, contact)
     if OF_OUTCOME not in tree.attributes:
-        return analysed(contact, {"contact": True, "plasticity": True}, course)
+        asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
+        outcome = analysed(contact, asks, course)
+        if "film" not in groups:
+            return outcome
+        return replace(outcome, found={**outcome.found, "film": Found({}, answer, citation_keys=answer.citation_keys)})
     solved = Solved(contact.problem, contact.control, contact, course)
     known = {"film": answer, "path": course}
     found = {
