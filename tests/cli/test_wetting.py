@@ -88,7 +88,7 @@ def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path:
     asp.save(wet.contact, tmp_path / "dry.nc")
     refused = run("plot", tmp_path / "dry.nc", "--kind", "menisci", "--out", tmp_path)
     assert refused.exit_code == 2
-    assert "holds a dry one" in refused.stderr
+    assert "--kind must be one of all" in refused.stderr
 
 
 def test_a_film_beside_stresses(run: Runner, scan: Path) -> None:

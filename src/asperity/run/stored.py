@@ -8,6 +8,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
 from ..io.results import (
@@ -91,7 +92,7 @@ def load_outcome(path: str | Path) -> Outcome:
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
         outcome = analysed(contact, asks, course)
-        if "film" not in groups:
+        if "film" not in groups or (isinstance(answer, ContactResult) and answer.menisci is None):
             return outcome
         return replace(outcome, found={**outcome.found, "film": Found({}, answer, citation_keys=answer.citation_keys)})
     solved = Solved(contact.problem, contact.control, contact, course)
