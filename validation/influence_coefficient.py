@@ -5,7 +5,7 @@ from __future__ import annotations
 from side_by_side import Comparison, Pair, write
 
 import asperity as asp
-from asperity.solids.compliance.two_bodies import contact_compliance
+from asperity.solids.compliance.halfspace import contact_compliance
 
 THICKNESSES = (0.01, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 12.8, 100.0)
 """h over the side of the patch."""

@@ -53,9 +53,8 @@ from .solids.library import Liquid, liquid, liquids, material, materials
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
-from .stress.regions import depths_through
+from .stress.regions import DepthProfile, Everywhere, Section, depths_through
 from .stress.tractions import ShearTraction, Sliding
-from .stress.where import DepthProfile, Everywhere, Section
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .studies.compare import compare

@@ -7,11 +7,10 @@ from scipy import special
 from solid_cases import elastic, layered, on_half_space
 
 import asperity as asp
-from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
 from asperity.solids.compliance.influence import ISOTROPIC, patch_coefficients
 from asperity.solids.compliance.layered import LayerStack, interface_compliances, samples
 from asperity.solids.compliance.tensor import coupling_influence, coupling_strips, influence_tensor
-from asperity.solids.compliance.two_bodies import contact_compliance
 
 ROWS = reference("layered_influence_surface")
 CONFIGURATIONS = sorted({row["config"] for row in ROWS})

@@ -12,8 +12,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
-from ..solids.compliance.halfspace import Compliance
-from ..solids.compliance.two_bodies import contact_compliance
+from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Rigid
 from ..solids.layers import Body, contact_modulus
 from ..surfaces.pair import composite

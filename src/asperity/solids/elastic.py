@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 from ..core import require
 
-# Limits of a material beyond which it is no longer elastic.
-
 
 @dataclass(frozen=True)
 class Strength:

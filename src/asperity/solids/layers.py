@@ -12,8 +12,6 @@ from ..core.errors import InputError
 from ..core.late import Shown
 from .elastic import Elastic, Rigid
 
-# How a layer is joined to what lies below it.
-
 
 @dataclass(frozen=True)
 class Bonded:
@@ -156,9 +154,6 @@ def _constants(material: Elastic) -> Elastic:
     return Elastic(material.youngs_modulus, material.poisson_ratio)
 
 
-# The bodies that can take part in a contact, and their contact modulus.
-
-
 Body: TypeAlias = Elastic | Rigid | Layered
 """A body that can take part in a contact."""
 
@@ -209,9 +204,6 @@ def contact_modulus(body: Body, counter_body: Body) -> float:
     """
     solids = (surface_material(solid) for solid, _ in deformable(body, counter_body))
     return 1.0 / sum(1.0 / solid.plane_strain_modulus for solid in solids if solid is not None)
-
-
-# Which of two bodies gives way first.
 
 
 def weaker_strength(*bodies: Body) -> dict[str, float]:

@@ -15,7 +15,6 @@ from ..core.errors import InputError
 from ..core.interpolation import Panels, panels
 from ..core.spectral import PaddedTransform, RealTransform, SplitTransform, fast_length, thread_count, wrapped
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
-from ..solids.elastic import Elastic
 from ..solids.layers import RigidBase
 from .kernels.coefficients import LineCoefficients, PlaneCoefficients
 from .kernels.patch import Load
@@ -52,8 +51,10 @@ def mean_displacement(loads: tuple[float, float, float], body: object, plane: Pl
             else (region.top, min(plane.depth, region.bottom))
         )
         if high > low:
-            direct += (high - low) * _uniaxial(region.material)
-            shear += (high - low) / region.material.shear_modulus
+            G, nu = region.material.shear_modulus, region.material.poisson_ratio
+            if not math.isclose(nu, 0.5):  # 1/M = (1-2ν) / 2G(1-ν), the compliance in uniaxial strain
+                direct += (high - low) * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))
+            shear += (high - low) / G
     sign = 1.0 if from_base else -1.0
     return tuple(sign * load * c for load, c in zip(loads, (shear, shear, direct), strict=True))
 
@@ -95,12 +96,6 @@ def require_displacement(tractions: Tractions, body: object) -> None:
             f"{tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
             "displacement=False."
         )
-
-
-def _uniaxial(material: Elastic) -> float:
-    """1/M = (1-2ν) / 2G(1-ν) in 1/Pa, the compliance in uniaxial strain."""
-    nu = material.poisson_ratio
-    return 0.0 if math.isclose(nu, 0.5) else (1.0 - 2.0 * nu) / (2.0 * material.shear_modulus * (1.0 - nu))
 
 
 # Fields on planes under a periodic load: multiplication in Fourier space, plane by plane.

@@ -14,9 +14,8 @@ from ..core.errors import InputError
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .boundaries import FreePlanes, PeriodicPlanes, require_held
 from .field import StressField
-from .regions import Plane, planes, stack
+from .regions import Everywhere, Plane, Where, planes, selection, stack
 from .tractions import Shear, ShearTraction, Sliding, Tractions
-from .where import Everywhere, Where, selection
 
 Direction: TypeAlias = float | tuple[float, float]
 """Angle in rad from +x towards +y, or a vector (x, y) of any length."""
@@ -163,7 +162,8 @@ class StressPlanes:
         self.planes = planes(body, depths)
         require_held(tractions, body)
         self._place = selection(on, tractions.grid, tractions.pressure)
-        self._source = _source(tractions, body, dtype, threads)
+        kind = PeriodicPlanes if tractions.boundary == "periodic" else FreePlanes
+        self._source: Planes = kind(tractions, body, dtype=dtype, threads=threads)
         self._dtype = dtype
         self._grid = tractions.grid
         self.citation_keys = papers(body, tractions.boundary, sheared=tractions.sheared)
@@ -172,7 +172,7 @@ class StressPlanes:
         """One field after the other, each of one plane."""
         part = self._place.index
         all_points = part == (slice(None), slice(None))
-        scratch = None if all_points else StressTensor(*_arrays(len(STRESSES), self._grid.shape, self._dtype))
+        scratch = None if all_points else StressTensor(*np.empty((len(STRESSES), *self._grid.shape), self._dtype))
         for plane in self.planes:
             tensor = self._source.stress(plane, scratch).map(lambda c: c[part][None].copy() if scratch else c[None])
             moved = self._source.displacement(plane).map(lambda c: c[part][None].copy()) if displacement else None
@@ -181,12 +181,12 @@ class StressPlanes:
     def whole(self, *, displacement: bool = False) -> StressField:
         """All planes in one field; needs the memory of the field and of one plane."""
         shape = len(self.planes), *self._place.shape
-        tensor = StressTensor(*_arrays(len(STRESSES), shape, self._dtype))
-        moved = Displacement(*_arrays(len(AXES), shape, self._dtype)) if displacement else None
+        tensor = StressTensor(*(np.empty(shape, self._dtype) for _ in STRESSES))
+        moved = Displacement(*(np.empty(shape, self._dtype) for _ in AXES)) if displacement else None
         for number, field in enumerate(self.each(displacement=displacement)):
-            _copy(field.tensor, tensor, number)
-            if moved is not None and field.displacement is not None:
-                _copy(field.displacement, moved, number)
+            for found, kept in ((field.tensor, tensor), (field.displacement, moved)):
+                for name, component in vars(found).items() if found is not None else ():
+                    getattr(kept, name)[number] = component[0]
         return self._field(self.planes, tensor, moved)
 
     def _field(self, sections: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
@@ -195,12 +195,6 @@ class StressPlanes:
         grid, keys = self._grid, self.citation_keys
         row = grid.shape[1] == 1
         return StressField(sections, tensor, moved, place.x, place.y, dims, grid.spacing, keys, single_row=row)
-
-
-def _source(tractions: Tractions, body: object, dtype: str, threads: int | None) -> Planes:
-    if tractions.boundary == "periodic":
-        return PeriodicPlanes(tractions, body, dtype=dtype, threads=threads)
-    return FreePlanes(tractions, body, dtype=dtype, threads=threads)
 
 
 def _shear(friction: float | Shear, direction: Direction) -> Shear:
@@ -213,15 +207,6 @@ def _shear(friction: float | Shear, direction: Direction) -> Shear:
             raise InputError("direction of sliding must be a vector of some length, but is (0, 0).")
         return Sliding(friction, angle)
     return Sliding(friction, direction)
-
-
-def _arrays(count: int, shape: tuple[int, ...], dtype: str) -> list[RealArray]:
-    return [np.empty(shape, dtype) for _ in range(count)]
-
-
-def _copy(source: StressTensor | Displacement, target: StressTensor | Displacement, number: int) -> None:
-    for name, component in vars(source).items():
-        getattr(target, name)[number] = component[0]
 
 
 def papers(body: object, boundary: str, *, sheared: bool) -> tuple[str, ...]:

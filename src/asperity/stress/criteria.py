@@ -14,10 +14,7 @@ from ..core.arrays import RealArray
 from ..core.tensor import StressTensor, second_invariant
 from ..solids.elastic import Elastic
 
-# Scalars and directions derived from a stress tensor; each function takes a StressTensor of arrays of any shape.
-
-
-_BLOCK = 1 << 14
+_BLOCK = 1 << 14  # points whose temporaries stay in the cache
 
 
 def sqrt_J2(s: StressTensor) -> RealArray:

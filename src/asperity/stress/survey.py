@@ -21,13 +21,18 @@ from .boundaries import require_held
 from .compute import Loaded, papers, stress_planes
 from .criteria import Criterion, VonMises
 from .field import InterfaceMaxima, Maxima, Peak, RegionMaxima, StressField
-from .regions import depths_through, planes, regions
+from .regions import (
+    DepthProfile,
+    Position,
+    Section,
+    Where,
+    depths_through,
+    planes,
+    regions,
+    selection,
+)
 from .tractions import Sliding, Tractions
-from .where import DepthProfile, Position, Section, Selection, Where, selection
 from .yielding import YieldReport, first_yield
-
-# Which stresses inside a body are wanted, in SI; checked before the contact is solved.
-
 
 Place: TypeAlias = float | Literal["max", "pressure"]
 """Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
@@ -203,11 +208,16 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
     """Increasing depths (m) of sections and profiles: dense against the contact spots, and both faces of each layer."""
     body = getattr(result.problem, request.of)
     small, large = _spot_radii(result)
-    bottom = request.deepest or _deepest(body, large)
+    layers = [region.bottom for region in regions(body) if math.isfinite(region.bottom)]
+    near = max((bottom for bottom in layers if bottom <= FAR_LAYERS * large), default=0.0)
+    # where stresses have mostly decayed, below the layers that are not far below the contact
+    bottom = request.deepest or max(DEEPEST * large, 1.5 * near)
     layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
     asked = [depth for depth in request.depths if depth <= layered[-1]]
     needed = _distinct(np.array([*layered, *asked]), SAME)
-    shallow = max(SHALLOWEST * small, PIXELS * max(_pixels(result)))
+    grid = result.problem.grid
+    pixels = [step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1] or [grid.spacing[0]]
+    shallow = max(SHALLOWEST * small, PIXELS * max(pixels))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
     away = [depth for depth in graded if np.abs(needed - depth).min() > CLOSE * depth]
@@ -217,13 +227,6 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
 def wants_lines(request: StressRequest) -> bool:
     """Whether sections or profiles are asked for."""
     return bool(request.sections or request.profiles)
-
-
-def _deepest(body: object, radius: float) -> float:
-    """Depth (m) at which stresses have mostly decayed, below the layers where these are not far below the contact."""
-    layers = [region.bottom for region in regions(body) if math.isfinite(region.bottom)]
-    near = max((bottom for bottom in layers if bottom <= FAR_LAYERS * radius), default=0.0)
-    return max(DEEPEST * radius, 1.5 * near)
 
 
 def _spot_radii(result: Contact) -> tuple[float, float]:
@@ -244,12 +247,6 @@ def _spot_radii(result: Contact) -> tuple[float, float]:
     return max(float(radii.mean()), least), max(float(radii.max()), least)
 
 
-def _pixels(result: Contact) -> list[float]:
-    """Spacing (m) along the axes with more than one point, or along x."""
-    grid = result.problem.grid
-    return [step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1] or [grid.spacing[0]]
-
-
 def _distinct(depths: RealArray, tolerance: float) -> RealArray:
     """Sorted ``depths`` without those that differ from the one before by a relative ``tolerance`` at most."""
     ordered = np.unique(depths)
@@ -267,7 +264,7 @@ def wanted_lines(request: StressRequest, result: Contact, peaks: dict[str, Peak]
     grid = result.problem.grid
     found: dict[Where, tuple[str, ...]] = {}
     for section in request.sections:
-        for quantity in _shown_on(section):
+        for quantity in ("von_mises", "principal_tensile", "shear_xz" if section.axis == "y" else "shear_yz"):
             place = getattr(peaks[quantity], section.axis) if section.place == "max" else section.place
             where = Section(**{section.axis: _on_node(place, section.place, grid, section.axis)})
             found[where] = tuple(dict.fromkeys((*found.get(where, ()), quantity)))
@@ -276,10 +273,6 @@ def wanted_lines(request: StressRequest, result: Contact, peaks: dict[str, Peak]
         x, y = (_on_node(getattr(top, a) if p == "max" else p, p, grid, a) for a, p in (("x", line.x), ("y", line.y)))
         found[DepthProfile(x, y)] = ()
     return found
-
-
-def _shown_on(section: WantedSection) -> tuple[str, ...]:
-    return ("von_mises", "principal_tensile", "shear_xz" if section.axis == "y" else "shear_yz")
 
 
 def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
@@ -296,24 +289,18 @@ def cut(planes: Iterator[StressField], lines: list[Where], result: Contact) -> l
     cuts: list[list[StressField]] = [[] for _ in lines]
     for field in planes:
         for place, found in zip(places, cuts, strict=True):
-            found.append(_at(field, place))
+            part = (slice(None), *place.index)
+            tensor = field.tensor.map(lambda component, part=part: component[part].copy())  # type: ignore[misc]
+            found.append(replace(field, tensor=tensor, x=place.x, y=place.y, dims=("plane", *place.dims)))
     for found in cuts:
         if found[-1].planes[0].side == "below":  # the region that begins at the last depth is not shown
             found.pop()
-    return [_joined(found) for found in cuts]
-
-
-def _at(field: StressField, place: Selection) -> StressField:
-    """The points of a whole plane that ``place`` picks."""
-    part = (slice(None), *place.index)
-    tensor = field.tensor.map(lambda component: component[part].copy())
-    return replace(field, tensor=tensor, x=place.x, y=place.y, dims=("plane", *place.dims))
-
-
-def _joined(planes: list[StressField]) -> StressField:
-    """One field of the fields of single ``planes``."""
-    components = (np.concatenate([getattr(f.tensor, name) for f in planes]) for name in vars(planes[0].tensor))
-    return replace(planes[0], planes=tuple(f.planes[0] for f in planes), tensor=StressTensor(*components))
+    joined = []
+    for found in cuts:
+        tensors = (np.concatenate([getattr(f.tensor, name) for f in found]) for name in vars(found[0].tensor))
+        planes_of = tuple(f.planes[0] for f in found)
+        joined.append(replace(found[0], planes=planes_of, tensor=StressTensor(*tensors)))
+    return joined
 
 
 @dataclass(frozen=True, eq=False)

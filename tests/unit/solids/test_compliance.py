@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.two_bodies import contact_compliance
+from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
 
 Q = np.geomspace(1e-3, 1e12, 31)
 SOFT, STIFF = asp.Elastic(2e9, 0.45), asp.Elastic(200e9, 0.3)

@@ -7,8 +7,7 @@ import pytest
 from solid_cases import elastic
 
 import asperity as asp
-from asperity.solids.compliance.halfspace import HalfSpace
-from asperity.solids.compliance.two_bodies import contact_compliance
+from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
 from asperity.solids.layers import materials_of, surface_material
 
 HARD, SOFT, BASE = elastic(400e9, 0.2), elastic(3e9, 0.4), elastic(200e9, 0.3)

@@ -1,4 +1,4 @@
-"""Normal compliance of a homogeneous half-space."""
+"""Normal compliance of a homogeneous half-space and of the contact of two bodies."""
 
 from __future__ import annotations
 
@@ -7,8 +7,34 @@ from typing import Protocol
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.citations import citation_keys
 from ...core.grid import Grid
+from ..layers import Body, Layered, contact_modulus, deformable, materials_of
 from .influence import half_space_strips, patch_displacement
+from .layered import LayerStack
+
+
+class Compliance(Protocol):
+    """Normal surface compliance of one body or of the sum of two."""
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Keys of the papers the compliance rests on."""
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
+
+    def mean_mode(self) -> float:
+        """Displacement per pressure in m/Pa of the mode q = 0; 0 where the datum is the mean displacement."""
+
+    def influence(self, grid: Grid) -> RealArray:
+        """Displacement (m/Pa) at pixel offsets (i, j) = (0…nx-1, 0…ny-1) from a pixel under unit pressure."""
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip along y under unit pressure.
+
+        Plane strain; a half-space gives it relative to the distance ``datum`` (m) from a line load.
+        """
 
 
 @dataclass(frozen=True)
@@ -49,27 +75,57 @@ class HalfSpace:
         return half_space_strips(grid, datum) / self.modulus
 
 
-# What a solid must say about its surface so that any contact operator can be built on it.
+@dataclass(frozen=True)
+class SumOfCompliances:
+    """Compliance of bodies that carry the same pressure: their normal displacements add up (Peng 2001, eq. 3.32)."""
 
-
-class Compliance(Protocol):
-    """Normal surface compliance of one body or of the sum of two."""
+    parts: tuple[Compliance, ...]
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
-        """Keys of the papers the compliance rests on."""
+        """Keys of all parts."""
+        return (*citation_keys(*self.parts), "Peng2001")
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
-        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
+        """Sum of c(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
+        first, *others = (part.spectral(wavenumber) for part in self.parts)
+        return sum(others, start=first)
 
     def mean_mode(self) -> float:
-        """Displacement per pressure in m/Pa of the mode q = 0; 0 where the datum is the mean displacement."""
+        """Sum in m/Pa; 0 if the datum of one part is its mean displacement, which then is that of the sum."""
+        modes = [part.mean_mode() for part in self.parts]
+        return sum(modes) if all(modes) else 0.0
 
     def influence(self, grid: Grid) -> RealArray:
-        """Displacement (m/Pa) at pixel offsets (i, j) = (0…nx-1, 0…ny-1) from a pixel under unit pressure."""
+        """Sum of the influence coefficients in m/Pa, shape (nx, ny)."""
+        first, *others = (part.influence(grid) for part in self.parts)
+        return sum(others, start=first)
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip along y under unit pressure.
+        """Sum of the strip coefficients in m/Pa, shape (nx, 1)."""
+        first, *others = (part.line_influence(grid, datum) for part in self.parts)
+        return sum(others, start=first)
 
-        Plane strain; a half-space gives it relative to the distance ``datum`` (m) from a line load.
-        """
+
+def contact_compliance(body: Body, counter_body: Body) -> Compliance:
+    """Sum of the normal compliances of ``body`` and ``counter_body`` (Peng 2001, eq. 3.32).
+
+    Two homogeneous half-spaces act as one of contact modulus E*.
+
+    Raises
+    ------
+    InputError
+        If both bodies are rigid.
+    """
+    solids = [solid for solid, _ in deformable(body, counter_body)]
+    stacks = [LayerStack(solid) for solid in solids if isinstance(solid, Layered) and solid.reduced.layers]
+    if not stacks:
+        return HalfSpace(contact_modulus(body, counter_body))
+    half_spaces = [
+        HalfSpace(material.plane_strain_modulus)
+        for solid in solids
+        if not (isinstance(solid, Layered) and solid.reduced.layers)
+        for material in materials_of(solid)
+    ]
+    parts: tuple[Compliance, ...] = (*half_spaces, *stacks)
+    return parts[0] if len(parts) == 1 else SumOfCompliances(parts)

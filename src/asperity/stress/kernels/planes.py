@@ -314,12 +314,13 @@ BOUNDS = ("von_mises", "tension", "shear", "in_plane", "shear_xz", "shear_yz", "
 """What is bounded, in order: √(3 J2), σ1, (σ1 - σ3)/2, the larger principal stress parallel to the plane, |σxz|, |σyz|, the
 magnitude of both, and σzz. All but the second and third bounds are the largest values themselves."""
 
-_compiled_maxima: Any = njit(
+# no stress is NaN: without that case comparisons become vector instructions
+_compiled_finite: Any = njit(
     nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "nnan"}
 )
 
 
-@_compiled_maxima
+@_compiled_finite
 def _largest(values, used):  # type: ignore[no-untyped-def]
     found = values[0]
     for k in range(used):
@@ -327,7 +328,7 @@ def _largest(values, used):  # type: ignore[no-untyped-def]
     return found
 
 
-@_compiled_maxima
+@_compiled_finite
 def _deviator(part, used, J2, mean, r):  # type: ignore[no-untyped-def]
     """J2, mean stress and r of the points of a block."""
     xx, yy, zz, xy, xz, yz = part
@@ -342,7 +343,7 @@ def _deviator(part, used, J2, mean, r):  # type: ignore[no-untyped-def]
         r[k] = min(1.0, max(-1.0, r[k] / max(third * np.sqrt(third), 1e-300)))
 
 
-@_compiled_maxima
+@_compiled_finite
 def _tension_bound(used, J2, mean, r, out):  # type: ignore[no-untyped-def]
     """Upper bound of σ1, point by point."""
     for k in range(used):
@@ -350,14 +351,14 @@ def _tension_bound(used, J2, mean, r, out):  # type: ignore[no-untyped-def]
         out[k] = mean[k] + 2.0 * np.sqrt(J2[k] / 3.0) * cosine
 
 
-@_compiled_maxima
+@_compiled_finite
 def _shear_bound(used, J2, r, out):  # type: ignore[no-untyped-def]
     """Upper bound of (σ1 - σ3)/2, point by point."""
     for k in range(used):
         out[k] = np.sqrt(J2[k] * (1.0 - r[k] * r[k] / 9.0))
 
 
-@_compiled_maxima
+@_compiled_finite
 def _block(components, first, used, copied):  # type: ignore[no-untyped-def]
     """The components of a block in double precision, whatever the fields are."""
     for component in range(6):
@@ -365,7 +366,7 @@ def _block(components, first, used, copied):  # type: ignore[no-untyped-def]
     return copied[0], copied[1], copied[2], copied[3], copied[4], copied[5]
 
 
-@_compiled_maxima
+@_compiled_finite
 def _tractions(part, used, work, out):  # type: ignore[no-untyped-def]
     """Largest |σxz|, |σyz|, magnitude of both, and σzz."""
     zz, xz, yz = part
@@ -381,7 +382,7 @@ def _tractions(part, used, work, out):  # type: ignore[no-untyped-def]
     out[3] = _largest(zz, used)
 
 
-@_compiled_maxima
+@_compiled_finite
 def block_bounds(span, components, out):  # type: ignore[no-untyped-def]
     """Largest of each of ``BOUNDS`` in every block of the flat ``components`` xx, yy, zz, xy, xz, yz; ``out`` (blocks, 8)."""
     copied, J2, mean, r, work = np.empty((6, BLOCK)), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
@@ -403,7 +404,7 @@ def block_bounds(span, components, out):  # type: ignore[no-untyped-def]
         _tractions((zz, xz, yz), used, work, out[block, 4:])
 
 
-@_compiled_maxima
+@_compiled_finite
 def points_beyond(blocks, components, shear, value):  # type: ignore[no-untyped-def]
     """Places in ``blocks`` whose own bound of the ``shear``, else of the tension, is above ``value``."""
     copied, J2, mean, r, bound = (

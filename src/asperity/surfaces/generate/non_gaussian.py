@@ -363,7 +363,7 @@ class TwoLevels(Declared):
 
 
 _TERMS, _REST = 400, 1e-13  # most Hermite coefficients of a translation, and the variance they may miss
-_STEP_TRANSLATION, _REACH_TRANSLATION = 0.005, 12.0  # trapezoidal rule for them
+_HERMITE_STEP, _HERMITE_REACH = 0.005, 12.0  # trapezoidal rule for them
 _TABLE = 20001  # correlations between -1 and 1 at which the map is tabulated; linear interpolation is good to 1e-8
 
 
@@ -459,8 +459,8 @@ def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[R
 
 def _hermite_squares(law: HeightLaw) -> RealArray:
     """c_k², k = 1, 2, …, of T = Σ c_k He_k/sqrt(k!), normalised to the sum 1 (the variance)."""
-    normal = np.arange(-_REACH_TRANSLATION, _REACH_TRANSLATION + 0.5 * _STEP_TRANSLATION, _STEP_TRANSLATION)
-    weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_STEP_TRANSLATION / math.sqrt(2.0 * math.pi))
+    normal = np.arange(-_HERMITE_REACH, _HERMITE_REACH + 0.5 * _HERMITE_STEP, _HERMITE_STEP)
+    weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_HERMITE_STEP / math.sqrt(2.0 * math.pi))
     before, now = np.ones_like(normal), normal
     squares: list[float] = []
     for k in range(1, _TERMS + 1):

@@ -361,10 +361,7 @@ def _validity(contacts: SummitContacts, prediction: Prediction) -> tuple[Limit, 
 HIGH = 3.0
 """Separation in sqrt(m0) above which the limit is meant to hold; for an isotropic surface of α = 2 it then is 3 % off."""
 
-_LOWEST_ANISOTROPIC_SUMMITS, _HIGHEST_ANISOTROPIC_SUMMITS = (
-    0.0,
-    36.0,
-)  # separations in sqrt(m0) between which pressures are inverted
+_CLOSEST, _FARTHEST = 0.0, 36.0  # separations in sqrt(m0) between which its pressures are inverted
 
 
 @dataclass(frozen=True)
@@ -467,11 +464,7 @@ class AnisotropicSummits:
             If a pressure is not positive, or larger than at the mean plane, far beyond the validity of the limit.
         """
         wanted, unit = curve(pressure, "pressures (Pa)", positive=True), math.sqrt(self.m0)
-        return self.at_separation(
-            separation_at(
-                wanted, self._law, unit * _LOWEST_ANISOTROPIC_SUMMITS, unit * _HIGHEST_ANISOTROPIC_SUMMITS, unit=unit
-            )
-        )
+        return self.at_separation(separation_at(wanted, self._law, unit * _CLOSEST, unit * _FARTHEST, unit=unit))
 
     def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
         """High summits only, gentle slopes."""

@@ -186,7 +186,7 @@ def _exponential_tail(D: RealArray, m: float) -> RealArray:
 # Distributions of summit heights from measurements and from any density.
 
 
-_NODES_MEASURED_HEIGHTS = 24  # in each panel of a user's density
+_PANEL_NODES = 24  # in each panel of a user's density
 
 
 @dataclass(frozen=True, eq=False)
@@ -290,7 +290,7 @@ class AnyHeights:
             raise InputError(
                 f"breaks of a density must be two or more rising, finite numbers, but are {self.breaks!r}."
             )
-        s, weight = gauss(edges, _NODES_MEASURED_HEIGHTS)
+        s, weight = gauss(edges, _PANEL_NODES)
         found = [float(np.sum(weight * self.function(s) * s**n)) for n in range(3)]
         if not np.allclose(found, (1.0, 0.0, 1.0), atol=1e-6):
             raise InputError(
@@ -312,6 +312,6 @@ class AnyHeights:
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """F_m by Gauss rules over q = sqrt(s - D) between the breaks above D."""
         D = np.asarray(D, dtype=float)[..., None]
-        q, weight = gauss(np.sqrt(np.maximum(np.asarray(self.breaks) - D, 0.0)), _NODES_MEASURED_HEIGHTS)
+        q, weight = gauss(np.sqrt(np.maximum(np.asarray(self.breaks) - D, 0.0)), _PANEL_NODES)
         values: RealArray = np.sum(2.0 * weight * q ** (2.0 * m + 1.0) * self.density(D + q * q), axis=-1)
         return values

@@ -26,10 +26,7 @@ NARROWEST = 1.5
 ROUNDING = 1e-9
 """Share by which α of a computed narrow spectrum may lie below 1.5."""
 
-_NODES, _SIGMAS = (
-    96,
-    9.5,
-)  # Gauss points over the standard deviations that matter of the curvature of summits at one height
+_NODES, _SIGMAS = 96, 9.5  # Gauss points, and the standard deviations that matter of curvatures at one height
 
 
 @dataclass(frozen=True, eq=False)
