@@ -34,7 +34,7 @@ PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS)
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate clean
+.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate reference clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -101,6 +101,10 @@ PICTURES ?= validation-pictures
 validate: $(DEV_OK)
 	@status=0; for page in $(PAGES:.md=.py); do $(ONE_THREAD) $(BIN)/python $$page || status=1; done; \
 	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
+
+# The page of all theories, from what they declare.
+reference: $(DEV_OK)
+	$(BIN)/python docs/reference/theories.py
 
 clean:
 	rm -rf $(VENV) .venv-lowest .venv-plain build dist demo-run validation-pictures htmlcov

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ import asperity as asp
 from asperity.core.errors import InputError
 from asperity.theories.rough.discrete_summits import DiscreteSummits
 from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.rough.interacting_crests import INTERACTIONS, METHODS, InteractingCrests
+from asperity.theories.rough.interacting_crests import InteractingCrests, Interaction, Method
 from asperity.theories.single.waves import two_term_approach, two_term_load, two_terms
 from asperity.theories.statistics.roughness import Roughness
 
@@ -95,8 +96,8 @@ def test_a_single_summit_is_a_sphere():
 @pytest.mark.parametrize(
     "row", reference("gw_interaction_results"), ids=lambda row: f"{row['set']:g}-{row['delta_m']:g}"
 )
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(("interaction", "suffix"), [("far field", "int"), ("off", "sin")], ids=INTERACTIONS)
+@pytest.mark.parametrize("method", get_args(Method))
+@pytest.mark.parametrize(("interaction", "suffix"), [("far field", "int"), ("off", "sin")], ids=get_args(Interaction))
 def test_interacting_crests(row, interaction, suffix, method):
     theory = crests(row["set"], interaction=interaction, method=method)
     found = theory.at_separation(theory.highest - row["delta_m"])
@@ -155,7 +156,7 @@ def test_two_crests_at_one_height_share_the_load(shape):
     assert float(rest) == pytest.approx(2e-9, rel=1e-11)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", get_args(Method))
 @pytest.mark.parametrize(("lower", "touches"), [(1.2e-10, True), (1.8e-10, False)])
 def test_a_high_crest_lifts_its_neighbour_off_the_plane(lower, touches, method):
     delta, distance, depth = 2e-10, 1.5e-7, np.array([1e-8, 1e-8])
@@ -170,8 +171,8 @@ def test_a_high_crest_lifts_its_neighbour_off_the_plane(lower, touches, method):
     assert (w[1] > 0.0) == touches == (delta - lower > sink)
 
 
-@pytest.mark.parametrize("interaction", INTERACTIONS)
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("interaction", get_args(Interaction))
+@pytest.mark.parametrize("method", get_args(Method))
 def test_pressures_on_interacting_crests_are_found_again(interaction, method):
     theory = crests(5, interaction=interaction, method=method)
     h = theory.highest - np.array([4e-9, 1e-10, 2e-9])

@@ -67,10 +67,10 @@ def test_the_example_runs():
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ((0.0, 1.0, 1.0), "hardness of the film"),
-        ((1.0, -1.0, 1.0), "hardness of the substrate"),
-        ((1.0, 1.0, 0.0), "ratio E1/E2"),
-        ((1.0, 1.0, 1.0, 0.0), "ratio Y1/Y2"),
+        ((0.0, 1.0, 1.0), "film .Pa."),
+        ((1.0, -1.0, 1.0), "substrate .Pa."),
+        ((1.0, 1.0, 0.0), "modulus_ratio"),
+        ((1.0, 1.0, 1.0, 0.0), "yield_ratio"),
     ],
 )
 def test_values_must_be_positive(values, message):

@@ -190,9 +190,9 @@ def test_unusable_histograms_are_refused():
 
 
 def test_unusable_parameters_are_refused():
-    with pytest.raises(InputError, match="radius of summits"):
+    with pytest.raises(InputError, match=r"radius \(m\) of greenwood"):
         GreenwoodWilliamson(1e11, 1e12, -1e-6, 1e-8)
-    with pytest.raises(InputError, match="form of the fitted laws"):
+    with pytest.raises(InputError, match="form of greenwood"):
         FittedGreenwoodWilliamson(1e11, 1e12, 1e-6, 1e-8, form="cubic")
     with pytest.raises(InputError, match="where this theory is evaluated"):
         GreenwoodWilliamson(1e11, 1e12, 1e-6, 1e-8, heights=HEIGHTS["uniform"]).at_pressure(1e20)

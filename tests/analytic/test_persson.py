@@ -170,7 +170,7 @@ def test_diffusion_follows_the_magnification():
 
 
 def test_inputs_out_of_range_are_refused():
-    with pytest.raises(InputError, match="rms gradient must be greater than zero"):
+    with pytest.raises(InputError, match="rms_gradient of persson must be greater than zero"):
         Persson(1e9, 0.0)
     with pytest.raises(InputError, match="ascend"):
         IsotropicSpectrum([2.0, 1.0], [1.0, 1.0])

@@ -169,7 +169,7 @@ def test_peaks_of_white_noise_are_every_third_point():
 def test_impossible_correlations_are_refused():
     with pytest.raises(InputError, match="correlations of a profile"):
         SampledPeaks(0.9, 0.1)
-    with pytest.raises(InputError, match="correlation of neighbours"):
+    with pytest.raises(InputError, match="rho_1"):
         SampledPeaks(1.0, 0.9)
 
 

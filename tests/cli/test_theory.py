@@ -5,16 +5,20 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from cli.conftest import Runner
 
 import asperity as asp
-from asperity.cli.theory_command import command, read_range
+from asperity.cli.theory import Theories, read_range
 from asperity.core.citations import reference
+from asperity.core.parameters import Parameter, parameters
+from asperity.core.values import Number
 from asperity.theories import THEORIES, HertzPoint, theory
-from asperity.theories.protocol import E_STAR
+
+PRESSURES = Parameter("pressures", float, Number("pressure"))
 
 HERTZ = ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm")
 SUMMITS = ("--E-star", "100GPa", "--density", "1um**-2", "--radius", "1um", "--height-deviation", "10nm")
@@ -36,7 +40,7 @@ def test_the_list_names_every_theory_with_inputs_and_sources(run: Runner) -> Non
     lines = [line.strip(" *") for line in text.splitlines()]
     for name, kind in THEORIES.items():
         assert name in lines
-        assert all(item.meaning in text for item in kind.inputs)
+        assert all(item.help in text for item in parameters(kind))
         assert all(reference(key) in text for key in kind.citation_keys)
 
 
@@ -47,7 +51,7 @@ def test_the_list_as_json(run: Runner) -> None:
     assert hertz["inputs"][1] == {
         "name": "radius",
         "unit": "m",
-        "meaning": "relative radius of curvature",
+        "meaning": "relative radius of curvature R, 1/R = 1/R1 + 1/R2",
         "of": "surface",
         "required": True,
         "choices": [],
@@ -59,16 +63,16 @@ def test_the_list_as_json(run: Runner) -> None:
 
 @pytest.mark.parametrize("name", THEORIES)
 def test_every_theory_has_an_option_for_each_input(name: str) -> None:
-    made = command(theory(name))
+    made: Any = Theories().get_command(None, name)
     options = {option: parameter.help for parameter in made.params for option in parameter.opts}
-    for item in theory(name).inputs:
-        assert options["--" + item.name.replace("_", "-")].startswith(item.meaning[0].upper() + item.meaning[1:])
+    for item in parameters(theory(name)):
+        assert options["--" + item.name.replace("_", "-")].startswith(item.help[0].upper() + item.help[1:].rstrip("."))
     assert theory(name).title in made.help
 
 
 def test_the_help_of_one_theory(run: Runner) -> None:
     text = run("theory", "greenwood-williamson", "--help").stdout
-    assert "Summits per area, in 1/m^2." in text
+    assert "Summits per area η." in text
     assert "Measure them on this file." in text
     assert "--bins" in text
     assert "--bins" not in run("theory", "mccool", "--help").stdout
@@ -185,9 +189,12 @@ def test_a_surface_and_bodies_by_name(run: Runner, rough: tuple[Path, asp.Surfac
         (("herz",), "Did you mean hertz"),
         (("hertz", "--radius", "5mm", "--load", "1N"), "hertz must be given --E-star (contact modulus"),
         ((*HERTZ[1:4], "--radius", "5", "--load", "1N"), "must have a unit, such as \"5 nm\", but is '5' without one"),
-        ((*HERTZ[1:4], "--radius", "5s", "--load", "1N"), "--radius must be in a unit such as m, but its unit is 's'"),
+        (
+            (*HERTZ[1:4], "--radius", "5s", "--load", "1N"),
+            "--radius must be a length (unit such as m), but its unit is 's'",
+        ),
         ((*HERTZ[1:4], "--radius", "5 furlongz", "--load", "1N"), "unknown unit 'furlongz'"),
-        ((*HERTZ[1:4], "--radius", "-5mm", "--load", "1N"), "greater than zero, but is -0.005"),
+        ((*HERTZ[1:4], "--radius", "-5mm", "--load", "1N"), "greater than zero, but is '-5mm'"),
         ((*HERTZ[1:], "--load", "-1N"), "load (N) must be finite and at least 0, but is -1"),
         ((*HERTZ[1:], "--load", "1N..2N..3N"), 'a range such as "1..10"'),
         ((*HERTZ[1:], "--load", "1N..2N", "--points", "1"), "--points must be at least 2"),
@@ -217,8 +224,8 @@ def test_refusals(run: Runner, rough: tuple[Path, asp.Surface], arguments: tuple
 
 
 def test_ranges() -> None:
-    assert read_range(E_STAR, "1GPa..100GPa", points=3, linear=False) == pytest.approx([1e9, 1e10, 1e11])
-    assert read_range(E_STAR, "1GPa..3GPa", points=3, linear=True) == pytest.approx([1e9, 2e9, 3e9])
-    assert read_range(E_STAR, "-1GPa..1GPa", points=3, linear=False) == pytest.approx([-1e9, 0.0, 1e9])
-    assert read_range(E_STAR, "-100GPa..-1GPa", points=3, linear=False) == pytest.approx([-1e11, -1e10, -1e9])
-    assert np.all(read_range(E_STAR, "1GPa, 2GPa", points=3, linear=False) == [1e9, 2e9])
+    assert read_range(PRESSURES, "1GPa..100GPa", points=3, linear=False) == pytest.approx([1e9, 1e10, 1e11])
+    assert read_range(PRESSURES, "1GPa..3GPa", points=3, linear=True) == pytest.approx([1e9, 2e9, 3e9])
+    assert read_range(PRESSURES, "-1GPa..1GPa", points=3, linear=False) == pytest.approx([-1e9, 0.0, 1e9])
+    assert read_range(PRESSURES, "-100GPa..-1GPa", points=3, linear=False) == pytest.approx([-1e11, -1e10, -1e9])
+    assert np.all(read_range(PRESSURES, "1GPa, 2GPa", points=3, linear=False) == [1e9, 2e9])

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from ..core.parameters import Parameter
+from ..core.values import Number
 from .comparing import CompareOptions, CompareSource
 from .failures import NOT_CONVERGED, OK
 from .options import BodyOptions, ReadingOptions, SolveOptions
@@ -90,15 +92,14 @@ _HEADING = "Theories and numerical solution (area of a theory: deviation from th
 def _pressures(options: CompareOptions) -> RealArray | None:
     from ..core.errors import InputError
     from ..studies.compare import LOADS
-    from ..theories.protocol import Input
-    from .theory_command import read_range
+    from .theory import read_range
 
     text, count = options.pressures, LOADS if options.loads is None else options.loads
     if options.loads is not None and (text is None or ".." not in text):
         raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
     if count < 2:
         raise InputError(f"--loads must be at least 2 for a range, but is {count}.")
-    asked = Input("pressures", "Pa", "nominal pressures", many=True)
+    asked = Parameter("pressures", float, Number("pressure"), help="nominal pressures")
     return None if text is None else read_range(asked, text, points=count, linear=False)
 
 

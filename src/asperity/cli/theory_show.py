@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.citations import reference
+from ..core.parameters import Parameter, parameters
 from ..core.units import show
-from ..theories.protocol import Described, Input, Limit
+from ..theories.protocol import Described, Limit
 from .show import console, say, table
 
 if TYPE_CHECKING:
@@ -45,10 +46,10 @@ def _print_kind(kind: type[Described]) -> None:
     measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
     say(f"\n{kind.name}{' *' if measured else ''}", "cyan")
     say(f"  {kind.title}")
-    for item in kind.inputs:
-        say(f"    {item.name + ('' if item.required else ' (optional)'):32} {item.unit or '-':9} {item.meaning}")
+    for item in parameters(kind):
+        say(f"    {item.name + ('' if item.required else ' (optional)'):32} {item.unit or '-':9} {item.help}")
     for way in ways_of(kind):
-        given = [f"{item.name} in {item.unit or 'numbers'}" for item in way.given if item.default is None]
+        given = [f"{item.name} in {item.unit or 'numbers'}" for item in way.given if item.required]
         with_given = f", with {', '.join(given)}" if given else ""
         say(f"    asked along {way.axis.name} in {way.axis.unit or 'numbers'}{with_given}")
     if numbers_of(kind):
@@ -65,7 +66,7 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return
     theory = found.theory
-    rows = [(item.meaning, _input_text(item, getattr(theory, item.name))) for item in theory.inputs]
+    rows = [(item.help, _input_text(item, getattr(theory, item.name))) for item in parameters(type(theory))]
     _print_table(theory.title, table("", rows))
     if found.numbers:
         numbers = [(column.meaning, show(value, column.unit)) for column, value in found.numbers]
@@ -142,8 +143,8 @@ def _extent(values: RealArray) -> str:
     return f"is {first}" if first == last else f"goes from {first} to {last}"
 
 
-def _input_text(item: Input, value: Any) -> str:
-    for word, choice in item.choices:
+def _input_text(item: Parameter, value: Any) -> str:
+    for word, choice in item.words.items():
         if choice == value:
             return word
     if item.many:

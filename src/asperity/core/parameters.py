@@ -58,6 +58,16 @@ class Parameter:
         """SI unit, empty for what has none."""
         return self.values.unit
 
+    @property
+    def words(self) -> Mapping[str, Any]:
+        """Words that stand for values, each with its value."""
+        return self.values.words if isinstance(self.values, Choice) else {}
+
+    @property
+    def many(self) -> bool:
+        """Whether it is a list of any length, or an array."""
+        return isinstance(self.values, Several) and self.values.count is None
+
     def check(self, value: Any, owner: str) -> Any:
         """``value`` as its values are checked; None where that is the default."""
         if value is None and self.default is None:

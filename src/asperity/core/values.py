@@ -248,9 +248,10 @@ class Whole(Values):
 
 @dataclass(frozen=True, eq=False)
 class Choice(Values):
-    """One of a few ``words``, each with what it stands for."""
+    """One of a few ``words``, each with what it stands for; in Python any ``others`` too, if that is said."""
 
     words: Mapping[str, Any]
+    others: bool = False
 
     @property
     def metavar(self) -> str:
@@ -264,6 +265,8 @@ class Choice(Values):
 
     def check(self, value: Any, what: str) -> Any:
         """``value``, which a word stands for."""
+        if self.others and not isinstance(value, str):
+            return value
         if not any(value is known or value == known for known in self.words.values()):
             raise InputError(f"{what} must be {self.rule}, but is {value!r}.")
         return value
@@ -304,6 +307,9 @@ class Several(Values):
 
     def check(self, value: Any, what: str) -> Any:
         """``value`` as a tuple of checked items; an array, once its items are checked, as it is."""
+        if hasattr(value, "dtype") and value.size > 1:  # an array is long: its ends stand for all of it
+            self.check((value.min(), value.max()) if self.count is None else tuple(value), what)
+            return value
         items = list(value) if hasattr(value, "__iter__") and not isinstance(value, str) else [value]
         if self.count not in (None, len(items)):
             raise InputError(f"{what} must be {self.count} values, but is {value!r}.")

@@ -11,9 +11,10 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.citations import reference
+from ..core.parameters import Parameter, parameters
 from ..surfaces.characterise.summary import Characterisation
 from ..theories.ask import Evaluation, numbers_of, ways_of
-from ..theories.protocol import Described, Input
+from ..theories.protocol import Described
 from .atomic import atomic_file
 
 # Answers of theories for other programs: a record for JSON, a table as CSV; and the catalogue as records.
@@ -26,7 +27,8 @@ def answer_record(found: Evaluation) -> dict[str, Any]:
         "theory": theory.name,
         "title": theory.title,
         "inputs": {
-            item.name: {"value": _input(item, getattr(theory, item.name)), "unit": item.unit} for item in theory.inputs
+            item.name: {"value": _input(item, getattr(theory, item.name)), "unit": item.unit}
+            for item in parameters(type(theory))
         },
         "numbers": {column.name: {"value": _plain(value), "unit": column.unit} for column, value in found.numbers},
         "columns": {
@@ -58,13 +60,13 @@ def catalogue_record(kind: type[Described]) -> dict[str, Any]:
             {
                 "name": item.name,
                 "unit": item.unit,
-                "meaning": item.meaning,
-                "of": item.of,
+                "meaning": item.help,
+                "of": item.of or "surface",
                 "required": item.required,
-                "choices": [word for word, _ in item.choices],
+                "choices": list(item.words),
                 "many": item.many,
             }
-            for item in kind.inputs
+            for item in parameters(kind)
         ],
         "ways": [
             {"along": way.axis.name, "unit": way.axis.unit, "given": [item.name for item in way.given]}
@@ -103,9 +105,9 @@ def _plain(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _input(item: Input, value: Any) -> Any:
+def _input(item: Parameter, value: Any) -> Any:
     """Value of an input: its word where it has one, a list of many."""
-    for word, choice in item.choices:
+    for word, choice in item.words.items():
         if choice == value:
             return word
     if item.many:

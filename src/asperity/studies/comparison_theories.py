@@ -14,6 +14,7 @@ from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.errors import InputError
+from ..core.parameters import parameters
 from ..solids.layers import weaker_strength
 from ..theories.protocol import SurfaceTheory
 from ..theories.statistics.roughness import Roughness
@@ -84,7 +85,7 @@ def chosen_theories(
 
 def family(theory: SurfaceTheory) -> str:
     """``elastic-plastic``, ``adhesive`` or ``elastic``, by the parameters of the ``theory``."""
-    names = {parameter.name for parameter in theory.inputs}
+    names = {parameter.name for parameter in parameters(type(theory))}
     if names.intersection(YIELDING):
         return "elastic-plastic"
     return "adhesive" if names.intersection(ADHESIVE) else "elastic"
@@ -109,10 +110,10 @@ def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, fl
     from ..theories.catalogue import THEORIES
 
     kind = THEORIES[require.one_of(name, surface_theories(), "name of a theory to compare")]
-    wanted = [item for item in kind.inputs if item.of == "bodies" and item.name != "E_star"]
+    wanted = [item for item in parameters(kind) if item.of == "bodies" and item.name != "E_star"]
     missing = [item for item in wanted if item.required and item.name not in known]
     if missing:
-        needs = " and ".join(f"the {item.meaning} ({item.name}, {item.unit})" for item in missing)
+        needs = " and ".join(f"the {item.help} ({item.name}, {item.unit})" for item in missing)
         return LeftOut(name, kind.title, f"It needs {needs}, which is not known as one number.")
     values = {item.name: known[item.name] for item in wanted if item.name in known}
     try:

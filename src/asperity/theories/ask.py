@@ -12,8 +12,11 @@ from numpy.typing import ArrayLike
 
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.parameters import REQUIRED, Parameter
 from ..core.tensor import Displacement, StressTensor, second_invariant
-from .protocol import QUANTITIES, Described, Input, Limit, curve
+from ..core.units import DIMENSIONS
+from ..core.values import Number
+from .protocol import QUANTITIES, Described, Limit, curve
 
 # How theories are asked: along which argument, with what given, and what comes out. For people and the command line.
 #
@@ -48,16 +51,21 @@ class Way:
         Whether the validity of the theory is checked on the answer.
     """
 
-    axis: Input
+    axis: Parameter
     method: str
     columns: tuple[Column, ...]
-    given: tuple[Input, ...] = ()
+    given: tuple[Parameter, ...] = ()
     checked: bool = True
 
 
-def asked(name: str, unit: str, meaning: str, default: float | None = None) -> Input:
+_KINDS = {
+    unit.replace("**", "^"): kind for kind, unit in DIMENSIONS.items() if kind not in ("number", "surface tension")
+}
+
+
+def asked(name: str, unit: str, meaning: str, default: float = REQUIRED) -> Parameter:
     """An argument of a way."""
-    return Input(name, unit, meaning, of="choice", default=default)
+    return Parameter(name, float, Number(_KINDS.get(unit, unit)), default, meaning, of="choice")
 
 
 ROUGH = tuple(Column(*quantity) for quantity in QUANTITIES)
@@ -158,10 +166,10 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
             raise InputError(f"{theory.name} must be asked {_choice(theory)}, but nothing is given.")
         return Evaluation(theory, numbers)
     way = _way(theory, set(arguments))
-    values = curve(arguments[way.axis.name], f"{way.axis.meaning} ({way.axis.unit or 'number'})")
+    values = curve(arguments[way.axis.name], f"{way.axis.help} ({way.axis.unit or 'number'})")
     given = {item.name: _one(item, arguments.get(item.name, item.default)) for item in way.given}
     answer = getattr(theory, way.method)(**{way.axis.name: values}, **given)
-    columns = [(Column(way.axis.name, way.axis.unit, way.axis.meaning), values)]
+    columns = [(Column(way.axis.name, way.axis.unit, way.axis.help), values)]
     for column in way.columns:
         found = np.broadcast_to(np.asarray(attrgetter(column.name)(answer), dtype=float), values.shape)
         if column.name != way.axis.name and not np.isnan(found).all():
@@ -170,8 +178,8 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
     return Evaluation(theory, numbers, tuple(columns), tuple(limits))
 
 
-def _one(item: Input, value: ArrayLike) -> float:
-    numbers = curve(value, f"{item.meaning} ({item.unit or 'number'})")
+def _one(item: Parameter, value: ArrayLike) -> float:
+    numbers = curve(value, f"{item.help} ({item.unit or 'number'})")
     if numbers.size != 1:
         raise InputError(f"{item.name} must be one number beside the range, but has {numbers.size}.")
     return float(numbers[0])
@@ -179,7 +187,7 @@ def _one(item: Input, value: ArrayLike) -> float:
 
 def _way(theory: Described, names: set[str]) -> Way:
     for way in ways_of(theory):
-        needed = {way.axis.name} | {item.name for item in way.given if item.default is None}
+        needed = {way.axis.name} | {item.name for item in way.given if item.required}
         if needed <= names <= needed | {item.name for item in way.given}:
             return way
     raise InputError(f"{theory.name} must be asked {_choice(theory)}, but is asked by {', '.join(sorted(names))}.")
@@ -188,8 +196,7 @@ def _way(theory: Described, names: set[str]) -> Way:
 def _choice(theory: Described) -> str:
     """In words, the arguments by which ``theory`` can be asked."""
     texts = [
-        " with ".join([way.axis.name, *(item.name for item in way.given if item.default is None)])
-        for way in ways_of(theory)
+        " with ".join([way.axis.name, *(item.name for item in way.given if item.required)]) for way in ways_of(theory)
     ]
     return "by " + ", or by ".join(texts) if texts else "nothing: it has numbers alone"
 

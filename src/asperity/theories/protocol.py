@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, Protocol, Self
+from typing import Annotated, Any, ClassVar, Protocol, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,51 +16,26 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
+from ..core.parameters import Help
+from ..core.values import Choice, Length, Number, SignedLength
+from .statistics.heights import NAMED_HEIGHTS, SummitHeights
 from .statistics.roughness import Roughness
 
-
-@dataclass(frozen=True)
-class Input:
-    """One parameter of a theory, for people and for the command line.
-
-    Parameters
-    ----------
-    name
-        Name of the parameter of the constructor.
-    unit
-        SI unit as text, "" for numbers without unit.
-    meaning
-        What it is, a few words.
-    of
-        What it belongs to: ``"surface"`` (``from_roughness`` finds it), ``"bodies"`` (``from_roughness`` takes it as a
-        keyword), or ``"choice"`` (a keyword of either way, with a default).
-    default
-        Its default, None where it must be given.
-    choices
-        Words that name the allowed values, each with its value; empty for numbers.
-    many
-        Whether it is an array of numbers.
-    optional
-        Whether it may be left out although its default is None.
-    """
-
-    name: str
-    unit: str
-    meaning: str
-    of: Literal["surface", "bodies", "choice"] = "surface"
-    default: Any = None
-    choices: tuple[tuple[str, Any], ...] = ()
-    many: bool = False
-    optional: bool = False
-
-    @property
-    def required(self) -> bool:
-        """Whether it must be given."""
-        return self.default is None and not self.optional
-
-
-E_STAR = Input("E_star", "Pa", "contact modulus E*, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2", of="bodies")
+Modulus: TypeAlias = Annotated[
+    float,
+    Number("pressure", above=0.0),
+    Help("contact modulus E*, 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2", of="bodies"),
+]
 """The parameter that all elastic theories share."""
+
+SummitDensity: TypeAlias = Annotated[float, Number("density", above=0.0), "summits per area η"]
+SummitRadius: TypeAlias = Annotated[Length, "radius R of the summits"]
+HeightDeviation: TypeAlias = Annotated[Length, "standard deviation σ_s of the summit heights"]
+MeanHeight: TypeAlias = Annotated[SignedLength, "mean z̄_s of the summit heights above the mean plane of the surface"]
+HeightsLaw: TypeAlias = Annotated[
+    SummitHeights, Choice(dict(NAMED_HEIGHTS), others=True), "distribution of the standardised summit heights"
+]
+PoissonOfSolid: TypeAlias = Annotated[float, Number(least=0.0, most=0.5)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,14 +120,13 @@ class Limit:
 class Described(Protocol):
     """Anything in the catalogue: what it is called, rests on, and is made from.
 
-    ``name`` as on the command line, lower case with hyphens; ``title`` for headings; ``inputs`` the parameters of the
-    constructor in their order.
+    ``name`` as on the command line, lower case with hyphens; ``title`` for headings. What it is made from,
+    its constructor declares, see ``core.parameters``.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     citation_keys: ClassVar[tuple[str, ...]]
-    inputs: ClassVar[tuple[Input, ...]]
 
 
 class SurfaceTheory(Described, Protocol):
@@ -162,7 +136,7 @@ class SurfaceTheory(Described, Protocol):
     def from_roughness(cls, roughness: Roughness, E_star: float, *args: Any, **kwargs: Any) -> Self:
         """Theory for the measured ``roughness`` and the contact modulus ``E_star`` in Pa.
 
-        Further keyword arguments are the ``inputs`` that belong to the bodies or are a choice.
+        Further keyword arguments are the parameters that belong to the bodies or are a choice.
 
         Raises
         ------

@@ -7,6 +7,7 @@ import pytest
 
 import asperity as asp
 from asperity.core.citations import reference
+from asperity.core.parameters import parameters
 from asperity.theories import FAMILIES, THEORIES, evaluate, theory
 from asperity.theories.ask import numbers_of, ways_of
 from asperity.theories.catalogue import nearest
@@ -120,7 +121,7 @@ def made(name: str):
 def test_every_way_of_every_theory_answers(name, way):
     low, high = RANGES[way.axis.name]
     values = np.linspace(low, high, 200)
-    given = {item.name: {"load": 1e-6, "pressure": 1e6}[item.name] for item in way.given if item.default is None}
+    given = {item.name: {"load": 1e-6, "pressure": 1e6}[item.name] for item in way.given if item.required}
     model = made(name)
     found = evaluate(model, **{way.axis.name: values}, **given)
     axis, first = found.columns[0]
@@ -140,7 +141,7 @@ def test_every_way_of_every_theory_answers(name, way):
 def test_every_theory_can_be_asked_and_cited(name):
     kind = theory(name)
     assert ways_of(kind) or numbers_of(kind)
-    names = [item.name for item in kind.inputs]
+    names = [item.name for item in parameters(kind)]
     axes = {item.name for way in ways_of(kind) for item in (way.axis, *way.given)}
     assert not axes & set(names), "an option cannot be both"
     model = made(name)

@@ -4,17 +4,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared, Help
 from ...core.quadrature import gauss
+from ...core.values import Choice, Length, Number
 from ..ask import Column
 from ..limits import area_limit, blunt_summits, constant_limit
-from ..protocol import E_STAR, Input, Limit, Prediction, bisected, curve, prediction
+from ..protocol import (
+    HeightDeviation,
+    Limit,
+    MeanHeight,
+    Modulus,
+    Prediction,
+    SummitDensity,
+    SummitRadius,
+    bisected,
+    curve,
+    prediction,
+)
 from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
 from ..statistics.roughness import Roughness
 from .spheres import JKR, approach_ratio, contact_ratio, load_ratio
@@ -25,31 +38,12 @@ _JUMP_IN = 4.0 ** (2.0 / 3.0)  # a/ac of JKR at zero approach
 
 
 @dataclass(frozen=True)
-class FullerTabor:
+class FullerTabor(Declared):
     """Summits of one radius and Gaussian heights with JKR's adhesion at each.
 
     In units of the pull-off force P_c, extension δ_c and radius a_c of one summit, with Δ_c = δ_c/σ_s and D the
     separation over σ_s: f(D) = ∫ (P/P_c)((s - D)/Δ_c) φ(s) ds from D - Δ_c on when the surfaces part (summits hold on to
     -δ_c), from D on when they approach (summits jump in at touch).
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    density
-        Summits per area η in 1/m², > 0.
-    radius
-        Radius R of the summits in m, > 0.
-    height_deviation
-        Standard deviation σ_s of the summit heights in m, > 0.
-    work
-        Work of adhesion w in J/m², > 0.
-    mean_height
-        Mean height of the summits above the mean plane of the surface in m, from which separations count.
-    parting
-        Whether the surfaces part (True) or approach.
-    spacing
-        Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether JKR applies (``validity``).
 
     Examples
     --------
@@ -59,34 +53,20 @@ class FullerTabor:
     '-12.1 kPa against 23.6 kPa of equal heights'
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    work: float
-    mean_height: float = 0.0
-    parting: bool = True
-    spacing: float = 0.3e-9
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    work: Annotated[float, Number("J/m^2", above=0.0), Help("work of adhesion w", of="bodies")]
+    mean_height: MeanHeight = 0.0
+    parting: Annotated[bool, Choice({"parting": True, "approaching": False}), Help("way", of="choice")] = True
+    spacing: Annotated[Length, Help("equilibrium spacing of the surfaces", of="bodies")] = 3e-10
     name: ClassVar[str] = "fuller-tabor"
     title: ClassVar[str] = "Fuller-Tabor"
     citation_keys: ClassVar[tuple[str, ...]] = ("Fuller1975", "Johnson1971")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("density", "1/m^2", "summits per area"),
-        Input("radius", "m", "radius of the summits"),
-        Input("height_deviation", "m", "standard deviation of the summit heights"),
-        Input("work", "J/m^2", "work of adhesion", of="bodies"),
-        Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
-        Input("parting", "", "way", of="choice", default=True, choices=(("parting", True), ("approaching", False))),
-        Input("spacing", "m", "equilibrium spacing of the surfaces", of="bodies", default=0.3e-9),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("theta", "", "adhesion parameter: roughness wins for large values"),
     )
-
-    def __post_init__(self) -> None:
-        self.summits  # noqa: B018 - checks all values
-        self.sphere.tabor  # noqa: B018
 
     @classmethod
     def from_roughness(

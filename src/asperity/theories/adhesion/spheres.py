@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared
+from ...core.values import Length, Number, Pressure
 from ..ask import Column
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, bisected, checked, small_slope
+from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
 from ..single.hertz import hertz_profile
 
 # Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975; Tabor 1977).
@@ -37,21 +39,10 @@ def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -
 
 
 @dataclass(frozen=True)
-class JKR:
+class JKR(Declared):
     """Sphere with adhesion inside of the contact alone: P = Ka³/R - sqrt(6πwKa³), δ = a²/R - sqrt(2πwa/E*), K = 4E*/3.
 
     Loads may be negative down to the pull-off force -1.5πwR; approaches down to -δc (fixed grips).
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    work
-        Work of adhesion w in J/m², > 0.
-    spacing
-        Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether the theory applies (``limits``).
 
     Examples
     --------
@@ -60,23 +51,14 @@ class JKR:
     '2.36 µN, 4.13 µm without load'
     """
 
-    E_star: float
-    radius: float
-    work: float
-    spacing: float = 0.3e-9
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
+    spacing: Annotated[Length, "equilibrium spacing"] = 3e-10
     name: ClassVar[str] = "jkr"
     title: ClassVar[str] = "JKR, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1971", "Tabor1977")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-        Input("work", "J/m^2", "work of adhesion"),
-        Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
-    )
     numbers: ClassVar[tuple[Column, ...]] = ADHESION
-
-    def __post_init__(self) -> None:
-        self.tabor  # noqa: B018 - checks all values
 
     @property
     def tabor(self) -> float:
@@ -189,38 +171,17 @@ def contact_ratio(approach: ArrayLike) -> RealArray:
 
 
 @dataclass(frozen=True)
-class DMT:
-    """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3.
+class DMT(Declared):
+    """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    work
-        Work of adhesion w in J/m², > 0.
-    spacing
-        Equilibrium spacing z0 of the surfaces in m, > 0; it decides whether the theory applies (``limits``).
-    """
-
-    E_star: float
-    radius: float
-    work: float
-    spacing: float = 0.3e-9
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
+    spacing: Annotated[Length, "equilibrium spacing"] = 3e-10
     name: ClassVar[str] = "dmt"
     title: ClassVar[str] = "DMT, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Derjaguin1975", "Tabor1977")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-        Input("work", "J/m^2", "work of adhesion"),
-        Input("spacing", "m", "equilibrium spacing", default=0.3e-9),
-    )
     numbers: ClassVar[tuple[Column, ...]] = ADHESION
-
-    def __post_init__(self) -> None:
-        self.tabor  # noqa: B018 - checks all values
 
     @property
     def tabor(self) -> float:
@@ -336,44 +297,20 @@ def _radius(lam: float, s: RealArray) -> RealArray:
 
 
 @dataclass(frozen=True)
-class MaugisDugdale:
-    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts.
+class MaugisDugdale(Declared):
+    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    work
-        Work of adhesion w in J/m², > 0.
-    attraction
-        Stress σ0 in Pa, > 0. The largest of a Lennard-Jones surface is 16w/(9√3 z0).
-    """
-
-    E_star: float
-    radius: float
-    work: float
-    attraction: float
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
+    attraction: Annotated[Pressure, "stress σ0. The largest of a Lennard-Jones surface is 16w/(9√3 z0)"]
     name: ClassVar[str] = "maugis-dugdale"
     title: ClassVar[str] = "Maugis-Dugdale, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Maugis1992",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-        Input("work", "J/m^2", "work of adhesion"),
-        Input("attraction", "Pa", "attractive stress"),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("pull_off", "N", "force that separates the bodies"),
         Column("transition", "", "parameter λ: DMT for small, JKR for large values"),
     )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius, "radius of curvature (m)")
-        require.positive(self.work, "work of adhesion (J/m^2)")
-        require.positive(self.attraction, "attractive stress (Pa)")
 
     @property
     def transition(self) -> float:

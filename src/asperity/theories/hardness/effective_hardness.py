@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared, Help
+from ...core.values import Positive, Pressure
 from ..ask import Column, Way, asked
-from ..protocol import Input
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,20 +26,11 @@ class HardnessAnswer:
 
 
 @dataclass(frozen=True)
-class EffectiveHardness:
+class EffectiveHardness(Declared):
     """Hardness H_e of a film (1) of thickness h on a substrate (2), indented to the depth h_c.
 
     Soft film, H1 <= H2: H_e = H2 + (H1 - H2) exp[-(Y1/Y2)/(E1/E2) (h_c/h)²].
     Hard film, H1 > H2: H_e = H2 + (H1 - H2) exp[-(H1/H2)/((Y1/Y2) (E1/E2)^½) h_c/h].
-
-    Parameters
-    ----------
-    film, substrate
-        Hardnesses H1 and H2 in Pa, > 0.
-    modulus_ratio
-        E1/E2 of the Young's moduli, > 0.
-    yield_ratio
-        Y1/Y2 of the yield stresses, > 0; H1/H2 if not given, as Y = H/2.8 (Tabor 1951) says of both.
 
     Notes
     -----
@@ -56,25 +48,15 @@ class EffectiveHardness:
         If a value is not positive.
     """
 
-    film: float
-    substrate: float
-    modulus_ratio: float
-    yield_ratio: float | None = None
+    film: Annotated[Pressure, Help("hardness of the film", of="bodies")]
+    substrate: Annotated[Pressure, Help("hardness of the substrate", of="bodies")]
+    modulus_ratio: Annotated[Positive, Help("Young's modulus of the film over that of the substrate", of="bodies")]
+    yield_ratio: Annotated[
+        Positive | None, Help("yield stress of film over substrate; that of the hardnesses by default", of="bodies")
+    ] = None
     name: ClassVar[str] = "effective-hardness"
     title: ClassVar[str] = "Effective hardness of a film on a substrate"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhattacharya1988", "Peng2001")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("film", "Pa", "hardness of the film", of="bodies"),
-        Input("substrate", "Pa", "hardness of the substrate", of="bodies"),
-        Input("modulus_ratio", "", "Young's modulus of the film over that of the substrate", of="bodies"),
-        Input(
-            "yield_ratio",
-            "",
-            "yield stress of film over substrate; that of the hardnesses by default",
-            of="bodies",
-            optional=True,
-        ),
-    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("depth_ratio", "", "depth of the indentation over the thickness of the film"),
@@ -85,13 +67,6 @@ class EffectiveHardness:
             ),
         ),
     )
-
-    def __post_init__(self) -> None:
-        require.positive(self.film, "hardness of the film (Pa)")
-        require.positive(self.substrate, "hardness of the substrate (Pa)")
-        require.positive(self.modulus_ratio, "ratio E1/E2 of film and substrate")
-        if self.yield_ratio is not None:
-            require.positive(self.yield_ratio, "ratio Y1/Y2 of film and substrate")
 
     def at(self, depth_ratio: ArrayLike) -> RealArray:
         """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0).

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared, Help
+from ...core.values import Length, Pressure
 from ..ask import Column, Way, asked
-from ..protocol import E_STAR, Input, poissons_ratio
+from ..protocol import HeightDeviation, Modulus, PoissonOfSolid, SummitRadius, poissons_ratio
 from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
 from ..statistics.roughness import Roughness
 
@@ -85,9 +87,6 @@ def _modulus(E_star: float) -> float:
     return require.positive(E_star, "contact modulus E_star (Pa)")
 
 
-HARDNESS = Input("hardness", "Pa", "hardness of the softer body", of="bodies")
-
-
 @dataclass(frozen=True, eq=False)
 class PlasticShares:
     """Shares of the area and of the contacts that flow at standardised separations (n,)."""
@@ -97,41 +96,24 @@ class PlasticShares:
 
 
 @dataclass(frozen=True)
-class PlasticityIndex:
+class PlasticityIndex(Declared):
     """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and
     what flows.
 
     Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Radius R of the summits in m, > 0.
-    height_deviation
-        Standard deviation σ_s of the summit heights in m, > 0.
-    hardness
-        Hardness H of the softer body in Pa, > 0.
-    nu
-        Poisson's ratio of the body that yields, 0 to 0.5; for the index of Chang, Etsion & Bogy.
     """
 
-    E_star: float
-    radius: float
-    height_deviation: float
-    hardness: float
-    nu: float = 0.3
+    E_star: Modulus
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    hardness: Annotated[Pressure, Help("hardness H of the softer body", of="bodies")]
+    nu: Annotated[
+        PoissonOfSolid,
+        Help("Poisson's ratio of the body that yields, 0 to 0.5; for the index of Chang, Etsion & Bogy", of="bodies"),
+    ] = 0.3
     name: ClassVar[str] = "plasticity-index"
     title: ClassVar[str] = "Plasticity indices of summits"
     citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987", "Greenwood1966")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "radius of the summits"),
-        Input("height_deviation", "m", "standard deviation of the summit heights"),
-        HARDNESS,
-        Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("index", "", "ψ of Greenwood & Williamson: below 0.6 elastic, above 1 plastic"),
         Column("critical_index", "", "ψ_c of Chang, Etsion & Bogy: from first yield"),
@@ -150,6 +132,7 @@ class PlasticityIndex:
     )
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         _ = self.index, self.critical_index
 
     @classmethod
@@ -192,38 +175,17 @@ class PlasticityIndex:
 
 
 @dataclass(frozen=True)
-class ProfilePlasticityIndex:
-    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45.
+class ProfilePlasticityIndex(Declared):
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    rms_height
-        Standard deviation σ of the heights in m, > 0.
-    correlation_length
-        β* in m, lag at which the autocorrelation has fallen to 1/e, > 0.
-    hardness
-        Hardness H of the softer body in Pa, > 0.
-    """
-
-    E_star: float
-    rms_height: float
-    correlation_length: float
-    hardness: float
+    E_star: Modulus
+    rms_height: Annotated[Length, "standard deviation σ of the heights"]
+    correlation_length: Annotated[Length, "lag at which the autocorrelation has fallen to 1/e"]
+    hardness: Annotated[Pressure, Help("hardness H of the softer body", of="bodies")]
     name: ClassVar[str] = "profile-plasticity-index"
     title: ClassVar[str] = "Plasticity index of a profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("rms_height", "m", "standard deviation of the surface heights"),
-        Input("correlation_length", "m", "lag at which the autocorrelation has fallen to 1/e"),
-        HARDNESS,
-    )
     numbers: ClassVar[tuple[Column, ...]] = (Column("index", "", "ψ: below 0.25 elastic, above 0.45 plastic"),)
-
-    def __post_init__(self) -> None:
-        _ = self.index
 
     @classmethod
     def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared, Help
+from ...core.values import Positive, Pressure
 from ..ask import PRESSURE, Column, Way, asked
-from ..protocol import Input, curve
+from ..protocol import curve
 
 ELASTIC_INDEX = 0.6
 """Plasticity index ψ = (E*/H) sqrt(σ_s/R) below which a Gaussian rough contact is elastic at any realistic load."""
@@ -41,7 +43,7 @@ class LeastAreas:
 
 
 @dataclass(frozen=True)
-class LeastArea:
+class LeastArea(Declared):
     """Surface of the least real area that stays elastic: the area falls with E* sqrt(σ_s/R) until that reaches ψ H.
 
     A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both the real area and
@@ -50,28 +52,17 @@ class LeastArea:
     overcoat lowers the admissible index, a more compliant one raises it, unless contacts are much larger than the
     overcoat is thick. Hardness and modulus are those at the strain rate of a passing asperity.
 
-    Parameters
-    ----------
-    hardness
-        Hardness H of the softer solid in Pa, > 0.
-    plasticity_index
-        ψ that is still elastic, > 0.
-
     Raises
     ------
     InputError
         If a number is not positive.
     """
 
-    hardness: float
-    plasticity_index: float = ELASTIC_INDEX
+    hardness: Annotated[Pressure, Help("hardness H of the softer solid", of="bodies")]
+    plasticity_index: Annotated[Positive, Help("plasticity index that is still elastic", of="choice")] = ELASTIC_INDEX
     name: ClassVar[str] = "least-area"
     title: ClassVar[str] = "Design for the least area without plasticity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1984", "Bhushan1998", "Greenwood1966", "Onions1973")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("hardness", "Pa", "hardness of the softer solid", of="bodies"),
-        Input("plasticity_index", "", "plasticity index that is still elastic", of="choice", default=ELASTIC_INDEX),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("mean_real_pressure", "Pa", "real pressure of the designed surface"),
     )
@@ -93,10 +84,6 @@ class LeastArea:
             ),
         ),
     )
-
-    def __post_init__(self) -> None:
-        require.positive(self.hardness, "hardness (Pa)")
-        require.positive(self.plasticity_index, "plasticity index")
 
     def summit_ratio(self, E_star: float) -> float:
         """Largest σ_s/R, deviation of the summit heights over summit radius, for the contact modulus ``E_star`` in Pa."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
+from ...core.values import Length, Number, Several, SignedLength
 from ..ask import separation_at
 from ..limits import area_limit, blunt_summits
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, Prediction, curve, prediction, small_slope
+from ..protocol import ContactAnswer, Limit, Modulus, Prediction, curve, prediction, small_slope
 from ..single.hertz import HertzPoint
 from ..statistics.roughness import Roughness
 
@@ -25,21 +27,10 @@ _REACH = 4.0  # ranges of the heights below the lowest summit to which pressures
 
 
 @dataclass(frozen=True, eq=False)
-class DiscreteSummits:
+class DiscreteSummits(Declared):
     """Sums over the summits z_i > h of one map.
 
         A_r = π Σ R_i (z_i - h),  W = (4/3) E* Σ R_i^(1/2) (z_i - h)^(3/2).
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    height
-        (n,) heights z_i of the summits above the mean plane of the surface in m.
-    radius
-        (n,) their radii R_i in m.
-    area
-        Nominal area in m².
 
     Raises
     ------
@@ -47,23 +38,18 @@ class DiscreteSummits:
         If heights and radii differ in length, or a radius or a number is not positive.
     """
 
-    E_star: float
-    height: ArrayLike = field(repr=False)
-    radius: ArrayLike = field(repr=False)
-    area: float
+    E_star: Modulus
+    height: Annotated[ArrayLike, Several(Number("length")), "heights of the summits above the mean plane"] = field(
+        repr=False
+    )
+    radius: Annotated[ArrayLike, Several(Number("length", above=0.0)), "radii of the summits"] = field(repr=False)
+    area: Annotated[float, Number("area", above=0.0), "nominal area"]
     name: ClassVar[str] = "discrete-summits"
     title: ClassVar[str] = "Greenwood-Williamson on the summits of the map"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("height", "m", "heights of the summits above the mean plane", many=True),
-        Input("radius", "m", "radii of the summits", many=True),
-        Input("area", "m^2", "nominal area"),
-    )
 
     def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.area, "nominal area (m^2)")
+        super().__post_init__()
         height = curve(self.height, "heights of summits (m)")
         radius = curve(self.radius, "radii of summits (m)", positive=True)
         if height.shape != radius.shape:
@@ -146,39 +132,18 @@ ROUNDED_ONSET = 0.5  # peak over hardness at p_m = H/3, Bhushan's rounded first 
 
 
 @dataclass(frozen=True)
-class IdenticalAsperities:
-    """η equal spheres per area that share the load equally and do not interact: A_r ∝ p^(2/3).
+class IdenticalAsperities(Declared):
+    """η equal spheres per area that share the load equally and do not interact: A_r ∝ p^(2/3)."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    density
-        Asperities per area η in 1/m², > 0.
-    radius
-        Their radius R in m, > 0.
-    height
-        Height of their tops above the mean plane of the surface in m, from which separations count.
-    """
-
-    E_star: float
-    density: float
-    radius: float
-    height: float = 0.0
+    E_star: Modulus
+    density: Annotated[float, Number("1/m^2", above=0.0), "asperities per area η"]
+    radius: Annotated[Length, "their radius R"]
+    height: Annotated[
+        SignedLength, "height of their tops above the mean plane of the surface, from which separations count"
+    ] = 0.0
     name: ClassVar[str] = "identical-asperities"
     title: ClassVar[str] = "Identical asperities"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Hertz1882")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("density", "1/m^2", "asperities per area"),
-        Input("radius", "m", "radius of the asperities"),
-        Input("height", "m", "height of their tops above the mean plane", default=0.0),
-    )
-
-    def __post_init__(self) -> None:
-        self.asperity  # noqa: B018 - checks modulus and radius
-        require.positive(self.density, "density of asperities (1/m^2)")
-        require.finite(self.height, "height of the asperities (m)")
 
     @property
     def asperity(self) -> HertzPoint:

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
 from ..ask import separation_at
 from ..limits import area_limit, blunt_summits
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, Prediction, bisected, checked, curve, prediction
+from ..protocol import ContactAnswer, Limit, Prediction, bisected, checked, curve, prediction
 from ..single.hertz import HertzPoint
 from ..statistics.heights import GaussianHeights
 from .greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
@@ -93,17 +94,6 @@ def at_load(law: ElasticPlasticLaw, load: ArrayLike) -> ContactAnswer:
     return at_interference(law, x * law.critical_interference)
 
 
-SUMMITS = (
-    E_STAR,
-    Input("density", "1/m^2", "summits per area"),
-    Input("radius", "m", "radius of the summits"),
-    Input("height_deviation", "m", "standard deviation of the summit heights"),
-)
-"""Inputs that describe the summits."""
-
-NU = Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3)
-MEAN_HEIGHT = Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0)
-
 _NODES = 48  # between breaks of the law; 32 leave 1e-12
 _SIGMAS = 9.0
 
@@ -179,7 +169,7 @@ class ElasticPlasticSummits:
         return q * q, 2.0 * q * weight
 
 
-class OfElasticPlasticSummits:
+class OfElasticPlasticSummits(Declared):
     """What theories of rough surfaces have in common that differ by the ``law`` of one summit only."""
 
     E_star: float
@@ -198,9 +188,6 @@ class OfElasticPlasticSummits:
         """The summits, and the law of one of them."""
         summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
         return ElasticPlasticSummits(summits, self.law)
-
-    def __post_init__(self) -> None:
-        self.model  # noqa: B018 - checks all values
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
         """Prediction at separations (n,) in m from the mean plane of the surface."""

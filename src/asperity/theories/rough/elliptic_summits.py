@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.values import Number, Positive
 from ..ask import separation_at
 from ..limits import area_limit, blunt_summits, gentle_slopes, isotropic_bandwidth
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..protocol import Limit, Modulus, Prediction, curve, prediction
 from ..single.hertz import Ellipse, ellipse, ellipse_of_curvatures
 from ..statistics.heights import GaussianHeights
 from ..statistics.nayak import NayakSummits
@@ -24,27 +25,12 @@ from .greenwood_williamson import GreenwoodWilliamson
 # McCool (1986): the theory of Greenwood & Williamson with the summits of a Gaussian surface of given moments.
 
 
-MOMENTS = (
-    Input("m0", "m^2", "mean square height"),
-    Input("m2", "", "mean square slope of a profile"),
-    Input("m4", "1/m^2", "mean square second derivative of a profile"),
-)
-"""The three moments that theories of isotropic Gaussian surfaces are made from."""
-
-
 @dataclass(frozen=True)
-class McCool:
+class McCool(Declared):
     """Greenwood and Williamson with η, R, σ_s and z̄_s of Nayak's summits and Gaussian heights (McCool 1986).
 
     Every summit has the mean curvature, although the highest are the sharpest: for narrow spectra the area at light load
     is too large (α = 2: by 38 % at a separation of three standard deviations), and it has no linear limit.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    m0, m2, m4
-        Moments of an isotropic Gaussian surface, see ``NayakSummits``.
 
     Raises
     ------
@@ -52,16 +38,16 @@ class McCool:
         If a parameter is not positive or m0 m4/m2² < 1.5.
     """
 
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
+    E_star: Modulus
+    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    m2: Annotated[Positive, "mean square slope of a profile"]
+    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
     name: ClassVar[str] = "mccool"
     title: ClassVar[str] = "Greenwood-Williamson with McCool's parameters"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "McCool1986", "Nayak1971")
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *MOMENTS)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         self.equivalent()
 
     @classmethod
@@ -250,7 +236,7 @@ ASYMPTOTE = math.sqrt(2.0 * math.pi)
 
 
 @dataclass(frozen=True)
-class _OnSummits:
+class _OnSummits(Declared):
     """What theories have in common that differ by the shape of the contact on a summit only: their ``_contacts`` do it."""
 
     E_star: float
@@ -259,7 +245,7 @@ class _OnSummits:
     m4: float
 
     def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
+        super().__post_init__()
         self._contacts()
 
     @classmethod
@@ -290,27 +276,19 @@ class BushGibsonThomas(_OnSummits):
     The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide spectra (Carbone & Bottiglione
     2008). ``SummitContacts`` holds the integrals.
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    m0, m2, m4
-        Moments of an isotropic Gaussian surface, see ``NayakSummits``.
-
     Raises
     ------
     InputError
         If a parameter is not positive or m0 m4/m2² < 1.5.
     """
 
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
+    E_star: Modulus
+    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    m2: Annotated[Positive, "mean square slope of a profile"]
+    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
     name: ClassVar[str] = "bush-gibson-thomas"
     title: ClassVar[str] = "Bush-Gibson-Thomas"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Nayak1971")
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *MOMENTS)
 
     def _contacts(self) -> SummitContacts:
         return SummitContacts(self.E_star, self.m0, self.m2, self.m4, elliptic_shapes())
@@ -323,25 +301,19 @@ class GreenwoodElliptic(_OnSummits):
     Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the limit at vanishing load
     is the same.
 
-    Parameters
-    ----------
-    E_star, m0, m2, m4
-        As for ``BushGibsonThomas``.
-
     Raises
     ------
     InputError
         If a parameter is not positive or m0 m4/m2² < 1.5.
     """
 
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
+    E_star: Modulus
+    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    m2: Annotated[Positive, "mean square slope of a profile"]
+    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
     name: ClassVar[str] = "greenwood-elliptic"
     title: ClassVar[str] = "Greenwood's simplified elliptic model"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood2006", "Nayak1971")
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *MOMENTS)
 
     def _contacts(self) -> SummitContacts:
         return SummitContacts(self.E_star, self.m0, self.m2, self.m4, circular_shapes())
@@ -365,7 +337,7 @@ _CLOSEST, _FARTHEST = 0.0, 36.0  # separations in sqrt(m0) between which its pre
 
 
 @dataclass(frozen=True)
-class AnisotropicSummits:
+class AnisotropicSummits(Declared):
     """High summits are alike: their curvatures are (z/m0)(m20, m02), whatever the rest of the spectrum.
 
     With g = m20/m02, D = h/sqrt(m0), f_A and f_P of the Hertz contact of curvatures in the ratio g, and
@@ -376,40 +348,19 @@ class AnisotropicSummits:
     Q the bearing area, and n = sqrt(m20 m02)/(2π m0) D φ(D) contacts per area. At constant gradient anisotropy raises
     the area slightly: by 1.3 % at g = 2, 12 % at g = 10.
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    m0
-        Mean square height in m².
-    steepest, gentlest
-        Mean square slopes of profiles along the two principal directions, positive, in either order.
-
     Raises
     ------
     InputError
         If a parameter is not positive.
     """
 
-    E_star: float
-    m0: float
-    steepest: float
-    gentlest: float
+    E_star: Modulus
+    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    steepest: Annotated[Positive, "mean square slope of profiles along the steepest direction"]
+    gentlest: Annotated[Positive, "mean square slope of profiles across it"]
     name: ClassVar[str] = "anisotropic-summits"
     title: ClassVar[str] = "Bush-Gibson-Keogh, high summits of anisotropic surfaces"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1979", "Johnson1985", "Nayak1971")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("m0", "m^2", "mean square height"),
-        Input("steepest", "", "mean square slope of profiles along the steepest direction"),
-        Input("gentlest", "", "mean square slope of profiles across it"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.m0, "moment m0 (m^2)")
-        require.positive(self.steepest, "mean square slope along the steepest direction")
-        require.positive(self.gentlest, "mean square slope along the gentlest direction")
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,10 +12,23 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
+from ...core.parameters import Declared, Help
+from ...core.values import Length, Number, SignedLength
 from ..ask import separation_at
 from ..limits import area_limit, blunt_summits
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
-from ..statistics.heights import NAMED_HEIGHTS, GaussianHeights, HistogramHeights, SummitHeights
+from ..protocol import (
+    HeightDeviation,
+    HeightsLaw,
+    Limit,
+    MeanHeight,
+    Modulus,
+    Prediction,
+    SummitDensity,
+    SummitRadius,
+    curve,
+    prediction,
+)
+from ..statistics.heights import GaussianHeights, HistogramHeights, SummitHeights
 from ..statistics.nayak import NayakSummits
 from ..statistics.roughness import Roughness
 
@@ -27,27 +40,12 @@ LOWEST, HIGHEST = -40.0, 37.0
 
 
 @dataclass(frozen=True)
-class GreenwoodWilliamson:
+class GreenwoodWilliamson(Declared):
     """Independent spherical summits on a rough surface against a rigid plane.
 
     With D = (h - z̄_s)/σ_s and F_m(D) = ∫_D^∞ (s - D)^m p(s) ds (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
 
         n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    density
-        Summits per area η in 1/m².
-    radius
-        Radius R of the summits in m.
-    height_deviation
-        Standard deviation σ_s of the summit heights in m.
-    mean_height
-        Mean z̄_s of the summit heights above the mean plane of the surface in m, from which separations count.
-    heights
-        Distribution of the standardised summit heights.
 
     Raises
     ------
@@ -55,30 +53,15 @@ class GreenwoodWilliamson:
         If a parameter is not positive (the mean height may have any sign).
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float = 0.0
-    heights: SummitHeights = GaussianHeights()
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    mean_height: MeanHeight = 0.0
+    heights: HeightsLaw = GaussianHeights()
     name: ClassVar[str] = "greenwood-williamson"
     title: ClassVar[str] = "Greenwood-Williamson"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("density", "1/m^2", "summits per area"),
-        Input("radius", "m", "radius of the summits"),
-        Input("height_deviation", "m", "standard deviation of the summit heights"),
-        Input("mean_height", "m", "mean summit height above the mean plane of the surface", default=0.0),
-        Input("heights", "", "distribution of the summit heights", default=GaussianHeights(), choices=NAMED_HEIGHTS),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.density, "density of summits (1/m^2)")
-        require.positive(self.radius, "radius of summits (m)")
-        require.positive(self.height_deviation, "standard deviation of summit heights (m)")
-        require.finite(self.mean_height, "mean height of summits (m)")
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, bins: int | None = None) -> Self:
@@ -213,17 +196,10 @@ class FittedLaws:
 
 
 @dataclass(frozen=True)
-class FittedGreenwoodWilliamson:
+class FittedGreenwoodWilliamson(Declared):
     """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
 
     Real area and real pressure are fits of their own: their product is the load within a few per cent only.
-
-    Parameters
-    ----------
-    E_star, density, radius, height_deviation, mean_height
-        As for ``GreenwoodWilliamson``; heights are Gaussian.
-    form
-        ``"power"`` or ``"linear"``.
 
     Raises
     ------
@@ -231,27 +207,18 @@ class FittedGreenwoodWilliamson:
         If a parameter is not positive (the mean height may have any sign), or the form unknown.
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float = 0.0
-    form: str = "power"
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    mean_height: MeanHeight = 0.0
+    form: Annotated[Literal["power", "linear"], Help("fitted laws", of="choice")] = "power"
     name: ClassVar[str] = "greenwood-williamson-fits"
     title: ClassVar[str] = "Greenwood-Williamson, fitted power laws"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Greenwood1966")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        *GreenwoodWilliamson.inputs[1:5],
-        Input("form", "", "fitted laws", of="choice", default="power", choices=tuple((f, f) for f in FORMS)),
-    )
-
-    def __post_init__(self) -> None:
-        self._exact()
-        FittedLaws(self.form)
 
     @classmethod
-    def from_roughness(cls, roughness: Roughness, E_star: float, *, form: str = "power") -> Self:
+    def from_roughness(cls, roughness: Roughness, E_star: float, *, form: Literal["power", "linear"] = "power") -> Self:
         """Theory for the summits of a map, as ``GreenwoodWilliamson.from_roughness``."""
         exact = GreenwoodWilliamson.from_roughness(roughness, E_star)
         return cls(E_star, exact.density, exact.radius, exact.height_deviation, exact.mean_height, form)
@@ -360,7 +327,7 @@ def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond
 
 
 @dataclass(frozen=True)
-class GreenwoodTripp:
+class GreenwoodTripp(Declared):
     """Two surfaces, each with paraboloidal summits of the same radius and density, at random relative positions.
 
     With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged over the misalignment
@@ -371,51 +338,21 @@ class GreenwoodTripp:
 
     The second power of the density stands for pairs: doubling the summits of both surfaces quadruples the contacts.
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    density
-        Summits per area η of each surface in 1/m².
-    radius
-        Radius β of the summits of each surface in m.
-    height_deviation
-        Standard deviation σ_s of the sum of a summit height of either surface in m.
-    mean_height
-        Mean z̄_s of that sum above the sum of the mean planes in m.
-    heights
-        Distribution of the standardised sum.
-
     Raises
     ------
     InputError
         If a parameter is not positive (the mean height may have any sign).
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float = 0.0
-    heights: SummitHeights = GaussianHeights()
+    E_star: Modulus
+    density: Annotated[float, Number("1/m^2", above=0.0), "summits per area η of each surface"]
+    radius: Annotated[Length, "radius β of the summits of each surface"]
+    height_deviation: Annotated[Length, "standard deviation σ_s of the sum of a summit height of either surface"]
+    mean_height: Annotated[SignedLength, "mean z̄_s of that sum above the sum of the mean planes"] = 0.0
+    heights: HeightsLaw = GaussianHeights()
     name: ClassVar[str] = "greenwood-tripp"
     title: ClassVar[str] = "Greenwood-Tripp, two rough surfaces"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Greenwood1970", "McCool1986")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("density", "1/m^2", "summits per area of each surface"),
-        Input("radius", "m", "radius of the summits of each surface"),
-        Input("height_deviation", "m", "standard deviation of the sum of two summit heights"),
-        Input("mean_height", "m", "mean of that sum above the mean planes", default=0.0),
-        Input("heights", "", "distribution of the sum", default=GaussianHeights(), choices=NAMED_HEIGHTS),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.density, "density of summits (1/m^2)")
-        require.positive(self.radius, "radius of summits (m)")
-        require.positive(self.height_deviation, "standard deviation of the sum of summit heights (m)")
-        require.finite(self.mean_height, "mean sum of summit heights (m)")
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import ClassVar, Self, TypeAlias
+from typing import Annotated, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +14,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
+from ...core.parameters import Declared, Help
+from ...core.values import Number, Several
 from ..limits import area_limit
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..protocol import Limit, Modulus, Prediction, curve, prediction
 from ..single.waves import TWO_TERMS, two_term_approach, two_term_load, two_terms
 from ..statistics.roughness import Roughness
 from .discrete_summits import DiscreteSummits
@@ -266,9 +268,9 @@ def _graded(values: RealArray, ratio: float) -> RealArray:
     return np.concatenate(parts)
 
 
-INTERACTIONS = ("far field", "off")
-METHODS = ("complementarity", "least squares")
-SHAPES = ("sine", "paraboloid")
+Interaction: TypeAlias = Literal["far field", "off"]
+Method: TypeAlias = Literal["complementarity", "least squares"]
+Shape: TypeAlias = Literal["sine", "paraboloid"]
 SHALLOW = 0.15
 """Contact radius over wavelength up to which two terms of the sine are good to 0.5 %."""
 
@@ -280,29 +282,13 @@ State: TypeAlias = tuple[CrestSystem, RealArray]
 
 
 @dataclass(frozen=True, eq=False)
-class InteractingCrests:
+class InteractingCrests(Declared):
     """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on the others.
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    x, y
-        (n,) positions in m; the surface is not repeated.
-    height
-        (n,) heights of the crests above the mean plane of the surface in m.
-    depth, wavelength
-        (n,) crest-to-trough heights and wavelengths in m; the radius of a crest is λ²/(2π² h).
-    area
-        Nominal area in m².
-    interaction
-        ``"far field"``: displacements of point forces between crests; ``"off"``: none.
-    method
-        ``"complementarity"``: Newton steps on the touching crests; ``"least squares"``: the published form, by a library
-        optimiser. Both solve the same equations.
-    shape
-        ``"sine"``: two terms of the sine, for approaches up to about the depth; ``"paraboloid"``: spheres of the same
-        radius, for any approach.
+    ``interaction``: displacements of point forces between crests (``far field``), or none (``off``). ``method``: Newton steps
+    on the touching crests (``complementarity``), or the published form by a library optimiser (``least squares``); both solve
+    the same equations. ``shape``: two terms of the ``sine``, for approaches up to about the depth, or a ``paraboloid`` of the
+    same radius λ²/(2π² h), for any approach.
 
     Raises
     ------
@@ -310,48 +296,25 @@ class InteractingCrests:
         If the arrays differ in length, a size is not positive, two crests lie at one place, or a choice is unknown.
     """
 
-    E_star: float
-    x: ArrayLike = field(repr=False)
-    y: ArrayLike = field(repr=False)
-    height: ArrayLike = field(repr=False)
-    depth: ArrayLike = field(repr=False)
-    wavelength: ArrayLike = field(repr=False)
-    area: float
-    interaction: str = "far field"
-    method: str = "complementarity"
-    shape: str = "sine"
+    E_star: Modulus
+    x: Annotated[ArrayLike, Several(Number("length")), "positions of the crests"] = field(repr=False)
+    y: Annotated[ArrayLike, Several(Number("length")), "positions of the crests"] = field(repr=False)
+    height: Annotated[ArrayLike, Several(Number("length")), "heights of the crests above the mean plane"] = field(
+        repr=False
+    )
+    depth: Annotated[ArrayLike, Several(Number("length", above=0.0)), "crest-to-trough heights"] = field(repr=False)
+    wavelength: Annotated[ArrayLike, Several(Number("length", above=0.0)), "wavelengths"] = field(repr=False)
+    area: Annotated[float, Number("area", above=0.0), "nominal area"]
+    interaction: Annotated[Interaction, Help("elastic interaction of the crests", of="choice")] = "far field"
+    method: Annotated[Method, Help("how the equations are solved", of="choice")] = "complementarity"
+    shape: Annotated[Shape, Help("shape of the crests", of="choice")] = "sine"
     name: ClassVar[str] = "interacting-crests"
     title: ClassVar[str] = "Greenwood-Williamson with interacting sinusoidal crests"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Johnson1985")
     equations: ClassVar[type[CrestSystem]] = CrestSystem
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("x", "m", "positions of the crests", many=True),
-        Input("y", "m", "positions of the crests", many=True),
-        Input("height", "m", "heights of the crests above the mean plane", many=True),
-        Input("depth", "m", "crest-to-trough heights", many=True),
-        Input("wavelength", "m", "wavelengths", many=True),
-        Input("area", "m^2", "nominal area"),
-        Input(
-            "interaction",
-            "",
-            "elastic interaction of the crests",
-            "choice",
-            "far field",
-            tuple((i, i) for i in INTERACTIONS),
-        ),
-        Input(
-            "method", "", "how the equations are solved", "choice", "complementarity", tuple((m, m) for m in METHODS)
-        ),
-        Input("shape", "", "shape of the crests", "choice", "sine", tuple((s, s) for s in SHAPES)),
-    )
 
     def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.area, "nominal area (m^2)")
-        require.one_of(self.interaction, INTERACTIONS, "interaction of crests")
-        require.one_of(self.method, METHODS, "method for interacting crests")
-        require.one_of(self.shape, SHAPES, "shape of crests")
+        super().__post_init__()
         columns = {name: curve(getattr(self, name), f"{name} of crests (m)") for name in ("x", "y", "height")}
         for name in ("depth", "wavelength"):
             columns[name] = curve(getattr(self, name), f"{name} of crests (m)", positive=True)
@@ -368,9 +331,9 @@ class InteractingCrests:
         roughness: Roughness,
         E_star: float,
         *,
-        interaction: str = "far field",
-        method: str = "complementarity",
-        shape: str = "paraboloid",
+        interaction: Interaction = "far field",
+        method: Method = "complementarity",
+        shape: Shape = "paraboloid",
     ) -> Self:
         """Theory for the summits of a map.
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared
 from ...core.pearson import Pearson
-from ..protocol import E_STAR, Input, Limit, Prediction
+from ...core.values import Positive, Real
+from ..protocol import HeightDeviation, Limit, MeanHeight, Modulus, Prediction, SummitDensity, SummitRadius
 from ..statistics.roughness import Roughness
 from .greenwood_williamson import GreenwoodWilliamson
 
@@ -54,27 +56,12 @@ class PearsonHeights:
 
 
 @dataclass(frozen=True)
-class KotwalBhushan:
+class KotwalBhushan(Declared):
     """Independent spherical summits of one radius, with heights of Pearson's system, against a rigid plane.
 
     Equations of :class:`~asperity.theories.greenwood_williamson.GreenwoodWilliamson` with F_m(D) = ∫_D^∞ (s - D)^m p(s)
     ds of the Pearson curve p(s) (Kotwal & Bhushan 1996). Types I and II end: there is no contact above the highest
     summit.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    density
-        Summits per area η in 1/m².
-    radius
-        Radius R of the summits in m.
-    height_deviation
-        Standard deviation σ_s of the summit heights in m.
-    mean_height
-        Mean z̄_s of the summit heights above the mean plane of the surface in m, from which separations count.
-    skewness, kurtosis
-        Of the summit heights; 0 and 3 make the theory of Greenwood & Williamson for Gaussian heights.
 
     Raises
     ------
@@ -89,25 +76,20 @@ class KotwalBhushan:
     (0.5, 5))] >>> [f"{load.area_fraction[0]:.2e}" for load in loads] ['2.03e-05', '1.11e-05']
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float = 0.0
-    skewness: float = 0.0
-    kurtosis: float = 3.0
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    mean_height: MeanHeight = 0.0
+    skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
+    kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
     name: ClassVar[str] = "kotwal-bhushan"
     title: ClassVar[str] = "Kotwal-Bhushan"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Kotwal1996", "Pearson1895", "Pearson1916")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        *GreenwoodWilliamson.inputs[1:5],
-        Input("skewness", "", "skewness of the summit heights", default=0.0),
-        Input("kurtosis", "", "kurtosis of the summit heights, 3 for Gaussian ones", default=3.0),
-    )
 
     def __post_init__(self) -> None:
-        _ = self.greenwood_williamson
+        super().__post_init__()
+        _ = self.greenwood_williamson  # a kurtosis that no heights have
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ...core.parameters import Declared, Help
+from ...core.values import Length, Number, Pressure
+from ..protocol import Limit, Modulus, Prediction, curve, prediction
 from ..statistics.roughness import Roughness
 
 # Sizes of the contact spots of a fractal surface: Korcak's law of islands (Mandelbrot 1982; Majumdar & Bhushan 1991).
@@ -84,7 +86,7 @@ _LARGEST = 700.0  # logarithm of the largest area that a float holds
 
 
 @dataclass(frozen=True)
-class MajumdarBhushan:
+class MajumdarBhushan(Declared):
     """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
 
     A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a). Spots obey Korcak's
@@ -95,47 +97,24 @@ class MajumdarBhushan:
     powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
     (1e-19 m²); every real spot is then elastic.
 
-    Parameters
-    ----------
-    dimension
-        Fractal dimension D of the profile, 1 < D < 2; that of the surface is D + 1.
-    roughness
-        Fractal roughness G in m, > 0 (see ``asperity.roughness.fractal_parameters``).
-    E_star
-        Contact modulus E* in Pa, > 0.
-    hardness
-        Hardness H of the softer solid in Pa, > 0.
-    nominal_area
-        Nominal area of contact in m², > 0: the largest spot, unlike a summit, depends on it.
-
     Raises
     ------
     InputError
         If a parameter is out of its range.
     """
 
-    dimension: float
-    roughness: float
-    E_star: float
-    hardness: float
-    nominal_area: float
+    dimension: Annotated[
+        float,
+        Number(above=1.0, below=2.0),
+        "fractal dimension D of the profile, 1 < D < 2; that of the surface is D + 1",
+    ]
+    roughness: Annotated[Length, "fractal roughness G"]
+    E_star: Modulus
+    hardness: Annotated[Pressure, Help("hardness H of the softer solid", of="bodies")]
+    nominal_area: Annotated[float, Number("area", above=0.0), "nominal area of contact"]
     name: ClassVar[str] = "majumdar-bhushan"
     title: ClassVar[str] = "Majumdar-Bhushan (fractal)"
     citation_keys: ClassVar[tuple[str, ...]] = ("BhushanMajumdar1992", "Majumdar1991")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("dimension", "", "fractal dimension of the profile, between 1 and 2"),
-        Input("roughness", "m", "fractal roughness G"),
-        E_STAR,
-        Input("hardness", "Pa", "hardness of the softer solid", of="bodies"),
-        Input("nominal_area", "m^2", "nominal area of contact"),
-    )
-
-    def __post_init__(self) -> None:
-        require.between(self.dimension, 1.0, 2.0, "fractal dimension of a profile")
-        require.positive(self.roughness, "fractal roughness G (m)")
-        require.positive(self.E_star, "contact modulus E* (Pa)")
-        require.positive(self.hardness, "hardness (Pa)")
-        require.positive(self.nominal_area, "nominal area (m^2)")
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +14,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
+from ...core.parameters import Declared, Help
+from ...core.values import Number, Positive, Real, Several
 from ..ask import PRESSURE, ROUGH, Column, Way, asked
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..protocol import Limit, Modulus, Prediction, curve, prediction
 from ..statistics.isotropic_spectrum import IsotropicSpectrum
 from ..statistics.roughness import Roughness
 
@@ -192,7 +194,7 @@ class LocalPressures:
 
 
 @dataclass(frozen=True, eq=False)
-class Persson:
+class Persson(Declared):
     """Area and pressure of an elastic half-space on a randomly rough rigid surface.
 
     Roughness of ever shorter waves is taken in turn; with each the density P of the pressure spreads as by diffusion,
@@ -201,40 +203,26 @@ class Persson:
     pressure less its image. Exact at full contact; below it the area is about 30 % too small at 2 % contact and 20 %
     at 20 %, against elasticity, and the same for every width of the spectrum.
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    rms_gradient
-        Root mean square gradient h'_rms of the composite surface, > 0: sqrt(2 m2).
-    q, psd
-        Power spectrum, see ``IsotropicSpectrum``; needed for the mean gap and the stiffness, NaN without.
-    gamma
-        Weight of the elastic energy in the mean gap, see ``PerssonGap``.
-
     Raises
     ------
     InputError
         If a parameter is not positive, or the spectrum cannot be used.
     """
 
-    E_star: float
-    rms_gradient: float
-    q: ArrayLike = ()
-    psd: ArrayLike = ()
-    gamma: float = CALIBRATED
+    E_star: Modulus
+    rms_gradient: Annotated[Positive, "rms gradient of the surface, sqrt(2 m2)"]
+    q: Annotated[
+        ArrayLike, Several(Number("rad/m", above=0.0)), "wavenumbers of the power spectrum, for the mean gap"
+    ] = ()
+    psd: Annotated[
+        ArrayLike, Several(Number("power spectrum")), "power spectrum at those wavenumbers, m0 = (1/2π) ∫ q C dq"
+    ] = ()
+    gamma: Annotated[
+        Real, Help("weight of the elastic energy in the mean gap, 1 in the original form", of="choice")
+    ] = CALIBRATED
     name: ClassVar[str] = "persson"
     title: ClassVar[str] = "Persson"
     citation_keys: ClassVar[tuple[str, ...]] = ("Persson2001", "Persson2002", "Persson2007", "Yang2008")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("rms_gradient", "", "rms gradient of the surface, sqrt(2 m2)"),
-        Input("q", "rad/m", "wavenumbers of the power spectrum, for the mean gap", default=(), many=True),
-        Input("psd", "m^4", "power spectrum at those wavenumbers, m0 = (1/2π) ∫ q C dq", default=(), many=True),
-        Input(
-            "gamma", "", "weight of the elastic energy in the mean gap, 1 in the original form", "choice", CALIBRATED
-        ),
-    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(PRESSURE, "at_pressure", ROUGH),
         Way(
@@ -250,8 +238,7 @@ class Persson:
     )
 
     def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E* (Pa)")
-        require.positive(self.rms_gradient, "rms gradient")
+        super().__post_init__()
         if self._has_spectrum:
             PerssonGap(self.E_star, IsotropicSpectrum(self.q, self.psd), self.gamma)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,10 +12,12 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.values import Length, Number
 from ..ask import Column, separation_at
 from ..limits import area_limit, constant_limit
-from ..protocol import E_STAR, Input, Limit, Prediction, curve, prediction
+from ..protocol import Limit, Modulus, Prediction, curve, prediction
 from ..statistics.heights import GaussianHeights
 from ..statistics.roughness import Roughness
 
@@ -36,7 +38,7 @@ _NORM = 3.0 / (2.0**1.5 * math.pi) * math.sqrt(2.0 * math.pi / 3.0)  # of f* aft
 
 
 @dataclass(frozen=True)
-class OnionsArchard:
+class OnionsArchard(Declared):
     """Peaks among independent ordinates at the interval ℓ = 2.3 β*, one in five of a square grid being a summit.
 
     With the joint density f*(s, C) of height s (in σ) and curvature C (in σ/ℓ²) of three-point peaks (Whitehouse &
@@ -46,37 +48,18 @@ class OnionsArchard:
 
     The area is nearly proportional to the load, A_r/A_a ≈ 3.1 p/(E* σ/β*).
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus in Pa.
-    rms_height
-        Standard deviation σ of the surface heights in m.
-    correlation_length
-        β* in m at which the autocorrelation exp(-τ/β*) has fallen to 1/e. A length at 1/10 is 2.3026 times longer.
-
     Raises
     ------
     InputError
         If a parameter is not positive.
     """
 
-    E_star: float
-    rms_height: float
-    correlation_length: float
+    E_star: Modulus
+    rms_height: Annotated[Length, "standard deviation σ of the surface heights"]
+    correlation_length: Annotated[Length, "lag at which the autocorrelation has fallen to 1/e"]
     name: ClassVar[str] = "onions-archard"
     title: ClassVar[str] = "Onions-Archard"
     citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("rms_height", "m", "standard deviation of the surface heights"),
-        Input("correlation_length", "m", "lag at which the autocorrelation has fallen to 1/e"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.rms_height, "rms height (m)")
-        require.positive(self.correlation_length, "correlation length at 1/e (m)")
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
@@ -189,17 +172,12 @@ def _curvatures(D: RealArray, k: float, depth: float = 0.0) -> tuple[RealArray, 
 
 
 @dataclass(frozen=True)
-class SampledPeaks:
+class SampledPeaks(Declared):
     """Peaks of a Gaussian profile sampled at an interval ℓ, from the correlations ρ1 = ρ(ℓ) and ρ2 = ρ(2ℓ).
 
     A peak is a point above both neighbours. Heights are in standard deviations of the profile, curvatures
     (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s the curvature C is normal with mean 2s(1 - ρ1) and variance
     2(1 + ρ2 - 2ρ1²), and the slope z1 - z3 independently normal with variance 2(1 - ρ2).
-
-    Parameters
-    ----------
-    rho_1, rho_2
-        Correlations, between -1 and 1, of a possible profile: 1 + ρ2 - 2ρ1² > 0.
 
     Raises
     ------
@@ -207,15 +185,11 @@ class SampledPeaks:
         If no Gaussian profile has these correlations.
     """
 
-    rho_1: float
-    rho_2: float
+    rho_1: Annotated[float, Number(above=-1.0, below=1.0), "correlation of neighbouring points"]
+    rho_2: Annotated[float, Number(above=-1.0, below=1.0), "correlation of next neighbours"]
     name: ClassVar[str] = "sampled-peaks"
     title: ClassVar[str] = "Whitehouse-Archard, peaks of a sampled profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Whitehouse1970", "Whitehouse1978")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("rho_1", "", "correlation of neighbouring points"),
-        Input("rho_2", "", "correlation of next neighbours"),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("fraction", "", "peaks per point"),
         Column("mean_height", "", "mean height of the peaks in rms heights"),
@@ -227,8 +201,7 @@ class SampledPeaks:
     )
 
     def __post_init__(self) -> None:
-        require.between(self.rho_1, -1.0, 1.0, "correlation of neighbours")
-        require.between(self.rho_2, -1.0, 1.0, "correlation of next neighbours")
+        super().__post_init__()
         if not 1.0 + self.rho_2 - 2.0 * self.rho_1**2 > 0.0:
             raise InputError(
                 f"correlations of a profile must have 1 + rho_2 - 2 rho_1^2 > 0, but are {self.rho_1:g}, {self.rho_2:g}."

@@ -4,29 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared
+from ...core.values import Length
 from ..ask import LINE_LOAD, Way
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, bisected, checked, small_slope
+from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
 
 # Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
 
 
 @dataclass(frozen=True)
-class HertzPoint:
+class HertzPoint(Declared):
     """Frictionless elastic contact of a sphere of relative radius R: a³ = 3PR/4E*, δ = a²/R, p = p0 sqrt(1 - r²/a²).
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2, > 0.
-    radius
-        Relative radius of curvature R in m, 1/R = 1/R1 + 1/R2, > 0.
 
     Examples
     --------
@@ -36,19 +31,11 @@ class HertzPoint:
     '68.8 µm, 1.008 GPa, 948 nm'
     """
 
-    E_star: float
-    radius: float
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R, 1/R = 1/R1 + 1/R2"]
     name: ClassVar[str] = "hertz"
     title: ClassVar[str] = "Hertz, point contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius, "radius of curvature (m)")
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -110,34 +97,19 @@ def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
 
 
 @dataclass(frozen=True)
-class HertzLine:
+class HertzLine(Declared):
     """Frictionless elastic contact of a cylinder of relative radius R: a² = 4PR/πE*, p0 = E*a/2R, p = p0 sqrt(1 - x²/a²).
 
     The approach of distant points depends on how the bodies are held (it grows with the logarithm of their size), so
     approach and stiffness are NaN.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
     """
 
-    E_star: float
-    radius: float
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
     name: ClassVar[str] = "hertz-line"
     title: ClassVar[str] = "Hertz, line contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-    )
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius, "radius of curvature (m)")
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape."""
@@ -192,36 +164,19 @@ def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
 
 
 @dataclass(frozen=True)
-class HertzEllipse:
+class HertzEllipse(Declared):
     """Frictionless elastic contact of bodies whose gap before loading is x²/2Rx + y²/2Ry.
 
     p = p0 sqrt(1 - x²/a² - y²/b²) on an ellipse, p0 = 3P/2πab, δ = p0 b K(e)/E*, e² = 1 - b²/a² with a the larger
     semi-axis, which lies along the axis of the larger radius.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius_x, radius_y
-        Principal relative radii of curvature Rx and Ry in m, > 0.
     """
 
-    E_star: float
-    radius_x: float
-    radius_y: float
+    E_star: Modulus
+    radius_x: Annotated[Length, "relative radius of curvature along x"]
+    radius_y: Annotated[Length, "relative radius of curvature along y"]
     name: ClassVar[str] = "hertz-ellipse"
     title: ClassVar[str] = "Hertz, elliptical contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius_x", "m", "relative radius of curvature along x"),
-        Input("radius_y", "m", "relative radius of curvature along y"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius_x, "radius of curvature along x (m)")
-        require.positive(self.radius_y, "radius of curvature along y (m)")
 
     @property
     def eccentricity(self) -> float:

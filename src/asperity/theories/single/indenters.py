@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.values import Length, Number, Positive
 from ..ask import LINE_LOAD, Way
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, bisected, checked, small_slope
+from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
 
 # Rigid axisymmetric indenters: power laws (cone, paraboloid, …), flat punch, exact sphere (Galin 1946; Sneddon 1965).
 #
@@ -53,38 +55,19 @@ def power_integral(rho: ArrayLike, exponent: float) -> RealArray:
 
 
 @dataclass(frozen=True)
-class PowerLawIndenter:
+class PowerLawIndenter(Declared):
     """Profile f = B r^n against an elastic half-space: δ = κ B aⁿ, P = 2n/(n + 1) E* a δ.
 
     κ = √π Γ(n/2 + 1)/Γ((n + 1)/2): π/2 for the cone (n = 1, B its slope), 2 for the paraboloid (n = 2, B = 1/2R), and the
     flat punch for n → ∞ at fixed B aⁿ.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    coefficient
-        B in m^(1-n), > 0.
-    exponent
-        n, >= 1.
     """
 
-    E_star: float
-    coefficient: float
-    exponent: float
+    E_star: Modulus
+    coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B r^n"]
+    exponent: Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
     name: ClassVar[str] = "power-law-indenter"
     title: ClassVar[str] = "Power-law indenter"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Sneddon1965")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("coefficient", "m^(1-n)", "B of the profile B r^n"),
-        Input("exponent", "", "n of the profile"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.coefficient, "coefficient of the profile")
-        convex(self.exponent)
 
     @property
     def approach_factor(self) -> float:
@@ -144,30 +127,14 @@ class PowerLawIndenter:
 
 
 @dataclass(frozen=True)
-class FlatPunch:
-    """Flat-ended rigid cylinder: P = 2E*aδ, p = P/(2πa² sqrt(1 - r²/a²)).
+class FlatPunch(Declared):
+    """Flat-ended rigid cylinder: P = 2E*aδ, p = P/(2πa² sqrt(1 - r²/a²))."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Radius a of the end in m, > 0.
-    """
-
-    E_star: float
-    radius: float
+    E_star: Modulus
+    radius: Annotated[Length, "radius a of the end"]
     name: ClassVar[str] = "flat-punch"
     title: ClassVar[str] = "Flat punch"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "radius of the punch"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius, "radius of the punch (m)")
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -208,32 +175,17 @@ class FlatPunch:
 
 
 @dataclass(frozen=True)
-class SphericalIndenter:
+class SphericalIndenter(Declared):
     """Rigid sphere with its exact profile R - sqrt(R² - r²): δ = a artanh(a/R), P = E*[(R² + a²) artanh(a/R) - aR].
 
     The body is still a half-space with small slopes, so this shows what the paraboloid of ``HertzPoint`` leaves out.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Radius R of the sphere in m, > 0.
     """
 
-    E_star: float
-    radius: float
+    E_star: Modulus
+    radius: Annotated[Length, "radius R of the sphere"]
     name: ClassVar[str] = "rigid-sphere"
     title: ClassVar[str] = "Sphere with its exact profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Sneddon1965",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "radius of the sphere"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.radius, "radius of the sphere (m)")
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -297,39 +249,20 @@ def _integral_artanh_over_x(s: RealArray) -> RealArray:
 
 
 @dataclass(frozen=True)
-class LinePowerLawIndenter:
+class LinePowerLawIndenter(Declared):
     """Profile f = B|x|ⁿ in plane strain: P = E* n B c aⁿ per length, c = (√π/2) Γ((n + 1)/2)/Γ(n/2 + 1).
 
     The wedge has n = 1 and slope B, the cylinder n = 2 and B = 1/2R. Approach and stiffness depend on how the body is
     held and are NaN.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    coefficient
-        B in m^(1-n), > 0.
-    exponent
-        n, >= 1.
     """
 
-    E_star: float
-    coefficient: float
-    exponent: float
+    E_star: Modulus
+    coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B |x|^n"]
+    exponent: Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
     name: ClassVar[str] = "line-power-law-indenter"
     title: ClassVar[str] = "Power-law indenter in plane strain"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("coefficient", "m^(1-n)", "B of the profile B |x|^n"),
-        Input("exponent", "", "n of the profile"),
-    )
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.coefficient, "coefficient of the profile")
-        convex(self.exponent)
 
     @property
     def load_factor(self) -> float:
@@ -380,31 +313,15 @@ class LinePowerLawIndenter:
 
 
 @dataclass(frozen=True)
-class LineFlatPunch:
-    """Flat rigid punch of the half-width a in plane strain: p = P/(π sqrt(a² - x²)), P per length.
+class LineFlatPunch(Declared):
+    """Flat rigid punch of the half-width a in plane strain: p = P/(π sqrt(a² - x²)), P per length."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    half_width
-        a in m, > 0.
-    """
-
-    E_star: float
-    half_width: float
+    E_star: Modulus
+    half_width: Annotated[Length, "half the width of the punch a"]
     name: ClassVar[str] = "line-flat-punch"
     title: ClassVar[str] = "Flat punch in plane strain"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("half_width", "m", "half the width of the punch"),
-    )
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.half_width, "half-width of the punch (m)")
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape; approach and stiffness depend on the supports."""
@@ -430,19 +347,9 @@ class LineFlatPunch:
 # Cone and wedge: the power-law indenters of exponent one by their slope (Sneddon 1965; Johnson 1985, secs. 5.1, 5.2).
 
 
-SLOPE = Input("slope", "", "slope of the flanks against the surface, cotangent of the half-angle")
-
-
 @dataclass(frozen=True)
-class Cone:
+class Cone(Declared):
     """Cone against an elastic half-space: a = 2δ/(π slope), P = (2/π) E* δ²/slope.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    slope
-        Tangent of the angle between flank and surface, > 0; small.
 
     Examples
     --------
@@ -450,15 +357,11 @@ class Cone:
     '3.9633e-07'
     """
 
-    E_star: float
-    slope: float
+    E_star: Modulus
+    slope: Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
     name: ClassVar[str] = "cone"
     title: ClassVar[str] = "Cone"
     citation_keys: ClassVar[tuple[str, ...]] = PowerLawIndenter.citation_keys
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, SLOPE)
-
-    def __post_init__(self) -> None:
-        _ = self.indenter
 
     @property
     def indenter(self) -> PowerLawIndenter:
@@ -475,27 +378,15 @@ class Cone:
 
 
 @dataclass(frozen=True)
-class Wedge:
-    """Wedge against an elastic half-space in plane strain.
+class Wedge(Declared):
+    """Wedge against an elastic half-space in plane strain."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    slope
-        Tangent of the angle between flank and surface, > 0; small.
-    """
-
-    E_star: float
-    slope: float
+    E_star: Modulus
+    slope: Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
     name: ClassVar[str] = "wedge"
     title: ClassVar[str] = "Wedge"
     citation_keys: ClassVar[tuple[str, ...]] = LinePowerLawIndenter.citation_keys
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, SLOPE)
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-
-    def __post_init__(self) -> None:
-        _ = self.indenter
 
     @property
     def indenter(self) -> LinePowerLawIndenter:

@@ -8,7 +8,7 @@ but for the small transverse traction.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared, Help
+from ...core.values import Length, Positive, Pressure
 from ..ask import Column, Way, asked
-from ..protocol import E_STAR, ContactAnswer, Input, Limit, checked
+from ..protocol import ContactAnswer, Limit, Modulus, checked
 from .hertz import HertzLine, HertzPoint
 
 
@@ -59,42 +61,19 @@ class SlipAnswer:
 
 
 @dataclass(frozen=True)
-class MindlinPoint:
-    """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c.
+class MindlinPoint(Declared):
+    """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    G_star
-        Tangential modulus G* in Pa, see ``tangential_modulus``; > 0.
-    friction
-        Friction coefficient μ, > 0.
-    """
-
-    E_star: float
-    radius: float
-    G_star: float
-    friction: float
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    G_star: Annotated[Pressure, Help("tangential modulus G*", of="bodies")]
+    friction: Annotated[Positive, "friction coefficient μ"]
     name: ClassVar[str] = "mindlin"
     title: ClassVar[str] = "Cattaneo-Mindlin, point contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-        Input("G_star", "Pa", "tangential modulus G*", of="bodies"),
-        Input("friction", "", "friction coefficient"),
-    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(asked("tangential", "N", "tangential force"), "at_load", SLIP, (asked("load", "N", "normal force"),)),
     )
-
-    def __post_init__(self) -> None:
-        self.normal  # noqa: B018 - checks modulus and radius
-        require.positive(self.G_star, "tangential modulus G_star (Pa)")
-        require.positive(self.friction, "friction coefficient")
 
     @property
     def normal(self) -> HertzPoint:
@@ -126,30 +105,15 @@ class MindlinPoint:
 
 
 @dataclass(frozen=True)
-class MindlinLine:
-    """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP).
+class MindlinLine(Declared):
+    """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP)."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    friction
-        Friction coefficient μ, > 0.
-    """
-
-    E_star: float
-    radius: float
-    friction: float
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    friction: Annotated[Positive, "friction coefficient μ"]
     name: ClassVar[str] = "mindlin-line"
     title: ClassVar[str] = "Cattaneo-Mindlin, line contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("radius", "m", "relative radius of curvature"),
-        Input("friction", "", "friction coefficient"),
-    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("tangential", "N/m", "tangential force per length"),
@@ -158,10 +122,6 @@ class MindlinLine:
             (asked("load", "N/m", "normal force per length"),),
         ),
     )
-
-    def __post_init__(self) -> None:
-        self.normal  # noqa: B018 - checks modulus and radius
-        require.positive(self.friction, "friction coefficient")
 
     @property
     def normal(self) -> HertzLine:

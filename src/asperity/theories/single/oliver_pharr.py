@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from ...core import require
 from ...core.errors import InputError
+from ...core.parameters import Declared, Help
+from ...core.values import Force, Length, Number, Positive
 from ..ask import Column
-from ..protocol import Input
 
 CONE, PARABOLOID, PUNCH = 0.72, 0.75, 1.0
 """ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the paraboloid."""
@@ -19,21 +19,8 @@ BERKOVICH = 24.5
 
 
 @dataclass(frozen=True)
-class OliverPharr:
+class OliverPharr(Declared):
     """Results from the initial unloading: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
-
-    Parameters
-    ----------
-    load
-        Peak load W_max in N, > 0.
-    depth
-        Depth h_max at peak load in m, > 0.
-    stiffness
-        Contact stiffness S = dW/dh at the start of unloading in N/m, > 0.
-    shape
-        ε, ``CONE``, ``PARABOLOID`` or ``PUNCH``.
-    area_factor
-        A/h_c² of the indenter.
 
     Raises
     ------
@@ -41,21 +28,18 @@ class OliverPharr:
         If a value is not positive, or the indenter would rebound further than it went in.
     """
 
-    load: float
-    depth: float
-    stiffness: float
-    shape: float = PARABOLOID
-    area_factor: float = BERKOVICH
+    load: Annotated[Force, Help("peak load W_max", of="bodies")]
+    depth: Annotated[Length, Help("depth h_max at peak load", of="bodies")]
+    stiffness: Annotated[
+        float, Number("N/m", above=0.0), Help("contact stiffness S = dW/dh at the start of unloading", of="bodies")
+    ]
+    shape: Annotated[
+        float, Number(above=0.0, most=1.0), Help("ε: 0.72 cone, 0.75 paraboloid and Berkovich, 1 punch", of="bodies")
+    ] = PARABOLOID
+    area_factor: Annotated[Positive, Help("area over contact depth squared", of="bodies")] = BERKOVICH
     name: ClassVar[str] = "oliver-pharr"
     title: ClassVar[str] = "Oliver-Pharr, hardness and modulus from unloading"
     citation_keys: ClassVar[tuple[str, ...]] = ("Oliver1992",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("load", "N", "peak load", of="bodies"),
-        Input("depth", "m", "depth at peak load", of="bodies"),
-        Input("stiffness", "N/m", "slope of the unloading curve at its start", of="bodies"),
-        Input("shape", "", "ε: 0.72 cone, 0.75 paraboloid and Berkovich, 1 punch", of="bodies", default=PARABOLOID),
-        Input("area_factor", "", "area over contact depth squared", of="bodies", default=BERKOVICH),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("hardness", "Pa", "hardness"),
         Column("contact_modulus", "Pa", "reduced modulus of indenter and body"),
@@ -64,11 +48,7 @@ class OliverPharr:
     )
 
     def __post_init__(self) -> None:
-        require.positive(self.load, "peak load (N)")
-        require.positive(self.depth, "depth at peak load (m)")
-        require.positive(self.stiffness, "contact stiffness (N/m)")
-        require.at_most(self.shape, 1.0, "shape factor epsilon")
-        require.positive(self.area_factor, "area over depth squared")
+        super().__post_init__()
         if self.contact_depth <= 0.0:
             raise InputError(
                 f"depth at peak load must exceed the elastic part {self.depth - self.contact_depth:.4g} m, "

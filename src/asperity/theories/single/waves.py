@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.values import Length
 from ..ask import Column
 from ..protocol import (
-    E_STAR,
     ContactAnswer,
-    Input,
     Limit,
+    Modulus,
     Prediction,
     bisected,
     checked,
@@ -32,17 +33,8 @@ from .hertz import HertzPoint
 
 
 @dataclass(frozen=True)
-class Westergaard:
+class Westergaard(Declared):
     """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* = πE*Δ/λ just closes it everywhere.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    amplitude
-        Δ in m, > 0: half the height from trough to crest.
-    wavelength
-        λ in m, > 0.
 
     Examples
     --------
@@ -51,25 +43,15 @@ class Westergaard:
     [0.114, 0.382, 1.0]
     """
 
-    E_star: float
-    amplitude: float
-    wavelength: float
+    E_star: Modulus
+    amplitude: Annotated[Length, "amplitude of the wave"]
+    wavelength: Annotated[Length, "wavelength λ"]
     name: ClassVar[str] = "westergaard"
     title: ClassVar[str] = "Westergaard, sinusoid"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Westergaard1939")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("amplitude", "m", "amplitude of the wave"),
-        Input("wavelength", "m", "wavelength"),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.amplitude, "amplitude of the wave (m)")
-        require.positive(self.wavelength, "wavelength (m)")
 
     @property
     def full_contact_pressure(self) -> float:
@@ -144,40 +126,21 @@ LOW_LOAD, HIGH_LOAD = 0.02, 0.95
 
 
 @dataclass(frozen=True)
-class CrossedWaves:
+class CrossedWaves(Declared):
     """Gap Δ(2 - cos 2πx/λ - cos 2πy/λ) before loading; p* = 2πE*Δ/λ closes it everywhere.
 
     The product form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface turned by 45°, Δ = Δ'/2, λ = λ'/√2.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    amplitude
-        Δ of each wave in m, > 0.
-    wavelength
-        λ in m, > 0.
     """
 
-    E_star: float
-    amplitude: float
-    wavelength: float
+    E_star: Modulus
+    amplitude: Annotated[Length, "amplitude of the wave"]
+    wavelength: Annotated[Length, "wavelength λ"]
     name: ClassVar[str] = "crossed-waves"
     title: ClassVar[str] = "Johnson-Greenwood-Higginson, crossed waves"
     citation_keys: ClassVar[tuple[str, ...]] = ("JohnsonGreenwood1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("amplitude", "m", "amplitude of the wave"),
-        Input("wavelength", "m", "wavelength"),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.amplitude, "amplitude of the waves (m)")
-        require.positive(self.wavelength, "wavelength (m)")
 
     @property
     def full_contact_pressure(self) -> float:
@@ -244,37 +207,18 @@ _NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
 
 
 @dataclass(frozen=True)
-class SinusoidalAsperity:
+class SinusoidalAsperity(Declared):
     """Cap that drops as (h/2)(1 - cos 2πr/λ) from its top, with radius of curvature λ²/2π²h.
 
     δ = (π²ha/2λ) H0(2πa/λ) with Struve's function, P = (2πE*ha²/λ) ∫ sin²t sin((2πa/λ) sin t) dt over 0 < t < π/2.
-
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    height
-        h from crest to trough in m, > 0.
-    wavelength
-        λ in m, > 0.
     """
 
-    E_star: float
-    height: float
-    wavelength: float
+    E_star: Modulus
+    height: Annotated[Length, "height from crest to trough"]
+    wavelength: Annotated[Length, "wavelength λ"]
     name: ClassVar[str] = "sinusoidal-asperity"
     title: ClassVar[str] = "Sinusoidal asperity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        E_STAR,
-        Input("height", "m", "height from crest to trough"),
-        Input("wavelength", "m", "wavelength"),
-    )
-
-    def __post_init__(self) -> None:
-        require.positive(self.E_star, "contact modulus E_star (Pa)")
-        require.positive(self.height, "height of the asperity (m)")
-        require.positive(self.wavelength, "wavelength (m)")
 
     @property
     def radius(self) -> float:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.values import Number, Positive
 from ..ask import Column, Way, asked
-from ..protocol import Input
 from .roughness import Roughness
 
 GEOMETRIC_CURVATURE = 1.35621131344399
@@ -38,17 +38,11 @@ class SummitsAt:
 
 
 @dataclass(frozen=True)
-class NayakSummits:
+class NayakSummits(Declared):
     """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2, m4.
 
     With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the joint
     density p(ξ, t) = 2√3 (t² - 1 + e^(-t²)) φ₂(ξ, t; ρ), t > 0, ρ = sqrt(3/(2α)), α = m0 m4/m2².
-
-    Parameters
-    ----------
-    m0, m2, m4
-        Mean square height (m²), slope (dimensionless) and second derivative (1/m²) of a profile, all positive.
-        The moments of the continuous surface are meant, not those of finite differences.
 
     Raises
     ------
@@ -56,17 +50,12 @@ class NayakSummits:
         If a moment is not positive or α < 1.5, which no isotropic surface has.
     """
 
-    m0: float
-    m2: float
-    m4: float
+    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    m2: Annotated[Positive, "mean square slope of a profile"]
+    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
     name: ClassVar[str] = "nayak"
     title: ClassVar[str] = "Nayak, summits of a Gaussian surface"
     citation_keys: ClassVar[tuple[str, ...]] = ("LonguetHiggins1957", "McCool1986", "Nayak1971")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("m0", "m^2", "mean square height"),
-        Input("m2", "", "mean square slope of a profile"),
-        Input("m4", "1/m^2", "mean square second derivative of a profile"),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("alpha", "", "bandwidth m0 m4/m2²"),
         Column("density", "1/m^2", "summits per area"),
@@ -91,9 +80,7 @@ class NayakSummits:
     )
 
     def __post_init__(self) -> None:
-        require.positive(self.m0, "moment m0 (m^2)")
-        require.positive(self.m2, "moment m2")
-        require.positive(self.m4, "moment m4 (1/m^2)")
+        super().__post_init__()
         if self.alpha < NARROWEST * (1.0 - ROUNDING):
             raise InputError(
                 f"moments of an isotropic surface must have m0 m4/m2^2 >= 1.5, but have {self.alpha:.6g}. "

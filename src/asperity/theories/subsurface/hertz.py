@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import ComplexArray, RealArray
+from ...core.parameters import Declared, Help
 from ...core.quadrature import gauss
 from ...core.tensor import Displacement, ElasticFields, StressTensor
+from ...core.values import Length, Number
 from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked
-from ..protocol import E_STAR, Input, checked, poissons_ratio
+from ..protocol import Modulus, PoissonOfSolid, checked, poissons_ratio
 from ..single.hertz import HertzEllipse, HertzLine, HertzPoint
 
 # Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
@@ -333,43 +335,25 @@ def _integrals(
 # Theories of the catalogue: stresses below point, line and elliptical contacts.
 
 
-NU = Input("nu", "", "Poisson's ratio of the body", of="bodies", default=0.3)
-FRICTION = Input("friction", "", "friction coefficient; the counter-body moves toward +x", of="bodies", default=0.0)
 LOAD = asked("load", "N", "normal force")
 SOME_SHEAR = 1.0
 """Shear modulus in Pa of the fields; stresses under a given traction do not depend on it."""
 
 
 @dataclass(frozen=True)
-class HertzStress:
-    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4,
-    7.1).
+class HertzStress(Declared):
+    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1)."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius
-        Relative radius of curvature R in m, > 0.
-    nu
-        Poisson's ratio, 0 to 0.5.
-    friction
-        Friction coefficient μ, >= 0.
-    """
-
-    E_star: float
-    radius: float
-    nu: float = 0.3
-    friction: float = 0.0
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature R"]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")] = 0.3
+    friction: Annotated[
+        float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
+    ] = 0.0
     name: ClassVar[str] = "hertz-stress"
     title: ClassVar[str] = "Hertz, stresses below a sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hamilton1983", "Hertz1882", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (*HertzPoint.inputs, NU, FRICTION)
     ways: ClassVar[tuple[Way, ...]] = (Way(DEPTH, "at_depth", STRESS, (LOAD, ALONG_X, ALONG_Y)),)
-
-    def __post_init__(self) -> None:
-        HertzPoint(self.E_star, self.radius)
-        _check(self.nu, self.friction)
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""
@@ -383,27 +367,24 @@ class HertzStress:
 
 
 @dataclass(frozen=True)
-class HertzLineStress:
+class HertzLineStress(Declared):
     """Stresses below a cylinder in plane strain that is pressed and slides (McEwen 1949; Johnson 1985, secs. 4.2c, 7.1).
 
     Parameters as for ``HertzStress``.
     """
 
-    E_star: float
-    radius: float
-    nu: float = 0.3
-    friction: float = 0.0
+    E_star: Modulus
+    radius: Annotated[Length, "relative radius of curvature"]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body", of="bodies")] = 0.3
+    friction: Annotated[
+        float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
+    ] = 0.0
     name: ClassVar[str] = "hertz-line-stress"
     title: ClassVar[str] = "Hertz, stresses below a cylinder"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985", "McEwen1949")
-    inputs: ClassVar[tuple[Input, ...]] = (*HertzLine.inputs, NU, FRICTION)
     ways: ClassVar[tuple[Way, ...]] = (
         Way(DEPTH, "at_depth", STRESS, (asked("load", "N/m", "normal force per length"), ALONG_X)),
     )
-
-    def __post_init__(self) -> None:
-        HertzLine(self.E_star, self.radius)
-        _check(self.nu, self.friction)
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the place ``x`` in m of the surface under ``load`` in N/m, > 0."""
@@ -416,32 +397,17 @@ class HertzLineStress:
 
 
 @dataclass(frozen=True)
-class HertzEllipseStress:
-    """Stresses below an elliptical contact (Johnson 1985, sec. 3.5).
+class HertzEllipseStress(Declared):
+    """Stresses below an elliptical contact (Johnson 1985, sec. 3.5)."""
 
-    Parameters
-    ----------
-    E_star
-        Contact modulus E* in Pa, > 0.
-    radius_x, radius_y
-        Relative radii of curvature in m, > 0.
-    nu
-        Poisson's ratio, 0 to 0.5.
-    """
-
-    E_star: float
-    radius_x: float
-    radius_y: float
-    nu: float = 0.3
+    E_star: Modulus
+    radius_x: Annotated[Length, "relative radius of curvature along x"]
+    radius_y: Annotated[Length, "relative radius of curvature along y"]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")] = 0.3
     name: ClassVar[str] = "hertz-ellipse-stress"
     title: ClassVar[str] = "Hertz, stresses below an ellipse"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = (E_STAR, *HertzEllipse.inputs[1:3], NU)
     ways: ClassVar[tuple[Way, ...]] = (Way(DEPTH, "at_depth", STRESS, (LOAD, ALONG_X, ALONG_Y)),)
-
-    def __post_init__(self) -> None:
-        HertzEllipse(self.E_star, self.radius_x, self.radius_y)
-        _check(self.nu, 0.0)
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.parameters import Declared, Help
 from ...core.tensor import Displacement, ElasticFields, StressTensor
+from ...core.values import Length, Number, Pressure
 from ..ask import ALONG_X, ALONG_Y, DEPTH, FIELDS, FieldAnswer, Way
-from ..protocol import Input, checked, poissons_ratio
+from ..protocol import PoissonOfSolid, checked, poissons_ratio
 
 # Point forces on the surface of a half-space (Boussinesq 1885; Cerruti 1882; Johnson 1985, ch. 3).
 
@@ -186,35 +188,21 @@ def _plane_strain(xx: RealArray, zz: RealArray, xz: RealArray, nu: float) -> Str
 # Theories of the catalogue: point and line forces and strips (Johnson 1985, ch. 2 and 3).
 
 
-SHEAR = Input("shear", "Pa", "shear modulus", of="bodies")
-NU = Input("nu", "", "Poisson's ratio", of="bodies", default=0.3)
 SPACE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X, ALONG_Y)),)
 PLANE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X,)),)
 
 
 @dataclass(frozen=True)
-class Boussinesq:
-    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2).
+class Boussinesq(Declared):
+    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2)."""
 
-    Parameters
-    ----------
-    load
-        Force in N.
-    shear, nu
-        Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
-    """
-
-    load: float
-    shear: float
-    nu: float = 0.3
+    load: Annotated[float, Number("force"), Help("force", of="bodies")]
+    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
     name: ClassVar[str] = "boussinesq"
     title: ClassVar[str] = "Boussinesq, normal force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (Input("load", "N", "normal force", of="bodies"), SHEAR, NU)
     ways: ClassVar[tuple[Way, ...]] = SPACE
-
-    def __post_init__(self) -> None:
-        _check(self.load, self.shear, self.nu)
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
@@ -223,28 +211,16 @@ class Boussinesq:
 
 
 @dataclass(frozen=True)
-class Cerruti:
-    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6).
+class Cerruti(Declared):
+    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6)."""
 
-    Parameters
-    ----------
-    tangential
-        Force in N.
-    shear, nu
-        Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
-    """
-
-    tangential: float
-    shear: float
-    nu: float = 0.3
+    tangential: Annotated[float, Number("force"), Help("force", of="bodies")]
+    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
     name: ClassVar[str] = "cerruti"
     title: ClassVar[str] = "Cerruti, tangential force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (Input("tangential", "N", "tangential force", of="bodies"), SHEAR, NU)
     ways: ClassVar[tuple[Way, ...]] = SPACE
-
-    def __post_init__(self) -> None:
-        _check(self.tangential, self.shear, self.nu)
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
@@ -253,37 +229,20 @@ class Cerruti:
 
 
 @dataclass(frozen=True)
-class Flamant:
+class Flamant(Declared):
     """Forces on the line x = 0 of the surface in plane strain (Flamant 1892; Johnson 1985, secs. 2.2, 2.3).
 
     Displacements are those up to a constant, see ``flamant_normal``.
-
-    Parameters
-    ----------
-    normal, tangential
-        Forces per length in N/m, along +z and +x.
-    shear, nu
-        Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
     """
 
-    normal: float
-    shear: float
-    nu: float = 0.3
-    tangential: float = 0.0
+    normal: Annotated[float, Number("N/m"), Help("normal force per length", of="bodies")]
+    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    tangential: Annotated[float, Number("N/m"), Help("tangential force per length along x", of="bodies")] = 0.0
     name: ClassVar[str] = "flamant"
     title: ClassVar[str] = "Flamant, force on a line"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("normal", "N/m", "normal force per length", of="bodies"),
-        SHEAR,
-        NU,
-        Input("tangential", "N/m", "tangential force per length along x", of="bodies", default=0.0),
-    )
     ways: ClassVar[tuple[Way, ...]] = PLANE
-
-    def __post_init__(self) -> None:
-        _check(self.normal, self.shear, self.nu)
-        require.finite(self.tangential, "tangential force per length (N/m)")
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""
@@ -293,40 +252,18 @@ class Flamant:
 
 
 @dataclass(frozen=True)
-class Strip:
-    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5).
+class Strip(Declared):
+    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5)."""
 
-    Parameters
-    ----------
-    half_width
-        b in m, > 0.
-    pressure, traction
-        In Pa, along +z and +x.
-    shear, nu
-        Shear modulus in Pa, > 0, and Poisson's ratio, 0 to 0.5.
-    """
-
-    half_width: float
-    pressure: float
-    shear: float
-    nu: float = 0.3
-    traction: float = 0.0
+    half_width: Annotated[Length, Help("half the width of the strip b", of="bodies")]
+    pressure: Annotated[float, Number("pressure"), Help("pressure", of="bodies")]
+    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    traction: Annotated[float, Number("pressure"), Help("shear traction along x", of="bodies")] = 0.0
     name: ClassVar[str] = "strip"
     title: ClassVar[str] = "Uniform traction on a strip"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
-    inputs: ClassVar[tuple[Input, ...]] = (
-        Input("half_width", "m", "half the width of the strip", of="bodies"),
-        Input("pressure", "Pa", "pressure", of="bodies"),
-        SHEAR,
-        NU,
-        Input("traction", "Pa", "shear traction along x", of="bodies", default=0.0),
-    )
     ways: ClassVar[tuple[Way, ...]] = PLANE
-
-    def __post_init__(self) -> None:
-        require.positive(self.half_width, "half-width of the strip (m)")
-        _check(self.pressure, self.shear, self.nu)
-        require.finite(self.traction, "shear traction (Pa)")
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""

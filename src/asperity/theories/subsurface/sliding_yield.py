@@ -9,16 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.parameters import Declared, Help
 from ...core.tensor import StressTensor, second_invariant
 from ..ask import Column, Way, asked
-from ..protocol import Input, curve, poissons_ratio
+from ..protocol import PoissonOfSolid, curve, poissons_ratio
 from .hertz import hertz_line_normal, hertz_line_shear, hertz_normal, hertz_shear
 
 _ROUNDS = 14  # of refinement by 5 each: past the square root of the rounding, which the place of a maximum is known to
@@ -88,28 +89,17 @@ ONSET: tuple[Way, ...] = (
         ),
     ),
 )
-YIELDING = (Input("nu", "", "Poisson's ratio of the body that yields", of="bodies", default=0.3),)
 
 
 @dataclass(frozen=True)
-class SphereYield:
-    """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion.
+class SphereYield(Declared):
+    """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion."""
 
-    Parameters
-    ----------
-    nu
-        Poisson's ratio, 0 to 0.5.
-    """
-
-    nu: float = 0.3
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3
     name: ClassVar[str] = "first-yield"
     title: ClassVar[str] = "First yield below a sphere, with friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hamilton1983", "Johnson1985")
-    inputs: ClassVar[tuple[Input, ...]] = YIELDING
     ways: ClassVar[tuple[Way, ...]] = ONSET
-
-    def __post_init__(self) -> None:
-        poissons_ratio(self.nu)
 
     def at_friction(self, friction: ArrayLike) -> OnsetCurve:
         """First yield at friction coefficients (n,), >= 0."""
@@ -117,18 +107,14 @@ class SphereYield:
 
 
 @dataclass(frozen=True)
-class CylinderYield:
+class CylinderYield(Declared):
     """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``."""
 
-    nu: float = 0.3
+    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3
     name: ClassVar[str] = "first-yield-line"
     title: ClassVar[str] = "First yield below a cylinder, with friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "McEwen1949")
-    inputs: ClassVar[tuple[Input, ...]] = YIELDING
     ways: ClassVar[tuple[Way, ...]] = ONSET
-
-    def __post_init__(self) -> None:
-        poissons_ratio(self.nu)
 
     def at_friction(self, friction: ArrayLike) -> OnsetCurve:
         """First yield at friction coefficients (n,), >= 0."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Self, TypeAlias
+from typing import Annotated, ClassVar, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
+from ...core.parameters import Declared, Help
+from ...core.values import Length, Number, Positive, Real, Viscosity
 from ..ask import PRESSURE, Column, Way, asked
-from ..protocol import E_STAR, Input, Limit, Prediction, curve
+from ..protocol import HeightDeviation, Limit, MeanHeight, Modulus, Prediction, SummitDensity, SummitRadius, curve
 from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
 from ..rough.kotwal_bhushan import PearsonHeights
 from ..statistics.heights import GaussianHeights, SummitHeights
@@ -250,57 +252,27 @@ WET = (
 )
 """What wet summits answer."""
 
-SUMMITS = (E_STAR, *GreenwoodWilliamson.inputs[1:4])
-FILM = (
-    Input("surface_tension", "N/m", "surface tension of the liquid", of="bodies"),
-    Input("film_thickness", "m", "thickness of the film", of="bodies"),
-)
-ANGLE = Input("contact_angle", "rad", "contact angle on the summits", of="bodies", default=0.0)
-GROWTH = (
-    Input("viscosity", "Pa*s", "viscosity of the liquid", of="bodies"),
-    Input("hamaker_constant", "J", "Hamaker constant of solid, liquid and vapour", of="bodies"),
-)
-SHAPE = (
-    GreenwoodWilliamson.inputs[4],
-    Input("skewness", "", "skewness of the summit heights", default=0.0),
-    Input("kurtosis", "", "kurtosis of the summit heights, 3 for Gaussian ones", default=3.0),
-)
-
 
 @dataclass(frozen=True)
-class WetSummits:
+class WetSummits(Declared):
     """Summits in a film of liquid, each pulled by the force of a sphere that touches it, against a smooth plane.
 
     ``theory`` is the :class:`~asperity.theories.statistical_meniscus.StatisticalMeniscus` of these numbers.
-
-    Parameters
-    ----------
-    E_star, density, radius, height_deviation, mean_height
-        As for ``GreenwoodWilliamson``.
-    surface_tension
-        In N/m, > 0.
-    film_thickness
-        In m, > 0.
-    contact_angle
-        In rad on the summits.
-    skewness, kurtosis
-        Of the summit heights, of Pearson's system; 0 and 3 for Gaussian ones.
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    surface_tension: float
-    film_thickness: float
-    contact_angle: float = 0.0
-    mean_height: float = 0.0
-    skewness: float = 0.0
-    kurtosis: float = 3.0
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    surface_tension: Annotated[float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")]
+    film_thickness: Annotated[Length, Help("thickness of the film", of="bodies")]
+    contact_angle: Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")] = 0.0
+    mean_height: MeanHeight = 0.0
+    skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
+    kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
     name: ClassVar[str] = "statistical-meniscus"
     title: ClassVar[str] = "Menisci of Greenwood-Williamson summits"
     citation_keys: ClassVar[tuple[str, ...]] = (*StatisticalMeniscus.citation_keys, "Kotwal1996")
-    inputs: ClassVar[tuple[Input, ...]] = (*SUMMITS, *FILM, ANGLE, *SHAPE)
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("theory.largest", "Pa", "meniscus force per area when every summit reaches the film"),
         Column("theory.pull_off", "Pa", "largest tension that the menisci hold"),
@@ -308,6 +280,7 @@ class WetSummits:
     ways: ClassVar[tuple[Way, ...]] = (Way(PRESSURE, "at_pressure", WET),)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         _ = self.theory
 
     @classmethod
@@ -358,45 +331,29 @@ class GrownMenisci:
 
 
 @dataclass(frozen=True)
-class GrowingMenisci:
+class GrowingMenisci(Declared):
     """Wet summits whose menisci grow with time; Gaussian heights.
 
     ``theory`` is the :class:`~asperity.theories.kinetic_meniscus.KineticMeniscus` of these numbers.
-
-    Parameters
-    ----------
-    E_star, density, radius, height_deviation, surface_tension, film_thickness, contact_angle
-        As for ``WetSummits``.
-    viscosity
-        Of the liquid in Pa s.
-    hamaker_constant
-        Of solid, liquid and vapour in J, about 1e-19.
-    radius_ratio
-        Outer over inner radius of the film that feeds a meniscus, > 1; only its logarithm enters.
     """
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    surface_tension: float
-    film_thickness: float
-    viscosity: float
-    hamaker_constant: float
-    contact_angle: float = 0.0
-    radius_ratio: float = 10.0
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    surface_tension: Annotated[float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")]
+    film_thickness: Annotated[Length, Help("thickness of the film", of="bodies")]
+    viscosity: Annotated[Viscosity, Help("viscosity of the liquid", of="bodies")]
+    hamaker_constant: Annotated[
+        float, Number("energy", above=0.0), Help("Hamaker constant of solid, liquid and vapour", of="bodies")
+    ]
+    contact_angle: Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")] = 0.0
+    radius_ratio: Annotated[
+        Positive, Help("outer over inner radius of the film that feeds a meniscus", of="bodies")
+    ] = 10.0
     name: ClassVar[str] = "kinetic-meniscus"
     title: ClassVar[str] = "Growing menisci of Greenwood-Williamson summits"
     citation_keys: ClassVar[tuple[str, ...]] = (*KineticMeniscus.citation_keys, "Greenwood1966")
-    inputs: ClassVar[tuple[Input, ...]] = (
-        *SUMMITS,
-        *FILM,
-        *GROWTH,
-        ANGLE,
-        Input(
-            "radius_ratio", "", "outer over inner radius of the film that feeds a meniscus", of="bodies", default=10.0
-        ),
-    )
     numbers: ClassVar[tuple[Column, ...]] = (
         Column("theory.growth.equilibrium_height", "m", "height at which the film holds back its liquid"),
         Column("theory.growth.time_scale", "s", "time scale of the growth"),
@@ -416,6 +373,7 @@ class GrowingMenisci:
     )
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         _ = self.theory
 
     @property

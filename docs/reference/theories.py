@@ -1,19 +1,21 @@
-"""The page of all theories, made from the catalogue: ``python tests/theory_page.py`` writes it anew."""
+"""Makes the page of all theories from the catalogue and its declarations: ``make reference`` writes it anew."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from asperity.core.citations import reference
+from asperity.core.parameters import Parameter, parameters
+from asperity.core.values import Several
 from asperity.theories.ask import numbers_of, ways_of
 from asperity.theories.catalogue import FAMILIES
-from asperity.theories.protocol import Described, Input
+from asperity.theories.protocol import Described
 
-PAGE = Path(__file__).parents[1] / "docs" / "reference" / "theories.md"
+PAGE = Path(__file__).with_name("theories.md")
 
 HEAD = """# All theories
 
-What `asperity theory --list` shows, made from the catalogue by `python tests/theory_page.py`. How to use them:
+What `asperity theory --list` shows, made from the catalogue by `make reference`. How to use them:
 [theories of contact](../how-to/theories.md); which must agree with which: [agreement](agreement.md). A star marks what
 `--surface FILE` and `from_roughness` or `of_roughness` measure.
 """
@@ -34,10 +36,10 @@ def section(kind: type[Described]) -> str:
     """What the page says of one theory."""
     measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
     lines = [f"### {kind.title}", "", f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.", ""]
-    lines += ["| input | unit | meaning | default |", "|---|---|---|---|"]
+    lines += ["| input | unit | meaning | range | default |", "|---|---|---|---|---|"]
     lines += [
-        f"| `{item.name}`{'*' if measured and item.of == 'surface' else ''} | {item.unit or '–'} | {item.meaning} | {default(item)} |"
-        for item in kind.inputs
+        f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {item.help} | {bounds(item)} | {default(item)} |"
+        for item in parameters(kind)
     ]
     lines.append("")
     for way in ways_of(kind):
@@ -52,13 +54,19 @@ def section(kind: type[Described]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def default(item: Input) -> str:
+def bounds(item: Parameter) -> str:
+    """What values an input takes, in words."""
+    values = item.values.item if isinstance(item.values, Several) else item.values
+    return "–" if item.words else getattr(values, "rule", "") or "–"
+
+
+def default(item: Parameter) -> str:
     """The default of an input in words."""
     if item.required:
         return "–"
-    words = [word for word, value in item.choices if value == item.default]
+    words = [word for word, value in item.words.items() if value == item.default]
     if words:
-        return f"{words[0]}; or {', '.join(word for word, _ in item.choices if word != words[0])}"
+        return f"{words[0]}; or {', '.join(word for word in item.words if word != words[0])}"
     return "none" if item.default is None or item.default == () else f"{item.default:g}"
 
 
