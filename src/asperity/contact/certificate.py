@@ -9,7 +9,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.system import peak_memory
 from .couplings.driver import CouplingCheck
-from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, level
+from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, least_length, level
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,8 @@ class Certificate:
         level of the solution (then |V| is the elastic energy for elastic contact). At prescribed offset the bound
         holds for the problem with the load reached.
     field_error
-        The customary error of the field, G / (total load x rms height).
+        The customary error of the field, G / (total load x rms height); for bodies flatter than they deform, see
+        ``solvers.protocol.least_length``.
     penetration
         Largest overlap of the bodies outside the plastic points, over the rms height.
     load_imbalance
@@ -66,15 +67,17 @@ def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float,
     sharpest = best_level(p, r, qp.cap)
     total = float(p.sum(dtype=np.float64))
     bound = duality_gap(p, r, qp.cap, sharpest)
-    energy = abs(0.5 * _product(p, deflection) - _product(p, qp.profile + at))
+    elastic = 0.5 * _product(p, deflection)
+    length = max(qp.height_scale, least_length(qp, total, elastic))
+    energy = max(abs(elastic - _product(p, qp.profile + at)), total * least_length(qp, total, 0.0))
     lowest = (
         sharpest if qp.elastic else float(r.min(where=p < qp.cap, initial=np.inf))
     )  # of the points that may not overlap
     target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
     return Certificate(
         duality_gap=bound / energy if energy > 0.0 else 0.0 if bound == 0.0 else np.inf,
-        field_error=bound / (total * qp.height_scale) if total > 0.0 else 0.0,
-        penetration=max(at - lowest, 0.0) / qp.height_scale,
+        field_error=bound / (total * length) if total > 0.0 else 0.0,
+        penetration=max(at - lowest, 0.0) / length,
         load_imbalance=abs(total - target) / target if target > 0.0 else 0.0,
         tolerance=tolerance,
         iterations=solution.state.iterations,

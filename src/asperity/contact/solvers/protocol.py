@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
@@ -48,7 +49,8 @@ class ContactQP:
     constraint
         ``FixedMean`` or ``FixedOffset``.
     height_scale
-        Length in m by which errors are made relative: the rms height of the profile.
+        Rms height of the profile in m, by which errors are made relative where the bodies deform by as much (see
+        ``scaled_error``).
     """
 
     operator: Operator
@@ -61,6 +63,11 @@ class ContactQP:
     def elastic(self) -> bool:
         """Whether there is no cap at all."""
         return not isinstance(self.cap, np.ndarray) and self.cap == np.inf
+
+    @cached_property
+    def largest_compliance(self) -> float:
+        """Deflection (m/Pa) under a unit pressure of the longest wave."""
+        return float(self.operator.kernel.max())
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,24 +267,86 @@ def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> flo
     return float(r.ravel()[order[min(index, order.size - 1)]])
 
 
+_LIGHT = 1e-3
+"""Deflection of the mean pressure in the longest wave over the rms height below which a load counts as light."""
+
+_OFF_CENTRE = 10.0
+"""Mean height over rms height beyond which heights are centred: their rounding is then ten times as large."""
+
+_MOST_DEFLECTIONS = 30.0
+_FEWEST_DEFLECTIONS = 1e-4
+_UNRESOLVED = 1e-7
+
+
+def heights_near_contact(qp: ContactQP) -> RealArray:
+    """Heights (nx, ny) in m from a level near the contact, a copy only where that matters: roundings would hide the error.
+
+    At prescribed load any level serves: the highest point under a light load, whose deflection is far smaller than the
+    heights, the mean where the profile is far from zero. At prescribed position the profile is as it is.
+    """
+    if isinstance(qp.constraint, FixedOffset):
+        return qp.profile
+    if qp.largest_compliance * qp.constraint.mean_pressure < _LIGHT * qp.height_scale:
+        return qp.profile - float(qp.profile.max())
+    mean = float(qp.profile.mean())
+    return qp.profile - mean if abs(mean) > _OFF_CENTRE * qp.height_scale else qp.profile
+
+
+def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> float:
+    """``error`` (m) over the rms height, or over a length that the bodies' deformation sets where that is much different.
+
+    ``total`` is the sum of the pressure, ``energy`` the elastic energy per pixel area (Pa·m), so that their ratio is half
+    the mean deflection under load. On self-affine surfaces at loads of 0.01 to 0.2 E* it is 0.3 to 0.5 of the
+    rms height (in full contact 0.1, where most points yield 0.05, on small free grids up to 4.5), and the rms height serves.
+
+    * Where bodies deform by much less, as plateaus under tiny loads do, the length is 30 energies per load (with the error
+      of the energy). An error of 1e-7 then bounds the duality gap by 3e-6 of the elastic energy of this contact. Of 10⁴
+      random small problems with loads over twelve decades none that is called converged has a pressure off by more than
+      1e-3; with the rms height for all, or with the work of yielding in the energy, 10 to 20 in 300 had.
+    * It is at least ``least_length``, beyond which rounding hides errors.
+    """
+    deflection = energy / total if total > 0.0 else 0.0
+    length = min(qp.height_scale, _MOST_DEFLECTIONS * (deflection + error))
+    return over(error, max(length, least_length(qp, total, energy)))
+
+
+def least_length(qp: ContactQP, total: float, energy: float) -> float:
+    """Length (m) of which errors of 1e-7 to 1e-10 can be resolved.
+
+    1e-4 of the deflection under load, of which roundings of 1e-15 cannot be removed (flat punches, heights that are nearly
+    zero), and 1e-7 of the deflection that the mean pressure would cause in the longest wave (flat bodies in periodic contact,
+    which hardly deflect at all). An error of 1e-7 still bounds the pressure to some 1e-6.
+    """
+    deflection = energy / total if total > 0.0 else 0.0
+    longest = qp.largest_compliance * total / qp.profile.size
+    return max(_FEWEST_DEFLECTIONS * deflection, _UNRESOLVED * longest)
+
+
+def over(error: float, scale: float) -> float:
+    """``error`` over ``scale``; none is none on any scale, and any is infinite on a scale of zero."""
+    return error / scale if scale > 0.0 else 0.0 if error == 0.0 else np.inf
+
+
 def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:
-    """The field's error, duality gap over (total pressure times rms height); at prescribed offset see below.
+    """``scaled_error`` of the duality gap over total pressure, the customary error of the field; at prescribed offset see below.
 
     With a prescribed offset and no cap the gap is infinite at any penetration; there the error is the mean of the
-    pressure-weighted gap plus the largest penetration, both over the rms height.
+    pressure-weighted gap plus the largest penetration.
     """
-    r = deflection - qp.profile
+    r = deflection - heights_near_contact(qp)
     total = float(pressure.sum())
+    at = level(qp, pressure, r)
+    energy = 0.5 * float((pressure * deflection).sum())
     if isinstance(qp.constraint, FixedOffset):
         gap = r + qp.constraint.offset
         penetration = np.maximum(-gap, 0.0)
         if not qp.elastic:
             penetration = np.where(pressure < qp.cap, penetration, 0.0)
         weighted = float((pressure * np.maximum(gap, 0.0)).sum()) / total if total > 0.0 else 0.0
-        return (weighted + float(penetration.max())) / qp.height_scale
+        return scaled_error(qp, weighted + float(penetration.max()), total, energy)
     lowest = duality_gap(pressure, r, qp.cap, float(r.min()))
-    found = lowest if qp.elastic else min(lowest, duality_gap(pressure, r, qp.cap, level(qp, pressure, r)))
-    return found / (total * qp.height_scale)
+    found = lowest if qp.elastic else min(lowest, duality_gap(pressure, r, qp.cap, at))
+    return scaled_error(qp, found / total, total, energy)
 
 
 # Pressures that respect the bounds and the prescribed load.

@@ -433,10 +433,10 @@ def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
     xp, select, numbers = library.xp, library.select, library.numbers
     r = u - h
     p = select(p > 0.0, p)
-    sums = [xp.sum(p), xp.sum(p * r), xp.min(r)]
+    sums = [xp.sum(p), xp.sum(p * u), xp.sum(p * r), xp.min(r)]
     if cap is None:
-        pressure, work, lowest = numbers(sums)
-        return Totals(pressure, work, pressure, work, lowest, -math.inf, lowest)
+        pressure, deflected, work, lowest = numbers(sums)
+        return Totals(pressure, deflected, work, pressure, work, lowest, -math.inf, lowest)
     loaded = p > 0.0
     capped = loaded & (p >= bound(library, cap, p))
     inner = select(~capped, p)
@@ -446,8 +446,8 @@ def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
         xp.sum(inner * r),
         xp.max(select(capped, r, -math.inf)),
     ]
-    pressure, work, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
-    return Totals(pressure, work, weight, weighted, lowest, highest_capped, lowest_open)
+    pressure, deflected, work, lowest, lowest_open, weight, weighted, highest_capped = numbers(sums)
+    return Totals(pressure, deflected, work, weight, weighted, lowest, highest_capped, lowest_open)
 
 
 class ArrayEngine:

@@ -414,20 +414,20 @@ class CpuEngine:
         nx, ny = p.shape
         flat = p.ravel(), u.ravel(), _read_only(h)
         squares = np.zeros((-(-nx // SQUARE_SIDE), -(-ny // SQUARE_SIDE), 3))
-        s = np.zeros((len(squares), 3 if cap is None else 7))
+        s = np.zeros((len(squares), 4 if cap is None else 8))
         kernels, serial = self.blocks.kernels, p.size < SERIAL_BELOW
         if cap is None:
             self.blocks.share(kernels.survey, len(s), *flat, ny, SQUARE_SIDE, s, squares, serial=serial)
-            pressure, work = (float(v) for v in s[:, :2].sum(axis=0))
-            lowest = float(s[:, 2].min())
-            totals = Totals(pressure, work, pressure, work, lowest, -np.inf, lowest)
+            pressure, deflected, work = (float(v) for v in s[:, :3].sum(axis=0))
+            lowest = float(s[:, 3].min())
+            totals = Totals(pressure, deflected, work, pressure, work, lowest, -np.inf, lowest)
         else:
             self.blocks.share(
                 kernels.survey_capped, len(s), *flat, bound(cap), ny, SQUARE_SIDE, s, squares, serial=serial
             )
-            pressure, work, weight, weighted = (float(v) for v in s[:, :4].sum(axis=0))
-            bounds = float(s[:, 4].min()), float(s[:, 5].max()), float(s[:, 6].min())
-            totals = Totals(pressure, work, weight, weighted, *bounds)
+            pressure, deflected, work, weight, weighted = (float(v) for v in s[:, :5].sum(axis=0))
+            bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
+            totals = Totals(pressure, deflected, work, weight, weighted, *bounds)
         return CpuSurvey(totals, self.blocks, (nx, ny), *flat, cap, squares)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:

@@ -34,12 +34,13 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 @compiled
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
-    """Without a cap, per band of ``side`` rows: sum p, sum p·r, min r; per square: number of loaded points, their sum r and r².
+    """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of loaded points, their sum r and r².
 
     Where p < 0 it counts as 0. No branches: it vectorises.
     """
     for band in range(span[0], span[1]):
         total = 0.0
+        pu = 0.0
         pr = 0.0
         lowest = np.inf
         for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
@@ -54,6 +55,7 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                     carries = 1.0 if pi > 0.0 else 0.0
                     lowest = min(lowest, ri)
                     total += max(pi, 0.0)
+                    pu += max(pi, 0.0) * u[i]
                     pr += max(pi, 0.0) * ri
                     loaded += carries
                     level += carries * ri
@@ -62,19 +64,21 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                 squares[band, square, 1] += level
                 squares[band, square, 2] += spread
         sums[band, 0] = total
-        sums[band, 1] = pr
-        sums[band, 2] = lowest
+        sums[band, 1] = pu
+        sums[band, 2] = pr
+        sums[band, 3] = lowest
 
 
 @compiled
 def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore[no-untyped-def]
-    """Per band: sum p, sum p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
+    """Per band: sum p, p·u, p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
 
     Per square: number of points with 0 < p < cap, their sum r and r².
     """
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each
     for band in range(span[0], span[1]):
         total = 0.0
+        pu = 0.0
         pr = 0.0
         weight = 0.0
         weighted = 0.0
@@ -90,6 +94,7 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
                     lowest = min(lowest, ri)
                     if pi > 0.0:
                         total += pi
+                        pu += pi * u[i]
                         pr += pi * ri
                         if pi >= cap[i * each]:
                             highest_capped = max(highest_capped, ri)
@@ -102,12 +107,13 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
                     else:
                         lowest_open = min(lowest_open, ri)
         sums[band, 0] = total
-        sums[band, 1] = pr
-        sums[band, 2] = weight
-        sums[band, 3] = weighted
-        sums[band, 4] = lowest
-        sums[band, 5] = highest_capped
-        sums[band, 6] = lowest_open
+        sums[band, 1] = pu
+        sums[band, 2] = pr
+        sums[band, 3] = weight
+        sums[band, 4] = weighted
+        sums[band, 5] = lowest
+        sums[band, 6] = highest_capped
+        sums[band, 7] = lowest_open
 
 
 @compiled

@@ -23,13 +23,14 @@ for 8, 32, 64: elastic 13.9, 14.1, 14.1; films 21.9, 22.2, 22.9 (16: 13.9 and 22
 
 @dataclass(frozen=True)
 class Totals:
-    """Sums over one iterate: p; p·r; p and p·r strictly between the bounds; and bounds of the plane level.
+    """Sums over one iterate: p; p·u; p·r; p and p·r strictly between the bounds; and bounds of the plane level.
 
     ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf);
     without a cap, where it matters only if nothing is loaded, min r.
     """
 
     pressure: float
+    deflected: float
     work: float
     weight: float
     weighted: float

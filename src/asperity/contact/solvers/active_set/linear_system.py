@@ -17,7 +17,7 @@ import numpy as np
 from ....core.arrays import RealArray
 from ....core.engine import Cells, Convolution, Engine, FreeSet, Products, Survey
 from ...operators import Operator
-from ..protocol import ContactQP, FixedMean, FixedOffset
+from ..protocol import ContactQP, FixedMean, FixedOffset, heights_near_contact
 from .cells import PIXEL_SHARE, PIXEL_SHARE_COARSE, CoarseCorrection, coarse_correction, hierarchies, pixel_compliance
 
 
@@ -77,11 +77,6 @@ class ScaledOperator:
         return self.operator.preconditioner(self.product, self.dtype, self.scale)
 
 
-_OFF_CENTRE = 10.0
-"""Mean height over rms height beyond which heights are centred, which takes a copy: their rounding is then ten times as large,
-1e-15 of the rms height, which no tolerance resolves."""
-
-
 @dataclass(frozen=True, eq=False)
 class Workspace:
     """Arrays of one problem and the scaled operator for its corrections.
@@ -115,7 +110,7 @@ class Workspace:
             qp=qp,
             scaled=ScaledOperator.of(operator, "float64" if precision == "double" else "float32", scale),
             dtype=dtype,
-            heights=engine.array(_centred(qp, always=precision == "single"), dtype),
+            heights=engine.array(_heights(qp, centred=precision == "single"), dtype),
             cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), dtype),
             exact=exact,
             pressure=pressure,
@@ -147,12 +142,12 @@ class Workspace:
         return replace(self, pressure=pressure, deflection=deflection)
 
 
-def _centred(qp: ContactQP, *, always: bool) -> RealArray:
-    """Heights from the prescribed position; at prescribed load any level serves, and a copy is made only where it pays."""
+def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
+    """Heights from a level near the contact; ``centred`` in any case if the load is prescribed."""
     if isinstance(qp.constraint, FixedOffset):
         return qp.profile - qp.constraint.offset if qp.constraint.offset else qp.profile
-    mean = float(qp.profile.mean())
-    return qp.profile - mean if always or abs(mean) > _OFF_CENTRE * qp.height_scale else qp.profile
+    heights = heights_near_contact(qp)
+    return heights - float(heights.mean()) if centred and heights is qp.profile else heights
 
 
 # Preconditioners: approximate inverses of the compliance on a free set.

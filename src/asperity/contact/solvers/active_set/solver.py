@@ -21,7 +21,17 @@ from ....core.arrays import RealArray
 from ....core.engine import FreeSet, Load, Survey, Totals
 from ....core.errors import InputError
 from ...operators.convolution import restricted
-from ..protocol import ContactQP, FixedMean, FixedOffset, Solver, SolverState, feasible_start, require_settings, run
+from ..protocol import (
+    ContactQP,
+    FixedMean,
+    FixedOffset,
+    Solver,
+    SolverState,
+    feasible_start,
+    require_settings,
+    run,
+    scaled_error,
+)
 from ..reference.steepest_descent import descend, levelling_step
 from .cells import pixel_compliance
 from .linear_system import LinearSystem, PressureChange, Stopping, Workspace, conjugate_gradients
@@ -46,19 +56,19 @@ def _plane_level(qp: ContactQP, totals: Totals) -> float:
 
 def _relative_error(work: Workspace, totals: Totals) -> float:
     """``protocol.relative_error`` from the sums over the iterate."""
-    qp = work.qp
-    load = totals.pressure * qp.height_scale
+    qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
     if work.load_prescribed and work.cap is None:
-        lifted = totals.lowest * totals.pressure
+        lifted = totals.lowest * total
         rounding = _ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
-        return max(totals.work - lifted, rounding) / load
-    iterate = work.pressure, work.deflection, work.heights, work.cap
-    found = work.engine.violation(*iterate, _plane_level(qp, totals))
+        return scaled_error(qp, max(totals.work - lifted, rounding) / total, total, energy)
+    iterate, level = (work.pressure, work.deflection, work.heights, work.cap), _plane_level(qp, totals)
+    found = work.engine.violation(*iterate, level)
     if work.load_prescribed:
         lowest = work.engine.violation(*iterate, totals.lowest)
-        return min(found.above + found.below, lowest.above + lowest.below) / load
-    weighted = found.above / totals.pressure if totals.pressure > 0.0 else 0.0
-    return (weighted + found.deepest) / qp.height_scale
+        gap = min(found.above + found.below, lowest.above + lowest.below)
+        return scaled_error(qp, gap / total, total, energy)
+    weighted = found.above / total if total > 0.0 else 0.0
+    return scaled_error(qp, weighted + found.deepest, total, energy)
 
 
 # (1) The free set.

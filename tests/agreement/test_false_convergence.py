@@ -1,0 +1,131 @@
+"""What is called converged is right: random small problems against the exact dense solution, over all kinds of trouble."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from catalogue import feasible_start
+
+import asperity as asp
+from asperity.contact.operators import prepare_operator
+from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
+from asperity.core.arrays import RealArray
+from asperity.solids.compliance.halfspace import Compliance, HalfSpace
+
+LARGEST_ERROR = 1e-3
+"""Of the pressure, relative L2."""
+
+EXACT = DenseActiveSet(tolerance=1e-8)
+"""Its error is rounding, which is up to 1e-9 of the small lengths by which errors are made relative here."""
+
+FILMS = [(10.0, 0.5), (0.1, 2.0), (3.0, 8.0)]
+"""Modulus over that of the base, thickness in pixels."""
+
+
+def heights_of(rng: np.random.Generator, shape: tuple[int, int]) -> RealArray:
+    """Rough, stepped, with plateaus, ties or spikes, nearly flat or flat, of rms slopes about one or less."""
+    kind = rng.integers(7)
+    rough = rng.standard_normal(shape)
+    if kind == 0:
+        return rough
+    if kind == 1:
+        return np.round(rough)
+    if kind == 2:
+        plateau = np.zeros(shape)
+        plateau[: rng.integers(1, shape[0] + 1), : rng.integers(1, shape[1] + 1)] = 1.0
+        return plateau
+    if kind == 3:
+        return np.minimum(rough, rng.uniform(-0.5, 1.0))
+    if kind == 4:
+        spike = 0.01 * rough
+        spike[rng.integers(shape[0]), rng.integers(shape[1])] += 1.0
+        return spike
+    if kind == 5:
+        return 1.0 + 10.0 ** rng.uniform(-12.0, -3.0) * rough
+    return np.full(shape, rng.choice([0.0, 1e-7, 1.0]))
+
+
+def problem(seed: int) -> ContactQP:
+    """Up to 12 x 12 points; pixels up to 1 : 4; half-spaces and films; caps; loads over twelve decades; both boundaries."""
+    rng = np.random.default_rng([seed, 14])
+    shape = int(rng.integers(2, 13)), int(rng.integers(1, 13))
+    grid = asp.Grid(shape, (1.0, float(rng.choice([1.0, 0.25, 0.7, 4.0]))))
+    heights = heights_of(rng, shape)
+    compliance: Compliance = HalfSpace(1.0)
+    if rng.random() < 0.25:
+        modulus, thickness = FILMS[rng.integers(len(FILMS))]
+        layered = asp.Layered([asp.Layer(asp.Elastic(modulus, 0.3), thickness)], base=asp.Elastic(1.0, 0.3))
+        compliance = asp.ContactProblem(asp.Surface(np.zeros((2, 2)), 1.0, periodic=True), layered).compliance
+    boundary = asp.Free() if rng.random() < 0.5 else asp.Periodic()
+    operator = prepare_operator(compliance, grid, boundary, engine=asp.CpuEngine(1))
+    mean = 10.0 ** rng.uniform(-12.0, 0.0)
+    scale = float(heights.std()) or float(np.abs(operator.apply(np.full(shape, mean))).max()) or 1.0
+    cap = np.inf if rng.random() < 0.6 else mean * 10.0 ** rng.uniform(0.01, 2.0)
+    if rng.random() < 0.2 and np.ptp(heights) > 0.0:
+        depth = 10.0 ** rng.uniform(-6.0, -0.3) * float(heights.max() - heights.mean())
+        return ContactQP(operator, heights, np.inf, FixedOffset(float(heights.max()) - depth), scale)
+    return ContactQP(operator, heights, cap, FixedMean(mean), scale)
+
+
+def count_wrong(seeds: range) -> Counter[str]:
+    """Number of problems by what came of them, those wrongly called converged by their seed."""
+    found: Counter[str] = Counter()
+    for seed in seeds:
+        qp = problem(seed)
+        solution, exact = run(ActiveSet(), qp), run(EXACT, qp, feasible_start(qp))
+        if not exact.status.converged:
+            found["no exact solution"] += 1
+        elif not solution.status.converged:
+            found["not converged"] += 1
+        else:
+            p, right = solution.state.pressure, exact.state.pressure
+            error = float(np.linalg.norm(p - right) / (np.linalg.norm(right) or 1.0))
+            found["right" if error <= LARGEST_ERROR else f"wrong: seed {seed}, {error:.1e}"] += 1
+    return found
+
+
+def assert_none_wrong(seeds: range) -> None:
+    found = count_wrong(seeds)
+    assert not [kind for kind in found if kind.startswith("wrong")], found
+    assert found["right"] >= 0.97 * len(seeds), found
+
+
+def test_no_small_problem_is_wrongly_called_converged() -> None:
+    assert_none_wrong(range(60))
+
+
+@pytest.mark.slow
+def test_no_problem_of_a_thousand_is_wrongly_called_converged() -> None:
+    assert_none_wrong(range(60, 1060))
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize(("shape", "height"), [((100, 100), 0.0), ((16, 16), 1e-7), ((60, 45), 1e-7)], ids=str)
+@pytest.mark.parametrize("pressure", [1e-3, 1e3, 1e8])
+def test_flat_bodies_are_solved(boundary: asp.Boundary, shape: tuple[int, int], height: float, pressure: float) -> None:
+    """Their rms height is nothing but rounding."""
+    surface = asp.Surface(np.full(shape, height), 1e-6, periodic=boundary == asp.Periodic())
+    result = asp.solve(
+        asp.ContactProblem(surface, asp.Elastic(1e9, 0.3), boundary=boundary), asp.MeanPressure(pressure)
+    )
+    assert result.area_fraction == 1.0
+    assert max(result.certificate.duality_gap, result.certificate.field_error) < 1e-6
+    if boundary == asp.Periodic():
+        np.testing.assert_allclose(result.pressure, pressure, rtol=1e-6)
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize("pressure", [1e-3, 0.1, 10.0, 1e5])
+def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.Boundary, pressure: float) -> None:
+    heights = np.zeros((16, 16))
+    heights[4:12, 4:12] = 1e-6
+    surface = asp.Surface(heights, 1e-6, periodic=boundary == asp.Periodic())
+    problem = asp.ContactProblem(surface, asp.Elastic(1e9, 0.3), boundary=boundary)
+    found, right = (asp.solve(problem, asp.MeanPressure(pressure), solver=solver) for solver in (ActiveSet(), EXACT))
+    np.testing.assert_allclose(found.pressure, right.pressure, atol=1e-4 * right.pressure.max())
+    np.testing.assert_array_equal(found.pressure > 0.0, heights > 0.0)
+    if boundary == asp.Free():
+        assert found.pressure.max() == pytest.approx(8.847 * pressure, rel=1e-3)
+    assert found.certificate.duality_gap < 1e-5
