@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -123,9 +124,9 @@ def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: flo
     S2 = 0.25 * m * m  # sinh²
     SH = -0.25 * m * (m + 2.0)  # sinh cosh
     x1, x2 = x * E2, x * x * E2
-    difference = _sinh_cosh_minus(x, SH - x1, E2)
-    scale = 1.0 / (kappa * S2 + x2 + n * n * E2)
     H, S = 0.5 * (1.0 + E2) * e, -0.5 * m * e
+    difference, flexure = _sinh_cosh_minus(x, SH - x1, E2), _sinh_minus_x_cosh(x, S - x * H, E2)
+    scale = 1.0 / (kappa * S2 + x2 + n * n * E2)
     a, b, d = 0.5 * n * scale, n * scale, 2.0 * n * scale
     tanh = -m / (1.0 + E2)
     return LayerMatrices(
@@ -137,7 +138,7 @@ def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: flo
         B_LL=b * (n * H - x * S),
         B_zz=b * (n * H + x * S),
         B_Lz=b * (k * S + x * H),
-        B_zL=b * (k * S - x * H),
+        B_zL=b * (flexure - 2.0 * nu * S),  # k S - x H, which for nu = 0 is of third order in x
         B_T=2.0 * e / (1.0 + E2),
         D_LL=d * (SH + x1),
         D_zz=d * difference,
@@ -153,6 +154,14 @@ def _sinh_cosh_minus(x: RealArray, direct: RealArray, E2: RealArray) -> RealArra
     for k in range(19, 3, -2):
         series = 1.0 + y / (k * (k - 1.0)) * series
     result: RealArray = np.where(x > _SERIES, direct, E2 * x * y * series / 6.0)
+    return result
+
+
+def _sinh_minus_x_cosh(x: RealArray, direct: RealArray, E2: RealArray) -> RealArray:
+    """(sinh x - x cosh x) exp(-2x): ``direct``, and for small x the series -(x³/3 + x⁵/30 + …)."""
+    y = np.minimum(x, _SERIES) ** 2
+    series = np.polynomial.polynomial.polyval(y, [2.0 * n / math.factorial(2 * n + 1) for n in range(1, 9)])
+    result: RealArray = np.where(x > _SERIES, direct, -E2 * x * y * series)
     return result
 
 
