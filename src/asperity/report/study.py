@@ -6,7 +6,6 @@ import base64
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -18,6 +17,7 @@ from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.tree import node_of, write_tree
 from ..io.words import Rows
+from ..parts.part import Table
 from ..plots.campaign import (
     Curve,
     Transition,
@@ -28,7 +28,7 @@ from ..plots.campaign import (
     plot_sensitivities,
     plot_transitions,
 )
-from ..plots.picture import CURVE_SIZE, png, save_pictures
+from ..plots.picture import CURVE_SIZE, Figure, png, save_pictures
 from ..studies.campaign import Campaign, CampaignState
 from ..studies.failures import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
@@ -41,24 +41,14 @@ if TYPE_CHECKING:
 # Which figures a study gets, and what they show.
 
 
-Draw: TypeAlias = "Callable[[Campaign, Any, Any, str], Iterator[StudyFigure]]"
+Draw: TypeAlias = "Callable[[Campaign, Any, Any, str], Iterator[Figure]]"
 """Draws the figures of one quantity from results and derived numbers."""
 
 MOST_CURVES = 7
 """Curves in one figure."""
 
 
-@dataclass(frozen=True)
-class StudyFigure:
-    """One picture: ``name`` of its file, ``title``, ``caption``, and the PNG."""
-
-    name: str
-    title: str
-    caption: str
-    picture: bytes
-
-
-def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[StudyFigure]:
+def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[Figure]:
     """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more for each quantity."""
     draw: Draw = _DRAWN.get(campaign.study.document.kind, _sweep)
     return [figure for name in campaign.study.document.quantities for figure in draw(campaign, data, derived, name)]
@@ -91,7 +81,7 @@ def curves_axis(data: xarray.DataArray) -> str | None:
     return max(numeric, key=lambda dim: numeric[dim]) if numeric else None
 
 
-def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     array = data[name]
     along = curves_axis(array)
     if along is None:
@@ -100,10 +90,10 @@ def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) ->
     y = labelled(array)
     x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
     picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
-    yield StudyFigure(name, y.quantity.title, f"{y.quantity.label} against {x.quantity.label}{more}.", picture)
+    yield Figure(name, y.quantity.title, f"{y.quantity.label} against {x.quantity.label}{more}.", picture)
 
 
-def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     array, y = data[name], labelled(data[name])
     means = derived[f"{name}_mean"]
     along = curves_axis(means)
@@ -118,13 +108,13 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
         caption = (
             f"Mean of {y.quantity.label} over the samples; the band is one standard deviation on either side{where}."
         )
-        yield StudyFigure(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption, picture)
+        yield Figure(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption, picture)
     table = campaign.study.document.monte_carlo
     confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
     whole = estimate(np.asarray(first), confidence)
     samples = Labelled(y.quantity, np.asarray(first, dtype=float))
     picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
-    yield StudyFigure(
+    yield Figure(
         f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.", picture
     )
     done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
@@ -132,10 +122,10 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
     picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
     caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
-    yield StudyFigure(f"{name}_running", f"{y.quantity.title}, running mean", caption, picture)
+    yield Figure(f"{name}_running", f"{y.quantity.title}, running mean", caption, picture)
 
 
-def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     table = campaign.study.document.convergence
     assert table is not None
     array, more = _first(data[name], "level")
@@ -145,10 +135,10 @@ def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     y = labelled(array)
     picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
     caption = f"{y.quantity.label} from coarse to fine, and its Richardson extrapolation{more}."
-    yield StudyFigure(name, y.quantity.title, caption, picture)
+    yield Figure(name, y.quantity.title, caption, picture)
 
 
-def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     rows, more = _rows(data[name], "thickness")
     found = {key: _rows(derived[f"{name}_{key}"], "")[0] for key in ("at_zero", "at_infinity", "floor", "ceiling")}
     transitions = [
@@ -161,17 +151,17 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
         f"{y.quantity.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
         f"layer does not matter, above the ceiling what lies under it does not{more}."
     )
-    yield StudyFigure(name, y.quantity.title, caption, picture)
+    yield Figure(name, y.quantity.title, caption, picture)
 
 
-def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[StudyFigure]:
+def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
     low, more = _first(derived[f"{name}_low"], "scalar")
     high, _ = _first(derived[f"{name}_high"], "scalar")
     base, _ = _first(data[name].isel(parameter=0), "")
     names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
     size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
     picture = png(lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size)
-    yield StudyFigure(
+    yield Figure(
         name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.", picture
     )
 
@@ -252,14 +242,6 @@ MOST_ROWS = 60
 """Rows of the table of cases in a report; the files hold all."""
 
 
-@dataclass(frozen=True)
-class StudyTable:
-    """A table of text."""
-
-    headings: tuple[str, ...]
-    cells: tuple[tuple[str, ...], ...]
-
-
 def summary(campaign: Campaign, state: CampaignState) -> str:
     """One or two sentences on the study and how far it is."""
     kind = KINDS[campaign.study.document.kind]
@@ -289,7 +271,7 @@ def axis_rows(campaign: Campaign) -> Rows:
     return rows
 
 
-def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset) -> StudyTable:
+def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset) -> Table:
     """Derived numbers of every quantity at every point of the other axes."""
     columns = COLUMNS[campaign.study.document.kind]
     cells: list[tuple[str, ...]] = []
@@ -304,10 +286,10 @@ def derived_table(campaign: Campaign, data: xarray.Dataset, derived: xarray.Data
                 variable = derived[f"{name}_{key}"].isel(place)
                 texts.append(_text(variable.item(), str(variable.attrs["units"]), share=key == "error"))
             cells.append((label, where, *texts))
-    return StudyTable(("Quantity", "At", *(heading for _, heading in columns)), tuple(cells))
+    return Table(("Quantity", "At", *(heading for _, heading in columns)), tuple(cells))
 
 
-def case_table(campaign: Campaign, data: xarray.Dataset) -> StudyTable:
+def case_table(campaign: Campaign, data: xarray.Dataset) -> Table:
     """The first cases with their coordinates and quantities."""
     names = campaign.study.document.quantities
     dims = [str(dim) for dim in data["outcome"].dims]
@@ -320,20 +302,20 @@ def case_table(campaign: Campaign, data: xarray.Dataset) -> StudyTable:
         row = [point_text(data[dim][number]).removeprefix(f"{dim.replace('_', ' ')} ") for dim, number in place.items()]
         row += [_text(float(data[name].isel(place)), str(data[name].attrs["units"])) for name in names]
         cells.append(tuple(row))
-    return StudyTable(headings, tuple(cells))
+    return Table(headings, tuple(cells))
 
 
-def failure_table(campaign: Campaign) -> StudyTable:
+def failure_table(campaign: Campaign) -> Table:
     """Causes of failures with their number and first case."""
     return _cause_table(campaign.causes(), "Cause")
 
 
-def finding_table(campaign: Campaign) -> StudyTable:
+def finding_table(campaign: Campaign) -> Table:
     """Warnings and notes of the cases with their number and first case."""
     return _cause_table(campaign.findings(), "Warning or note")
 
 
-def _cause_table(causes: Iterable[Cause], heading: str) -> StudyTable:
+def _cause_table(causes: Iterable[Cause], heading: str) -> Table:
     cells = []
     for cause in causes:
         at = ", ".join(
@@ -341,7 +323,7 @@ def _cause_table(causes: Iterable[Cause], heading: str) -> StudyTable:
             for name, value in cause.first.at.items()
         )
         cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", at))
-    return StudyTable(("Cases", heading, "First at"), tuple(cells))
+    return Table(("Cases", heading, "First at"), tuple(cells))
 
 
 def _text(value: float | str, unit: str, *, share: bool = False) -> str:
@@ -360,7 +342,7 @@ TEMPLATE = "study.html"
 
 
 def write_study_report(
-    campaign: Campaign, path: str | Path, *, figures: Sequence[StudyFigure] | None = None, overwrite: bool = False
+    campaign: Campaign, path: str | Path, *, figures: Sequence[Figure] | None = None, overwrite: bool = False
 ) -> None:
     """Write a page on ``campaign``, as far as it is, to the HTML file ``path``; it needs no network and no other file.
 
@@ -384,7 +366,7 @@ def write_study_report(
         file.write_text(_html(campaign, figures), encoding="utf-8")
 
 
-def _html(campaign: Campaign, figures: Sequence[StudyFigure] | None) -> str:
+def _html(campaign: Campaign, figures: Sequence[Figure] | None) -> str:
     data, derived, state = campaign.dataset(), campaign.analysis(), campaign.state()
     drawn = study_figures(campaign, data, derived) if figures is None else figures
     software = json.loads(data.attrs["software"])

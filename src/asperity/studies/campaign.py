@@ -37,7 +37,7 @@ class CampaignState:
         return self.missing == 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Campaign:
     """A ``study`` whose results lie in ``folder``.
 
@@ -46,6 +46,17 @@ class Campaign:
 
     folder: Path
     study: LoadedStudy
+
+    def __repr__(self) -> str:
+        document, state = self.study.document, self.state()
+        rows = {
+            "kind": document.kind.replace("_", " "),
+            "folder": str(self.folder),
+            "axes": " × ".join(f"{len(axis)} {axis.name}" for axis in self.plan.axes),
+            "quantities": ", ".join(document.quantities),
+            "cases": f"{state.done} done, {state.failed} failed, {state.missing} missing",
+        }
+        return "\n".join([f"Study {self.title}", *(f"  {label:<10}  {said}" for label, said in rows.items())])
 
     @cached_property
     def plan(self) -> Plan:

@@ -50,6 +50,8 @@ class Reader(HTMLParser):
 def made(tmp_path: Path, name: str) -> Campaign:
     (tmp_path / "s.toml").write_text(tomli_w.dumps(study(**STUDIES[name], title=f"A <{name}>")), encoding="utf-8")
     campaign = prepare_study(tmp_path / "s.toml")
+    assert repr(campaign).splitlines()[0] == f"Study {campaign.title}"
+    assert "0 done, 0 failed" in repr(campaign)
     carry_out(campaign.plan, campaign.records, InProcess())
     return campaign
 
