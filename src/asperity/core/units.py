@@ -97,7 +97,7 @@ def parse_in(text: str, unit: str, what: str) -> float:
         like = f"in a unit such as {unit}" if unit else "a plain number"
         raise UnitError(f"{what} must be {like}, but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
-        raise UnitError(f"{what} has the unknown unit {name!r}; use for example {unit or 'none'}.") from None
+        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.") from None
 
 
 def _split(text: str, example: str, what: str, *, plain: bool) -> tuple[float, str]:
@@ -128,7 +128,18 @@ def unit_factor(name: str, kind: str, what: str) -> float:
     except pint.DimensionalityError:
         raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
-        raise UnitError(f"{what} has the unknown unit {name!r}; use for example {unit}.") from None
+        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.") from None
+
+
+def _meant(name: str, unit: str) -> str:
+    """What may be meant by a ``name`` that is no unit: one that differs in the case of letters, or ``unit`` itself."""
+    known = [
+        f"{prefix}{base}"
+        for base in ("Pa", "N", "m", "J", "N/m", "rad", "s")
+        for prefix in ("M", "G", "k", "m", "u", "n", "p", "")
+    ]
+    alike = [other for other in known if other.lower() == name.lower()]
+    return f"write {' or '.join(alike)}" if alike else f"use for example {unit or 'none'}"
 
 
 @cache

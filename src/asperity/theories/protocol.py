@@ -176,7 +176,7 @@ def curve(values: ArrayLike, what: str, *, positive: bool = False) -> RealArray:
     InputError
         If they are not.
     """
-    array = np.atleast_1d(np.asarray(values, dtype=float))
+    array = np.atleast_1d(_numbers(values, what))
     if array.ndim != 1 or array.size == 0:
         raise InputError(f"{what} must be a number or a one-dimensional array, but have shape {array.shape}.")
     if not np.all(np.isfinite(array)):
@@ -259,6 +259,15 @@ def small_slope(criterion: str, slope: RealArray) -> Limit:
     return Limit(criterion, np.atleast_1d(slope).ravel(), 0.0, SMALL_SLOPE, "Sneddon1965", message)
 
 
+def _numbers(values: ArrayLike, what: str) -> RealArray:
+    """``values`` as an array of floats of any shape."""
+    try:
+        array: RealArray = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{what} must be numbers in SI units, such as 1e6, but are {values!r}.") from None
+    return array
+
+
 def checked(values: ArrayLike, what: str, lowest: float = 0.0, fix: str = "") -> RealArray:
     """``values`` as an array of finite numbers of at least ``lowest``.
 
@@ -267,7 +276,7 @@ def checked(values: ArrayLike, what: str, lowest: float = 0.0, fix: str = "") ->
     InputError
         If one is not.
     """
-    array: RealArray = np.asarray(values, dtype=float)
+    array = _numbers(values, what)
     if not np.all(np.isfinite(array) & (array >= lowest)):
         wrong = float(array[~(np.isfinite(array) & (array >= lowest))].flat[0])
         raise InputError(

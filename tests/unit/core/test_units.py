@@ -39,6 +39,7 @@ def test_parse(text, kind, value):
         ("5 kPa", "length", "must be a length"),
         ("5 nm", "pressure", "must be a pressure"),
         ("5 bananas", "length", "unknown unit 'bananas'"),
+        ("50mpa", "pressure", "unknown unit 'mpa'; write MPa or mPa."),
         ("5 nm nm nm)", "length", "unit"),
         ("1,5 nm", "length", "unit"),
         ("nan nm", "length", "number with a unit"),

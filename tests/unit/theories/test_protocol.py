@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.core.errors import InputError
-from asperity.theories.protocol import QUANTITIES, Limit, Prediction, curve, prediction
+from asperity.theories.protocol import QUANTITIES, Limit, Prediction, checked, curve, prediction
 
 
 def test_every_field_of_a_prediction_has_its_unit():
@@ -24,6 +24,12 @@ def test_what_a_theory_does_not_define_is_nan():
 def test_a_limit_does_not_hold_where_its_value_is_undefined():
     limit = Limit("area fraction", np.array([0.05, 0.3, np.nan]), 0.0, 0.2, "Greenwood1966", "Asperities interact.")
     assert limit.holds.tolist() == [True, False, False]
+
+
+def test_text_is_refused_where_numbers_are_expected():
+    for ask in (lambda: curve("1MPa", "pressures (Pa)"), lambda: checked(["1 N"], "load (N)")):
+        with pytest.raises(InputError, match="must be numbers in SI units"):
+            ask()
 
 
 def test_unusable_curves_are_refused():
