@@ -17,6 +17,7 @@ import numpy as np
 
 from . import require
 from .arrays import ComplexArray, RealArray
+from .grid import Grid
 
 _CACHE_LINE = 64  # bytes
 # Data so many bytes apart share one of about ten places in the cache: enough for the eight rows of double precision that
@@ -37,6 +38,23 @@ def thread_count(threads: int | None = None) -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def mode_sum(grid: Grid, half: RealArray) -> float:
+    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 + 1).
+
+    For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
+    """
+    return float(half.sum(axis=0) @ multiplicity(grid)) / grid.area
+
+
+def multiplicity(grid: Grid) -> RealArray:
+    """How many modes of the full plane each column (ny // 2 + 1,) of a half spectrum stands for."""
+    weights = np.full(grid.shape[1] // 2 + 1, 2.0)
+    weights[0] = 1.0
+    if grid.shape[1] % 2 == 0:
+        weights[-1] = 1.0
+    return weights
 
 
 def fft_library() -> str:

@@ -9,8 +9,8 @@ from reference_data import every_row, reference
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.core.spectral import mode_sum
 from asperity.surfaces.generate import ExponentialAutocorrelation, PlateauPSD, RmsHeight, RmsSlope, SelfAffine, gaussian
-from asperity.surfaces.generate.spectra import mode_sum
 
 # Cases of the reference file, in its units (µm, or nm over µm for G3)
 CASES = {

@@ -5,6 +5,7 @@ import pytest
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.core.spectral import mode_sum
 from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
 from asperity.surfaces.characterise.spectrum import power_spectrum
 from asperity.surfaces.generate import (
@@ -18,7 +19,6 @@ from asperity.surfaces.generate import (
     gaussian,
     spectrum_of,
 )
-from asperity.surfaces.generate.power_laws import mode_sum
 from asperity.surfaces.surface import Surface
 
 BAND = SelfAffine(amplitude=RmsHeight(2.0), hurst=0.7, rolloff_wavelength=25.0, shortest_wavelength=4.0)

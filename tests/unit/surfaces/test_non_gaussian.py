@@ -10,6 +10,7 @@ from scipy.special import ndtr
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.core.pearson import Pearson
+from asperity.core.spectral import mode_sum
 from asperity.surfaces.characterise.heights import height_parameters
 from asperity.surfaces.characterise.spectrum import power_spectrum
 from asperity.surfaces.generate import (
@@ -28,7 +29,6 @@ from asperity.surfaces.generate import (
     translated,
 )
 from asperity.surfaces.generate.digital_filter import cumulant_factors
-from asperity.surfaces.generate.power_laws import mode_sum
 from asperity.surfaces.surface import Surface
 
 GRID = Grid((128, 128), (1.0, 1.0))

@@ -16,10 +16,10 @@ from spectra_cases import GOLD, GOLD_GRID, with_fixed_amplitudes
 
 import asperity as asp
 from asperity.core.errors import InputError
+from asperity.core.spectral import mode_sum
 from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
 from asperity.surfaces.characterise.spectral_fit import Shape, SpectralModel, _log_psd, fit_spectrum
 from asperity.surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
-from asperity.surfaces.generate.spectra import mode_sum
 
 GRID = asp.Grid((256, 256), (1.0, 1.0))
 MODEL = SpectralModel(level=1.0, rolloff_wavelength=40.0, exponents=(3.4,))  # H = 0.7

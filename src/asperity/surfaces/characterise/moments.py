@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import RealArray
-from ..generate.power_laws import mode_sum
+from ...core.spectral import mode_sum
 from ..surface import Surface
 from .heights import rms_height
 from .slopes import forward_slopes, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope

@@ -18,8 +18,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
-from ...core.spectral import RealTransform, line_transform, thread_count
-from ..generate.power_laws import mode_sum, multiplicity
+from ...core.spectral import RealTransform, line_transform, mode_sum, multiplicity, thread_count
 from ..prepare.level import require_complete
 from ..surface import Surface
 from .slopes import axis_index

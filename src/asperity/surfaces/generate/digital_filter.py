@@ -14,13 +14,13 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.pearson import require_possible
-from ...core.spectral import RealTransform, fast_length, thread_count
+from ...core.spectral import RealTransform, fast_length, mode_sum, thread_count
 from ...core.units import show
 from ...core.values import Positive, Real, Seed
 from ..surface import Origin, Surface
 from .gaussian import BLOCK, Spectrum, block_noise, lattice_eigenvalues
 from .non_gaussian import HeightLaw, System, height_law
-from .power_laws import RmsHeight, mode_sum
+from .power_laws import RmsHeight
 
 # Moving-average kernel of a random surface: each height is a weighted sum of white noise around its node.
 #

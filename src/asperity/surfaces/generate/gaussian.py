@@ -12,11 +12,11 @@ from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
-from ...core.spectral import RealTransform, fast_length, thread_count
+from ...core.spectral import RealTransform, fast_length, mode_sum, thread_count
 from ...core.units import show
 from ...core.values import Seed
 from ..surface import Origin, Surface
-from .power_laws import mean_square, mode_sum
+from .power_laws import mean_square
 
 # From an autocovariance function to the spectrum of a periodic lattice: circulant embedding.
 #

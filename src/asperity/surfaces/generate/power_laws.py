@@ -13,6 +13,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import Declared
+from ...core.spectral import mode_sum, multiplicity
 from ...core.units import show
 from ...core.values import Length, Positive, Psd
 
@@ -67,23 +68,6 @@ def amplitude_text(amplitude: Amplitude) -> str:
 
 
 # Sums over the modes of a periodic grid.
-
-
-def mode_sum(grid: Grid, half: RealArray) -> float:
-    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 + 1).
-
-    For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
-    """
-    return float(half.sum(axis=0) @ multiplicity(grid)) / grid.area
-
-
-def multiplicity(grid: Grid) -> RealArray:
-    """How many modes of the full plane each column (ny // 2 + 1,) of a half spectrum stands for."""
-    weights = np.full(grid.shape[1] // 2 + 1, 2.0)
-    weights[0] = 1.0
-    if grid.shape[1] % 2 == 0:
-        weights[-1] = 1.0
-    return weights
 
 
 def mean_square(grid: Grid, psd: RealArray) -> float:

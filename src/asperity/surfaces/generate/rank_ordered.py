@@ -13,12 +13,12 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.progress import NoProgress, Progress
-from ...core.spectral import RealTransform, thread_count
+from ...core.spectral import RealTransform, mode_sum, thread_count
 from ...core.values import Count, Positive, Seed
 from ..surface import Origin, Surface
 from .gaussian import Spectrum
 from .non_gaussian import Marginal
-from .power_laws import mean_square, mode_sum
+from .power_laws import mean_square
 
 _KEYS = ("Schreiber1996", "PerezRafols2019")
 _PATIENCE, _SETTLED = 10, 0.97  # the error of the amplitudes has settled when so many iterations leave so much of it

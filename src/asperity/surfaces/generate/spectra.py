@@ -34,7 +34,6 @@ from .power_laws import (
     continuous_level,
     lattice_level,
     lattice_psd,
-    mode_sum,
     require_amplitude,
 )
 
@@ -42,7 +41,7 @@ if TYPE_CHECKING:
     from ..characterise.spectrum import PowerSpectrum
 
 
-__all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes", "mode_sum"]
+__all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes"]
 
 
 @dataclass(frozen=True, kw_only=True)
