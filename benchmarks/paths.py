@@ -15,7 +15,6 @@ from checks import relative_l2
 from surfaces import BODY, self_affine
 
 import asperity as asp
-from asperity.contact.path import solve_path
 from asperity.core.spectral import PaddedTransform, RealTransform, fast_length, thread_count
 
 _LEAST, _MOST = 0.01, 0.2
@@ -35,7 +34,7 @@ def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, thre
     solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.CpuEngine(threads)
 
     def along() -> list[asp.ContactResult]:
-        return list(solve_path(problem, controls, solver=solver, engine=engine, keep=_KEEP).results)
+        return list(asp.solve(problem, asp.History(controls), solver=solver, engine=engine, keep=_KEEP).steps)
 
     def cold() -> list[asp.ContactResult]:
         return [asp.solve(problem, control, solver=solver, engine=engine, keep=_KEEP) for control in controls]

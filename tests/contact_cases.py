@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 import asperity as asp
@@ -31,3 +33,22 @@ def rough(
     q[0, 0] = np.inf
     heights = np.fft.irfft2(spectrum * q**-power, s=shape)
     return asp.Surface(heights / heights.std(), *spacing, periodic=True)
+
+
+def slid(
+    problem: asp.ContactProblem, control: object, friction: float, direction: float = 0.0, **options: object
+) -> asp.ContactResult:
+    """Result of ``problem`` under gross sliding with this coefficient and direction."""
+    sliding = replace(problem, friction=asp.Coulomb(friction, direction))
+    return asp.solve(sliding, control, **options)  # type: ignore[call-overload, no-any-return]
+
+
+def wetted(
+    problem: asp.ContactProblem,
+    control: object,
+    film: asp.LiquidFilm,
+    friction: asp.Coulomb | None = None,
+    **options: object,
+) -> asp.ContactResult:
+    """Result of ``problem`` with a ``film``."""
+    return asp.solve(replace(problem, film=film, friction=friction), control, **options)  # type: ignore[call-overload, no-any-return]

@@ -7,7 +7,7 @@ A rigid smooth flat on a rough half-space: exponential autocorrelation that has 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,22 +67,16 @@ class Interface:
         if load not in self._dry:
             keep = asp.Keep(stiffness=False)
             self._dry[load] = asp.solve(self.problem, control, operator=self._operator, keep=keep)
-        start = self._dry[load].state
-        once = asp.solve_wet(
-            self.problem,
-            control,
-            liquid,
-            steady=asp.Steady(max_rounds=1),
-            state=start,
-            operator=self._operator,
-            on_failure="return",
-        )
+        wet = replace(self.problem, film=liquid)
+        options = {"state": self._dry[load].state, "operator": self._operator}
+        once = asp.solve(wet, control, rounds=asp.Rounds(most=1), on_failure="return", **options)
+        first = once.menisci.relative_meniscus_force
         beside = asp.wet_theory(once).meniscus_force / once.external_force if theory else math.nan
         try:
-            wet = asp.solve_wet(self.problem, control, liquid, state=start, operator=self._operator)
+            steady = asp.solve(wet, control, **options)
         except asp.NoSolutionError:
-            return Found(once.relative_meniscus_force, math.inf, math.nan, beside)
-        return Found(once.relative_meniscus_force, wet.relative_meniscus_force, wet.contact.area_fraction, beside)
+            return Found(first, math.inf, math.nan, beside)
+        return Found(first, steady.menisci.relative_meniscus_force, steady.area_fraction, beside)
 
 
 def column(found: list[Found], name: str) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,12 +79,12 @@ def forces(surface: asp.Surface, ratio: float, x: float, *, rms: float, factors:
     tension = WATER * factors.stress * factors.height
     film = asp.LiquidFilm(surface_tension=tension, thickness=height, contact_angles=(ANGLE, ANGLE))
     load = asp.MeanPressure(x * rms / CORRELATION_LENGTH * BASE.youngs_modulus * factors.stress)
-    first = asp.solve_wet(problem, load, film, steady=asp.Steady(max_rounds=1), on_failure="return")
+    first = asp.solve(replace(problem, film=film), load, rounds=asp.Rounds(most=1), on_failure="return")
     try:
-        steady = asp.solve_wet(problem, load, film).relative_meniscus_force
+        steady = asp.solve(replace(problem, film=film), load).menisci.relative_meniscus_force
     except asp.NoSolutionError:
         steady = math.nan
-    return Forces(first.relative_meniscus_force, steady, int(first.wetting.menisci.sum()))
+    return Forces(first.menisci.relative_meniscus_force, steady, int(first.menisci.wetting.menisci.sum()))
 
 
 def _exact(points: int) -> tuple[Table, tuple[Claim, ...]]:

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -106,7 +106,12 @@ def seen(result: asp.ContactResult, friction: float, thickness: float) -> Seen:
 
 def _coupled(result: asp.ContactResult) -> tuple[float, float]:
     """Relative changes of contact area and largest pressure by the displacement that the largest friction causes."""
-    sliding = asp.solve_sliding(result.problem, result.control, FRICTIONS[-1], tolerance=1e-4).contact
+    sliding = asp.solve(
+        replace(result.problem, friction=asp.Coulomb(FRICTIONS[-1])),
+        result.control,
+        keep=asp.Keep(stiffness=False),
+        rounds=asp.Rounds(tolerances={"sliding": 1e-4}),
+    )
     return sliding.area_fraction / result.area_fraction - 1.0, sliding.max_pressure / result.max_pressure - 1.0
 
 
@@ -140,7 +145,7 @@ TRENDS = """* μ raises the largest √J2, σt and σxz, and moves the maxima of
   maximum is 0.4 to 0.7 pixels below). For σt it holds except for the thin stiff layer at μ = 0, which bends under the contacts: its largest tension
   is at its lower side.
 * Pressures do not depend on friction unless the displacement that the shear traction causes is included. Even then, with a rigid counter body
-  and ν = 0.3, where it is large, area and largest pressure change by less than 1 % (`asperity.solve_sliding`; see the claims)."""
+  and ν = 0.3, where it is large, area and largest pressure change by less than 1 % (`asperity.Coulomb`; see the claims)."""
 
 PIXELS_LEAD = """The contacts are about one pixel wide, so the values depend on the assumed interpolation between the points: above, the
 trigonometric interpolation of the pressure, as in his influence coefficients. With constant tractions on the pixels (free boundary, fewer

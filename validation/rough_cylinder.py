@@ -43,7 +43,7 @@ FRICTIONS = (0.0, 0.25, 0.5)
 ABOUT = (
     "Peng (2001, figs 3.1 and 3.2), after Mao et al. (1996): a cylinder with a rough profile slides on a coated half-space. Ours: a "
     "rigid cylinder, Gaussian profile with σ = 50 nm and a 10 % length of 0.1 a₀ (Gaussian autocorrelation), R = 100 a₀, ν = 0.3, "
-    "`asperity.solve_sliding` on a periodic line of 128 a₀; mean ± standard deviation over {count} profiles. a₀ and p₀ are "
+    "`asperity.solve` with `Coulomb` friction on a periodic line of 128 a₀; mean ± standard deviation over {count} profiles. a₀ and p₀ are "
     "Hertz's for the smooth cylinder on the base. The captions give E₁/E₂ = 3.2 for the layer that the text calls compliant and 0.17 for "
     "the stiff one, so we take them for E₂/E₁."
 )
@@ -96,18 +96,18 @@ def profile(seed: int, points: int = POINTS) -> np.ndarray:
     return asp.generate.gaussian(grid, spectrum, seed=seed).heights[:, 0]
 
 
-def contact(layer: LayerOf, friction: float, roughness: np.ndarray) -> asp.SlidingResult:
+def contact(layer: LayerOf, friction: float, roughness: np.ndarray) -> asp.ContactResult:
     """Sliding contact under ``FORCE``; the shear traction on the half-space is along +x."""
     ratio, thickness = layer
     grid = asp.Grid((roughness.size, 1), (PERIOD * HALF_WIDTH / roughness.size, 1.0))
     heights = asp.generate.cylinder(grid, radius=RADIUS).heights + roughness[:, None]
     surface = asp.Surface(heights, *grid.spacing, periodic=True)
     coating = asp.Layer(asp.Elastic(ratio * BASE.youngs_modulus, BASE.poisson_ratio), thickness * HALF_WIDTH)
-    problem = asp.ContactProblem(surface, asp.Layered([coating], BASE))
-    return asp.solve_sliding(problem, asp.Force(FORCE), friction)
+    problem = asp.ContactProblem(surface, asp.Layered([coating], BASE), friction=asp.Coulomb(friction))
+    return asp.solve(problem, asp.Force(FORCE), keep=asp.Keep(stiffness=False))
 
 
-def seen(result: asp.SlidingResult) -> Seen:
+def seen(result: asp.ContactResult) -> Seen:
     """Width, zone, pressure and offset of one contact."""
     grid = result.problem.grid
     x = grid.centred_coordinates()[0][:, 0] / HALF_WIDTH

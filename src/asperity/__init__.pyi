@@ -6,21 +6,15 @@ from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
-from .contact.energy import energy_balance
 from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps
 from .contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
 from .contact.operators import prepare_operator
-from .contact.path import LoadPath, solve_path
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
-from .contact.sliding import SlidingResult, solve_sliding
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
-from .contact.wet import Friction, Steady, solve_wet
-from .contact.wet_advice import review_wet
-from .contact.wet_result import WetContactResult
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
@@ -102,7 +96,6 @@ __all__ = [
     "Force",
     "Free",
     "FreeLine",
-    "Friction",
     "Frictionless",
     "Grid",
     "GrossSliding",
@@ -120,7 +113,6 @@ __all__ = [
     "Liquid",
     "LiquidFilm",
     "LoadAtYield",
-    "LoadPath",
     "MaxPrincipal",
     "MeanGap",
     "MeanPressure",
@@ -138,8 +130,6 @@ __all__ = [
     "Section",
     "ShearTraction",
     "Sliding",
-    "SlidingResult",
-    "Steady",
     "Step",
     "Strength",
     "StressField",
@@ -149,7 +139,6 @@ __all__ = [
     "UnitError",
     "Unloaded",
     "VonMises",
-    "WetContactResult",
     "WetTheory",
     "YieldReport",
     "__version__",
@@ -163,7 +152,6 @@ __all__ = [
     "cropped",
     "depths_through",
     "despiked",
-    "energy_balance",
     "export_comparison_csv",
     "export_csv",
     "export_stress_vtk",
@@ -195,7 +183,6 @@ __all__ = [
     "reliability_cutoff",
     "resampled",
     "review",
-    "review_wet",
     "rms_height",
     "rms_slope",
     "roughness",
@@ -214,9 +201,6 @@ __all__ = [
     "save_surface_plot",
     "sliced",
     "solve",
-    "solve_path",
-    "solve_sliding",
-    "solve_wet",
     "solvers",
     "stress",
     "stress_planes",

@@ -28,8 +28,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "assemble": "gathers what the separate stages of a solve produced, in one place",
         "Prepared.__init__": "the choices of solve, for all steps of a history",
         "solve": "independent keyword-only choices of the user, each with a default",
-        "solve_sliding": "the choices of solve, with friction and its direction",
-        "solve_wet": "the choices of solve, with a film, friction and when to stop",
         "compare": "independent keyword-only choices of the user, each with a default",
         "stress": "independent keyword-only choices of the user, each with a default",
         "stress_planes": "independent keyword-only choices of the user, each with a default",

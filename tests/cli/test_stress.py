@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import LOAD, SCALE, Runner
+from contact_cases import slid
 
 import asperity as asp
 from asperity.io.results import load, open_tree
@@ -124,7 +125,7 @@ def test_coupling_changes_the_pressure(run: Runner, matrix: Path, tmp_path: Path
     plain, coupled = (load(tmp_path / name / "result.nc") for name in ("plain", "coupled"))
     assert coupled.mean_pressure == pytest.approx(plain.mean_pressure)
     assert not np.allclose(coupled.pressure, plain.pressure, rtol=1e-3, atol=1e-3 * plain.max_pressure)
-    direct = asp.solve_sliding(plain.problem, plain.control, 0.8)
+    direct = slid(plain.problem, plain.control, 0.8)
     np.testing.assert_allclose(coupled.pressure, direct.pressure, rtol=1e-9, atol=1e-9 * plain.max_pressure)
     html = (tmp_path / "coupled" / "report.html").read_text(encoding="utf-8")
     assert "changes the pressure (coupled)" in html

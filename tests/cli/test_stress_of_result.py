@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import Runner
+from contact_cases import slid
 
 import asperity as asp
 from asperity.io.results import document_in, load, open_tree, save
@@ -28,7 +29,7 @@ def saved(folder: Path, **stress: object) -> Path:
     document = checked(table | ({"stress": stress} if stress else {}))
     case = build(document, folder)
     if stress.get("coupled"):
-        contact = asp.solve_sliding(case.problem, case.control, float(str(stress["friction"]))).contact
+        contact = slid(case.problem, case.control, float(str(stress["friction"])))
     else:
         contact = asp.solve(case.problem, case.control)
     save(contact, folder / "result.nc", document=dumps(document))

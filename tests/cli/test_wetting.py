@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from cli.conftest import Runner
 
+from contact_cases import wetted
+
 import asperity as asp
 from asperity.run.document import load_document
 
@@ -38,15 +40,15 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
     assert "Largest stresses inside" not in result.stdout, "the friction coefficient is that of the film alone"
     wet = asp.load(out / "result.nc")
     film = asp.LiquidFilm.at_humidity(asp.liquid("water"), 0.8, contact_angles=(np.pi / 3.0, np.pi / 3.0))
-    assert wet.film.meniscus_height == pytest.approx(film.meniscus_height, rel=1e-12)
-    direct = asp.solve_wet(asp.ContactProblem(wet.problem.surface, asp.material("DLC")), asp.MeanPressure(2e6), film)
-    assert wet.meniscus_force == pytest.approx(direct.meniscus_force, rel=1e-12)
+    assert wet.problem.film.meniscus_height == pytest.approx(film.meniscus_height, rel=1e-12)
+    direct = wetted(asp.ContactProblem(wet.problem.surface, asp.material("DLC")), asp.MeanPressure(2e6), film)
+    assert wet.menisci.meniscus_force == pytest.approx(direct.menisci.meniscus_force, rel=1e-12)
     assert wet.control == asp.MeanPressure(2e6)
     assert (out / "plots" / "menisci.png").read_bytes().startswith(b"\x89PNG")
     with (out / "scalars.csv").open(encoding="utf-8") as file:
         rows = {row["name"]: row["value"] for row in csv.DictReader(file)}
-    assert float(rows["meniscus_force"]) == wet.meniscus_force
-    assert float(rows["force"]) == pytest.approx(wet.external_force + wet.meniscus_force, rel=1e-3)
+    assert float(rows["meniscus_force"]) == wet.menisci.meniscus_force
+    assert float(rows["force"]) == pytest.approx(wet.external_force + wet.menisci.meniscus_force, rel=1e-3)
     html = (out / "report.html").read_text(encoding="utf-8")
     for text in (
         "Liquid film and menisci",
@@ -62,8 +64,8 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
     assert again.exit_code == 0, again.stderr
     with (tmp_path / "again.csv").open(encoding="utf-8") as file:
         drier = {row["name"]: row["value"] for row in csv.DictReader(file)}
-    assert float(drier["meniscus_force"]) < wet.meniscus_force
-    assert float(drier["static_friction"]) < wet.static_friction
+    assert float(drier["meniscus_force"]) < wet.menisci.meniscus_force
+    assert float(drier["static_friction"]) < wet.menisci.static_friction
 
 
 def test_without_summits_it_is_said_why_there_is_no_theory(run: Runner, tmp_path: Path) -> None:
@@ -77,15 +79,16 @@ def test_without_summits_it_is_said_why_there_is_no_theory(run: Runner, tmp_path
 
 def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path: Path) -> None:
     film = asp.LiquidFilm.of(asp.liquid("PFPE"), 2.0 * NM)
-    wet = asp.solve_wet(asp.ContactProblem(asp.read(scan), asp.material("DLC")), asp.MeanPressure(2e6), film)
+    wet = wetted(asp.ContactProblem(asp.read(scan), asp.material("DLC")), asp.MeanPressure(2e6), film)
     asp.save(wet, tmp_path / "wet.nc")
     drawn = run("plot", tmp_path / "wet.nc", "--kind", "menisci", "--out", tmp_path / "pictures")
     assert drawn.exit_code == 0, drawn.stderr
     assert (tmp_path / "pictures" / "menisci.png").exists()
     assert run("export", tmp_path / "wet.nc", "--csv", tmp_path / "a.csv", "--vtk", tmp_path / "a.vti").exit_code == 0
-    assert f"meniscus_force,{wet.meniscus_force!r},N" in (tmp_path / "a.csv").read_text("utf-8")
+    assert f"meniscus_force,{wet.menisci.meniscus_force!r},N" in (tmp_path / "a.csv").read_text("utf-8")
     assert "TianBhushan1996" in run("cite", tmp_path / "wet.nc").stdout
-    asp.save(wet.contact, tmp_path / "dry.nc")
+    dry = asp.solve(asp.ContactProblem(asp.read(scan), asp.material("DLC")), asp.MeanPressure(2e6))
+    asp.save(dry, tmp_path / "dry.nc")
     refused = run("plot", tmp_path / "dry.nc", "--kind", "menisci", "--out", tmp_path)
     assert refused.exit_code == 2
     assert "--kind must be one of all" in refused.stderr

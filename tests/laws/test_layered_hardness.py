@@ -94,7 +94,7 @@ def test_one_step_ends_where_many_do(film, base, thickness):
     """Limit and depth agree after a step of any size; what little differs are points that yielded on the way."""
     body = coated(film, base, thickness)
     problem = asp.ContactProblem(rough((24, 20), 3), body, law=asp.LayeredHardness(body))
-    many = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2], steps=8), solver=SOLVER).results[-1]
+    many = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER).steps[-1]
     one = solved(body)
     assert one.approach == pytest.approx(many.approach, rel=2e-3)
     assert one.area_fraction == pytest.approx(many.area_fraction, abs=1.1 / 480)

@@ -37,8 +37,10 @@ def test_work_goes_into_elastic_energy_and_plastic_work(boundary, law):
     problem = posed(law, boundary)
     errors = []
     for steps in (4, 8, 16):
-        path = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.24, 0.0], steps=steps), solver=SOLVER)
-        balance = asp.energy_balance(path)
+        path = asp.solve(
+            problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.24, 0.0], steps=steps)), solver=SOLVER
+        )
+        balance = path.energies
         assert path.converged
         assert balance.elastic_energy[-1] == 0.0  # unloaded
         assert (np.diff(balance.plastic_work) >= 0.0).all()
@@ -53,19 +55,19 @@ def test_the_balance_is_of_second_order_in_the_step_of_the_approach():
     problem = posed("constant", asp.Free())
     errors = []
     for steps in (4, 8, 16, 32):
-        path = asp.solve_path(problem, asp.ramps(asp.Approach, [2.0], steps=steps), solver=SOLVER)
-        errors.append(asp.energy_balance(path).relative_error)
+        path = asp.solve(problem, asp.History(asp.ramps(asp.Approach, [2.0], steps=steps)), solver=SOLVER)
+        errors.append(path.energies.relative_error)
     assert path.plastic_work.sum() > 0.1 * path.elastic_energy[-1]
     assert math.log2(errors[0] / errors[-1]) / 3.0 > 1.7
 
 
 def test_a_path_that_goes_on_is_balanced_from_its_first_step():
     problem = posed()
-    whole = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2], steps=8), solver=SOLVER)
-    rest = asp.solve_path(
-        problem, asp.ramps(asp.MeanPressure, [0.2], steps=8)[4:], solver=SOLVER, state=whole.results[3].state
+    whole = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER)
+    rest = asp.solve(
+        problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)[4:]), solver=SOLVER, state=whole.steps[3].state
     )
-    parts, total = asp.energy_balance(rest), asp.energy_balance(whole)
+    parts, total = rest.energies, whole.energies
     for name in ("external_work", "elastic_energy", "plastic_work"):
         found, wanted = getattr(parts, name), getattr(total, name)[4:]
         assert found[0] == 0.0
@@ -77,19 +79,22 @@ def test_a_path_that_goes_on_is_balanced_from_its_first_step():
 @BOUNDARIES
 def test_a_lower_load_than_before_is_elastic_and_reversible(boundary, law):
     problem = posed(law, boundary)
-    first = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2, 0.0], steps=4), solver=SOLVER)
-    again = asp.solve_path(
-        problem, asp.ramps(asp.MeanPressure, [0.15, 0.0], steps=3), solver=SOLVER, state=first.results[-1].state
+    first = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0], steps=4)), solver=SOLVER)
+    again = asp.solve(
+        problem,
+        asp.History(asp.ramps(asp.MeanPressure, [0.15, 0.0], steps=3)),
+        solver=SOLVER,
+        state=first.steps[-1].state,
     )
     work = first.plastic_work.sum()
     assert again.plastic_work.sum() <= 1e-3 * work
-    for up, down in zip(again.results[:2], again.results[4:2:-1], strict=True):
+    for up, down in zip(again.steps[:2], again.steps[4:2:-1], strict=True):
         assert up.mean_pressure == pytest.approx(down.mean_pressure)
         assert up.approach == pytest.approx(down.approach, rel=1e-4)
         # energy norm: the square of the pressure error is bounded by field error times load times rms height
         assert up.elastic_energy == pytest.approx(down.elastic_energy, rel=1e-3)
-    assert again.results[-1].approach == pytest.approx(first.results[-1].approach, rel=1e-3)
-    assert again.results[-1].total_plastic_work == pytest.approx(work, rel=1e-3)
+    assert again.steps[-1].approach == pytest.approx(first.steps[-1].approach, rel=1e-3)
+    assert again.steps[-1].total_plastic_work == pytest.approx(work, rel=1e-3)
 
 
 @BOUNDARIES
@@ -143,8 +148,8 @@ def test_unloaded_bodies_just_touch(boundary):
 
 def test_plastic_work_adds_up():
     problem = posed()
-    path = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.25], steps=3), solver=SOLVER)
-    last = path.results[-1]
+    path = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.25], steps=3)), solver=SOLVER)
+    last = path.steps[-1]
     assert last.total_plastic_work == pytest.approx(path.plastic_work.sum(), rel=1e-12)
     assert last.total_plastic_work == pytest.approx(0.4 * last.plastic_volume, rel=1e-12)
     assert last.indented_area == np.count_nonzero(last.indented) * problem.grid.pixel_area

@@ -185,7 +185,7 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     names = {"scan": scan}
     for number, code in enumerate(blocks(page, "python")):
         exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
-    assert asp.load("wet.nc").meniscus_force == names["wet"].meniscus_force
+    assert asp.load("wet.nc").menisci.meniscus_force == names["wet"].menisci.meniscus_force
     assert names["held"].external_force == pytest.approx(names["wet"].external_force, rel=0.1)
     capsys.readouterr()
     for line in commands(page):

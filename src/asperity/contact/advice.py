@@ -9,12 +9,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.status import Advice
-from ..solids.layers import materials_of, surface_material
+from ..core.units import show
+from ..solids.elastic import Elastic
+from ..solids.layers import Layered, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
+from ..theories.wet.meniscus import wetting_factor
 from .control import Control, Force, MeanPressure, mean_pressure
-from .laws import LayeredHardness
-from .layer_advice import layer_advice
+from .couplings.menisci import Menisci
+from .laws import LayeredHardness, LimitByDepth
 from .problem import ContactProblem
 from .result import ContactResult
 
@@ -49,6 +52,22 @@ FIELDS_OF_A_SOLVE = 16
 """Real fields of the grid alive in a solve, result included."""
 
 
+PIXELS_PER_LAYER = 1.0
+"""A pressure that varies from pixel to pixel (wavelength 2 pixels) reaches exp(-pi) = 4 % deep into a layer of one pixel."""
+
+LARGEST_THICKNESS = 0.5
+"""Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
+
+FEWEST_MENISCUS_PIXELS = 5.0
+"""Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give 1 %."""
+
+CONTINUUM = 1e-9
+"""Radius in m below which a meniscus of water is a few molecules across: 50 % relative humidity."""
+
+MOLECULE = 0.28e-9
+"""Diameter of a molecule of water in m; other liquids have larger ones."""
+
+
 def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     """Findings that can be made before solving: slopes, resolution, edges, load, layers, memory."""
     profile = Surface(problem.profile(), *problem.grid.spacing)
@@ -58,14 +77,22 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
         *_asperity_radius(profile),
         *_edges(problem, profile),
         *_load(problem, control),
-        *layer_advice(problem),
+        *_layers(problem),
         *_memory(problem),
     )
 
 
 def review(result: ContactResult) -> tuple[Advice, ...]:
-    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded."""
-    return (*_contact_pixels(result), *_nearly_full(result), *_room(result), *_plastic(result), *_hardness(result))
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, menisci."""
+    wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
+    return (
+        *_contact_pixels(result),
+        *_nearly_full(result),
+        *_room(result),
+        *_plastic(result),
+        *_hardness(result),
+        *wet,
+    )
 
 
 def _slope(profile: Surface) -> Iterator[Advice]:
@@ -255,3 +282,101 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
 def _mean_square(profile: Surface, axis: str, order: int) -> float:
     """Mean square of the differences of ``order`` along ``axis`` inside the grid; 0 where there are too few points."""
     return stencil_sums(profile, axis, order, 1).square if profile.shape[axis_index(axis)] > order else 0.0
+
+
+def _layers(problem: ContactProblem) -> Iterator[Advice]:
+    """Layers thinner than a pixel, or so thick that a periodic cell hardly feels what lies below; softer ones below."""
+    for body in (problem.body, problem.counter_body):
+        if isinstance(body, Layered):
+            yield from _against_pixel(problem, body.reduced)
+            yield from _against_period(problem, body.reduced)
+            yield from _softer_below(problem, body.reduced)
+
+
+def _against_pixel(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
+    grid = problem.grid
+    pixel = max((step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1), default=grid.spacing[0])
+    thin = [layer for layer in body.layers if layer.thickness < PIXELS_PER_LAYER * pixel]
+    if thin:
+        least = min(layer.thickness for layer in thin)
+        count = f"{len(thin)} layers are" if len(thin) > 1 else "A layer is"
+        yield Advice(
+            "note",
+            "layer against pixel",
+            f"{count} thinner than a pixel (the thinnest {least / pixel:.2g} pixels, at least {PIXELS_PER_LAYER:g} wanted): "
+            "deflections of resolved waves are right, but peak pressures and stresses on the scale of the layer are not "
+            "resolved. Refine the grid to the scale of the layer.",
+        )
+
+
+def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
+    """The longest wave along an axis that wraps; a base as soft as the layers makes no difference and goes unsaid."""
+    lengths = [
+        problem.grid.size[axis] for axis in (0, 1) if problem.boundary.wraps[axis] and problem.grid.shape[axis] > 1
+    ]
+    if not lengths or not body.layers:
+        return
+    share = body.thickness / max(lengths)
+    if share > LARGEST_THICKNESS and _differs(body):
+        yield Advice(
+            "note",
+            "layer against period",
+            f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
+            "reaches the base, whose material then makes little difference. Use a larger map, or the free boundary for a "
+            "single contact.",
+        )
+
+
+def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
+    """A pressure limit says nothing of what lies below the surface, where a softer material may yield first."""
+    if isinstance(problem.law, LimitByDepth):
+        return
+    limit = float(np.max(problem.law.pressure_cap()))
+    surface, *below = (part.strength.hardness for part in materials_of(body))
+    if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
+        yield Advice(
+            "note",
+            "softer layers below",
+            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
+            f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
+            "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
+            "the stresses, which tell the load factor of each layer.",
+        )
+
+
+def _differs(body: Layered) -> bool:
+    """Whether the base is of another plane-strain modulus than the lowest layer."""
+    base = body.base.plane_strain_modulus if isinstance(body.base, Elastic) else math.inf
+    return base != body.layers[-1].material.plane_strain_modulus
+
+
+def _meniscus_pixels(found: Menisci) -> Iterator[Advice]:
+    if found.wetting.regime == "dry":
+        return
+    # the mean over the area: many islands of a pixel or two hardly pull
+    pixels = np.bincount(found.wetting.labels.ravel())[1:].astype(float)
+    radius = math.sqrt(float((pixels**2).sum() / pixels.sum()) / math.pi)
+    if radius < FEWEST_MENISCUS_PIXELS:
+        yield Advice(
+            "warning",
+            "meniscus pixels",
+            f"Menisci are counted in pixels, but have a radius of {radius:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
+            "may be off by several per cent. Refine the grid, or generate the surface with more points.",
+        )
+
+
+def _molecules(found: Menisci) -> Iterator[Advice]:
+    film = found.film
+    radius = film.meniscus_height / wetting_factor(*film.contact_angles)
+    said = []
+    if radius < CONTINUUM:
+        said.append(
+            f"The menisci have a radius of {1e9 * radius:.2g} nm: below about 1 nm Laplace's equation is a formality."
+        )
+    if film.thickness < MOLECULE:
+        said.append(
+            f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water ({1e9 * MOLECULE:.2g} nm): it "
+            "covers the surface in part only."
+        )
+    if said:
+        yield Advice("note", "molecules", " ".join(said))

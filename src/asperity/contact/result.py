@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.errors import InputError
 from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.status import Status
@@ -165,6 +166,20 @@ class ContactResult(Stored):
     def menisci(self) -> Menisci | None:
         """Menisci of the film; None in a dry contact."""
         return self.couplings.get("menisci")
+
+    def require_menisci(self) -> Menisci:
+        """Menisci of the film.
+
+        Raises
+        ------
+        InputError
+            If the problem has no film.
+        """
+        if self.menisci is None:
+            raise InputError(
+                "problem of the result must have a film of liquid, but has none. Give it as film=LiquidFilm.of(...)."
+            )
+        return self.menisci
 
     @property
     def sliding(self) -> GrossSliding | None:

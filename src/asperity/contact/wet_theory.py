@@ -14,8 +14,8 @@ from ..theories.statistics.roughness import Roughness
 from ..theories.wet.meniscus import MeniscusGrowth, wetting_factor
 from ..theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 from .problem import ContactProblem
+from .result import ContactResult
 from .roughness import roughness_of
-from .wet_result import WetContactResult
 from .wetting import LiquidFilm
 
 HAMAKER = 1e-19
@@ -61,7 +61,7 @@ class WetTheory:
         return tuple(sorted({*StatisticalMeniscus.citation_keys, *KotwalBhushan.citation_keys, *growth}))
 
 
-def wet_theory(result: WetContactResult) -> WetTheory:
+def wet_theory(result: ContactResult) -> WetTheory:
     """Statistical and kinetic menisci for the surfaces, film and external force of ``result``.
 
     Both contact angles enter by their sum of cosines. The theory gives every summit in the film the force of a sphere
@@ -74,7 +74,7 @@ def wet_theory(result: WetContactResult) -> WetTheory:
     NoSolutionError
         If the summits do not carry load and menisci at any separation.
     """
-    problem, film, load = result.problem, result.film, result.external_force
+    problem, film, load = result.problem, result.require_menisci().film, result.external_force
     if not load > 0.0:
         raise InputError(f"external force (N) must be greater than zero for the theory of summits, but is {load:.4g}.")
     roughness, count = _roughness(problem)

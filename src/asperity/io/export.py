@@ -16,8 +16,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ..contact.history import HistoryResult
-from ..contact.result import SCALARS, ContactResult
-from ..contact.wet_result import WET_SCALARS, WetContactResult
+from ..contact.result import SCALARS, WET_SCALARS, ContactResult
 from ..core.errors import InputError
 from ..stress.field import Peak, StressField
 from ..stress.survey import StressSurvey
@@ -31,7 +30,7 @@ VTK_TYPES = {"float64": "Float64", "float32": "Float32", "uint8": "UInt8"}
 
 
 def export_csv(
-    result: ContactResult | WetContactResult | HistoryResult | StressSurvey,
+    result: ContactResult | HistoryResult | StressSurvey,
     path: str | Path,
     *,
     overwrite: bool = False,
@@ -53,15 +52,13 @@ def export_csv(
         csv.writer(file).writerows(table(result))
 
 
-def _table(result: ContactResult | WetContactResult) -> Iterator[tuple[Any, ...]]:
-    contact = result.contact if isinstance(result, WetContactResult) else result
+def _table(result: ContactResult) -> Iterator[tuple[Any, ...]]:
     yield ("name", "value", "unit", "label")
-    yield from ((q.name, getattr(contact, q.name), q.unit, q.label) for q in SCALARS)
-    film = result if isinstance(result, WetContactResult) else result.menisci
-    if film is not None:
-        yield from ((q.name, getattr(film, q.name), q.unit, q.label) for q in WET_SCALARS)
+    yield from ((q.name, getattr(result, q.name), q.unit, q.label) for q in SCALARS)
+    if result.menisci is not None:
+        yield from ((q.name, getattr(result.menisci, q.name), q.unit, q.label) for q in WET_SCALARS)
     for q in CERTIFICATE:
-        yield f"certificate.{q.name}", getattr(contact.certificate, q.name), q.unit, q.label
+        yield f"certificate.{q.name}", getattr(result.certificate, q.name), q.unit, q.label
     yield "status.outcome", str(result.status.outcome), "", "how the solver ended"
 
 

@@ -1,4 +1,4 @@
-"""Results as one labelled file: contacts, wet contacts and load paths, written whole, read back exactly."""
+"""Results as one labelled file: contacts with all their physics, and load paths, written whole, read back exactly."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ from ..contact.certificate import Certificate
 from ..contact.couplings.menisci import Menisci
 from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
-from ..contact.path import LoadPath
+from ..contact.laws import Coulomb
 from ..contact.problem import ContactProblem
-from ..contact.result import ContactResult
+from ..contact.result import WET_SCALARS, ContactResult
 from ..contact.state import InterfaceState
-from ..contact.wet_result import WET_SCALARS, WetContactResult
 from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
@@ -36,7 +35,7 @@ from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 if TYPE_CHECKING:
     import xarray
 
-Result: TypeAlias = ContactResult | WetContactResult | HistoryResult | StressField
+Result: TypeAlias = ContactResult | HistoryResult | StressField
 """What result files hold."""
 
 PARTS = ("body", "counter_body", "boundary", "law", "control")
@@ -65,9 +64,11 @@ MARKS = (
 
 ENERGIES = (
     Quantity("external_work", "J", "external work along the path, by the trapezoidal rule"),
+    Quantity("meniscus_work", "J", "part of the external work that menisci do"),
     Quantity("elastic_energy", "J", "elastic energy gained along the path"),
     Quantity("plastic_work", "J", "plastic work along the path"),
-    Quantity("residual", "J", "external work less elastic energy and plastic work"),
+    Quantity("shear_work", "J", "work of the displacement by shear along the path"),
+    Quantity("residual", "J", "external work less all other energies"),
 )
 """Entries of an energy balance."""
 
@@ -79,9 +80,6 @@ WET_FIELDS = (
     Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
 )
 """Fields of a wet contact."""
-
-_WET = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "rounds", "change", "feedback")
-"""Numbers of a wet contact that do not follow from contact and film."""
 
 
 def save(result: Result, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
@@ -102,7 +100,7 @@ def save(result: Result, path: str | Path, *, document: str | None = None, overw
 def load(path: str | Path) -> Any:
     """The result in the file ``path``, equal to the one that was saved: same fields to the bit, same problem.
 
-    A ``ContactResult``, ``WetContactResult``, ``LoadPath`` or ``StressField``; of the outcome of a document the contact.
+    A ``ContactResult``, ``HistoryResult`` or ``StressField``; of the outcome of a document the contact.
 
     Raises
     ------
@@ -165,15 +163,14 @@ def document_in(path: str | Path) -> str | None:
 
 
 def contact_of(result: Any) -> ContactResult:
-    """The contact of a ``result``: of a wet one the solid contact, of a load path that at its end.
+    """The contact of a ``result``: of a load path that at its end.
 
     Raises
     ------
     InputError
         If it is a stress field.
     """
-    found = result.last if isinstance(result, HistoryResult) else getattr(result, "contact", result)
-    found = result if isinstance(result, ContactResult) else found
+    found = result.last if isinstance(result, HistoryResult) else result
     if not isinstance(found, ContactResult):
         raise InputError(f"result file must hold a contact for this, but holds a {type(result).__name__}.")
     return found
@@ -199,7 +196,7 @@ def result_in(tree: Node, path: str | Path) -> Any:
         if "path" in groups and "of_outcome" not in tree.attributes:
             return path_from(groups["path"], result)
         if "film" in groups and "stored_rounds" in groups["film"].attributes:
-            return _wet_from(groups["film"], result)
+            return _with_film(groups["film"], result)
     except FileFormatError:
         raise
     except (KeyError, TypeError, ValueError, AttributeError, IndexError, InputError) as error:
@@ -223,10 +220,6 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
     if isinstance(result, HistoryResult):
         groups = result_tree(result.last).children
         return Node((), root_attributes(result.last, document), {**groups, "path": path_node(result)})
-    if isinstance(result, WetContactResult):
-        groups = {"contact": contact_node(result.contact), "film": wet_node(result)}
-        attributes = root_attributes(result.contact, document)
-        return Node((), attributes | {"citation_keys": " ".join(result.citation_keys)}, groups)
     if isinstance(result, ContactResult):
         groups = {"contact": contact_node(result)}
         groups |= {} if result.menisci is None else {"film": film_node(result, result.menisci)}
@@ -307,28 +300,22 @@ def film_node(result: ContactResult, menisci: Menisci) -> Node:
     return Node((*grid_lines(result), *fields_, *scalars), attributes)
 
 
-def wet_node(result: WetContactResult) -> Node:
-    """Group of a liquid film: menisci and scalars; film, control and status as attributes."""
-    values = [*grid_lines(result.contact), *(Labelled(item, getattr(result.wetting, item.name)) for item in WET_FIELDS)]
-    values += [Labelled(item, getattr(result, item.name)) for item in WET_SCALARS]
-    attributes: dict[str, Any] = {f"stored_{name}": getattr(result, name) for name in _WET}
-    attributes |= {"film": json.dumps(describe(result.film)), "control": json.dumps(describe(result.control))}
-    return Node(tuple(values), attributes | {"regime": result.wetting.regime} | status_attributes(result.status))
-
-
-def _wet_from(node: Node, contact: ContactResult) -> WetContactResult:
-    film = rebuild(json.loads(node.attributes["film"]))
+def _with_film(node: Node, contact: ContactResult) -> ContactResult:
+    """The ``contact`` of a file in which wet contacts were results of their own, with what its group of the film holds."""
+    attributes = node.attributes
+    film = rebuild(json.loads(attributes["film"]))
     if not isinstance(film, LiquidFilm):
         raise ValueError("film")
-    stored = {name: node.attributes[f"stored_{name}"] for name in _WET}
-    numbers: dict[str, Any] = {name: int(value) if name == "rounds" else float(value) for name, value in stored.items()}
-    return WetContactResult(
-        control=rebuild(json.loads(node.attributes["control"])),
-        contact=contact,
-        film=film,
-        wetting=wetting(contact.gap, contact.contact, film, wraps=contact.problem.boundary.wraps),
-        status=status_from(node.attributes),
-        **numbers,
+    stored: dict[str, Any] = {name: float(attributes[f"stored_{name}"]) for name in _MENISCI}
+    friction = Coulomb(stored["dry_friction"], coupled=False)
+    stands = wetting(contact.gap, contact.contact, film, wraps=contact.problem.boundary.wraps)
+    return replace(
+        contact,
+        problem=replace(contact.problem, film=film, friction=friction),
+        control=rebuild(json.loads(attributes["control"])),
+        status=status_from(attributes),
+        couplings={"menisci": Menisci(film, stands, **stored)},
+        memory={"menisci": {"force": np.asarray(stored["meniscus_force"])}},
     )
 
 
@@ -385,7 +372,7 @@ def _column(item: Quantity, values: Any, *dims: str) -> Labelled:
     return Labelled(replace(item, dims=("step", *dims)), np.asarray(values))
 
 
-def path_from(node: Node, last: ContactResult) -> LoadPath:
+def path_from(node: Node, last: ContactResult) -> HistoryResult:
     """The load path of a group; ``last`` is the contact at its end, whose problem all steps share."""
     ends, results = np.cumsum(node["n_spots"]), list[ContactResult]()
     start = None
@@ -409,7 +396,7 @@ def path_from(node: Node, last: ContactResult) -> LoadPath:
         )
         before = result.pressure if result.converged and result.pressure.any() else before
         results.append(result)
-    return LoadPath(tuple(results), start)
+    return HistoryResult(tuple(results), start)
 
 
 def _certificate(attributes: Mapping[str, Any]) -> Certificate:

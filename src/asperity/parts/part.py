@@ -12,7 +12,7 @@ from ..core.progress import NoProgress, Progress
 
 if TYPE_CHECKING:
     from ..contact.control import Control
-    from ..contact.path import LoadPath
+    from ..contact.history import HistoryResult
     from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
@@ -93,8 +93,6 @@ class Solved:
         The contact under it.
     path
         The load path that ends there, if there is one.
-    coupled
-        What the couplings say of themselves, by name.
     found
         What earlier parts have found, by their names.
     solver, threads
@@ -110,8 +108,7 @@ class Solved:
     problem: ContactProblem
     control: Control
     result: ContactResult
-    path: LoadPath | None = None
-    coupled: Mapping[str, Any] = field(default_factory=dict)
+    path: HistoryResult | None = None
     found: Mapping[str, Found] = field(default_factory=dict)
     solver: Solver | None = None
     threads: int | None = None

@@ -15,7 +15,6 @@ from ..contact.history import HistoryResult
 from ..contact.laws import LimitByDepth
 from ..contact.measure import distribution
 from ..contact.result import ContactResult
-from ..contact.wet_result import WetContactResult
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.units import show
@@ -172,7 +171,7 @@ KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus",
 """Name and colour of each kind of point, in the order of their numbers."""
 
 
-def plot_menisci(result: WetContactResult | ContactResult, ax: Axes) -> Axes:
+def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
     """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
 
     Raises
@@ -180,19 +179,14 @@ def plot_menisci(result: WetContactResult | ContactResult, ax: Axes) -> Axes:
     InputError
         If the contact has no film of liquid.
     """
-    contact = result.contact if isinstance(result, WetContactResult) else result
-    film = result if isinstance(result, WetContactResult) else result.menisci
-    if film is None:
-        raise InputError(
-            "contact of a map of menisci must have a film of liquid, but is dry; give its problem a LiquidFilm."
-        )
-    kinds = np.where(film.wetting.cut, 1.0, 0.0)
-    kinds[film.wetting.menisci] = 2.0
-    kinds[contact.contact] = 3.0
+    stands = result.require_menisci().wetting
+    kinds = np.where(stands.cut, 1.0, 0.0)
+    kinds[stands.menisci] = 2.0
+    kinds[result.contact] = 3.0
     return plot_classes(kinds, result.problem.grid, ax, KINDS)
 
 
-def wet_figures(result: WetContactResult | ContactResult) -> tuple[Figure, ...]:
+def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
     """Figures of the menisci of ``result``."""
     caption = (
         "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
@@ -283,16 +277,14 @@ def plots_of(result: ContactResult) -> tuple[Plot, ...]:
 
 
 def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
-    """Names of all figures of a ``result`` (a contact, wet contact or load path), each with what draws its PNG."""
+    """Names of all figures of a ``result`` (a contact or load path), each with what draws its PNG."""
     found: dict[str, Callable[[], bytes]] = {}
-    contact = result.last if isinstance(result, HistoryResult) else getattr(result, "contact", result)
-    contact = result if isinstance(result, ContactResult) else contact
+    contact = result.last if isinstance(result, HistoryResult) else result
     found |= {plot.name: partial(render, plot, contact) for plot in plots_of(contact)}
     if isinstance(result, HistoryResult):
         found |= {plot.name: partial(render_path_plot, plot, result) for plot in PATH_PLOTS}
-    if isinstance(result, WetContactResult) or contact.menisci is not None:
-        result = result if isinstance(result, WetContactResult) else contact
-        found["menisci"] = partial(png, partial(plot_menisci, result), map_size(contact.problem.grid))
+    if contact.menisci is not None:
+        found["menisci"] = partial(png, partial(plot_menisci, contact), map_size(contact.problem.grid))
     return found
 
 

@@ -10,9 +10,9 @@ from typing import Any
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
+from ..contact.history import Ramped, ramps
 from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
 from ..contact.problem import ContactProblem, Flat
-from ..contact.ramps import Ramped, ramps
 from ..contact.solvers.by_name import default_solver, solver_by_name
 from ..contact.solvers.protocol import Solver
 from ..core import units
@@ -70,16 +70,6 @@ class Case:
         return any(value is not None for key, value in self.document.solver if key != "threads")
 
     @property
-    def couplings(self) -> dict[str, Any]:
-        """By what the parts join the solve, by name."""
-        return {
-            name: coupling
-            for part in parts()
-            if part.name in self.asks
-            for name, coupling in part.coupling(self.asks[part.name]).items()
-        }
-
-    @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers that its numbers will rest on."""
         asked = [part for part in parts() if part.name in self.asks]
@@ -116,25 +106,17 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
     for part in parts():
         if part.name in asks:
             part.check(asks[part.name], problem)
+    problem = _with_physics(problem, asks)
     control, path = build_load(document.control)
-    case = Case(document, problem, control, path, build_solver(document.solver, problem), asks)
-    _refuse_together(case)
-    return case
+    return Case(document, problem, control, path, build_solver(document.solver, problem), asks)
 
 
-def _refuse_together(case: Case) -> None:
-    """Refuse what is not solved together yet."""
-    couplings = case.couplings
-    if case.path and "film" in couplings:
-        raise InputError("control must give one load with a film, not a path: menisci are solved for one load.")
-    if case.path and couplings:
-        raise InputError(
-            "friction.coupled (--coupled) must be left out with a load path: a coupled, sliding contact is solved for one load."
-        )
-    if len(couplings) > 1:
-        raise InputError(
-            "friction.coupled must be false with a film: menisci and coupled friction are not solved together."
-        )
+def _with_physics(problem: ContactProblem, asks: Mapping[str, Any]) -> ContactProblem:
+    """``problem`` with the film and the friction by which the parts join it."""
+    joined: dict[str, Any] = {}
+    for part in parts():
+        joined |= part.coupling(asks[part.name]) if part.name in asks else {}
+    return replace(problem, **joined)
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

@@ -5,22 +5,18 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
+from ..contact.history import HistoryResult
 from ..contact.laws import cap_at
 from ..contact.operators import Operator, prepare_operator
-from ..contact.path import LoadPath, predicted, steps
 from ..contact.result import ContactResult
-from ..contact.sliding import solve_sliding
-from ..contact.solve import Keep, solve
+from ..contact.solve import Keep, solve, steps
 from ..contact.solvers.active_set.linear_system import normal_stiffness
 from ..contact.state import InterfaceState
-from ..contact.wet import solve_wet
 from ..core.engine import CpuEngine
 from ..core.errors import AsperityError
 from ..core.status import Advice, Status
@@ -65,7 +61,7 @@ class Outcome:
         return self.solved.result
 
     @property
-    def path(self) -> LoadPath | None:
+    def path(self) -> HistoryResult | None:
         """The load path, if the document asks for one and its steps were kept."""
         return self.solved.path
 
@@ -109,14 +105,11 @@ class Warm:
     """What cases that differ in their load alone share: the prepared operator, and the contacts solved so far."""
 
     operator: Operator | None = None
-    last: list[ContactResult] = field(default_factory=list)
+    last: ContactResult | None = None
 
-    def state(self, case: Case) -> InterfaceState | None:
-        """A virgin interface with the pressure that the last contacts suggest for the load of ``case``."""
-        if not self.last:
-            return None
-        guess = predicted(case.problem, case.control, self.last)
-        return InterfaceState(guess.pressure, earlier=guess.earlier)
+    def state(self) -> InterfaceState | None:
+        """A virgin interface with the pressures that the last contacts suggest."""
+        return None if self.last is None else InterfaceState(self.last.pressure, earlier=self.last.earlier)
 
 
 def run(
@@ -186,7 +179,8 @@ def execute(
     """
     names = None if wanted is None else frozenset(wanted)
     solving = _Solving(case, warm or Warm(), threads or case.threads, names, lines, stage, on_failure)
-    solved, status = solving.solved()
+    solved = solving.solved()
+    status = solved.result.status
     found, failed = _found(case.asks, solved)
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     statuses = [item.status for item in found.values() if item.status is not None]
@@ -194,7 +188,9 @@ def execute(
     return Outcome(case, replace(solved, found=found), found, findings, worst if status.converged else status)
 
 
-def analysed(result: ContactResult, asks: Mapping[str, Any], path: LoadPath | None = None, **options: Any) -> Outcome:
+def analysed(
+    result: ContactResult, asks: Mapping[str, Any], path: HistoryResult | None = None, **options: Any
+) -> Outcome:
     """What the parts that are asked for find in a ``result`` that was solved before, the end of ``path`` if one is given.
 
     ``options`` are fields of ``Solved``.
@@ -239,93 +235,49 @@ class _Solving:
     stage: Stage
     on_failure: Literal["raise", "return"]
 
-    def solved(self) -> tuple[Solved, Status]:
-        """The contact with its couplings, and how the solve ended."""
-        case, couplings = self.case, self.case.couplings
-        path, coupled = None, dict[str, Any]()
-        if case.path:
-            path, result = self._path()
-        elif "film" in couplings:
-            coupled["film"] = self._wet(couplings["film"])
-            result = coupled["film"].contact
-            self.warm.last = [*self.warm.last[-1:], result]
-        elif "sliding" in couplings:
-            result = self._slid(couplings["sliding"])
-        else:
-            result = self._single()
-            self.warm.last = [*self.warm.last[-1:], result]
-        status = result.status if not coupled else coupled["film"].status
-        return (
-            Solved(
-                case.problem,
-                case.control,
-                result,
-                path,
-                coupled,
-                solver=case.solver,
-                threads=self.threads,
-                wanted=self.wanted,
-                lines=self.lines,
-                stage=self.stage,
-            ),
-            status,
+    def solved(self) -> Solved:
+        """The contact with all its physics, at the end of the load path if there is one."""
+        case = self.case
+        path, result = self._path() if case.path else (None, self._single())
+        return Solved(
+            case.problem,
+            case.control,
+            result,
+            path,
+            solver=case.solver,
+            threads=self.threads,
+            wanted=self.wanted,
+            lines=self.lines,
+            stage=self.stage,
         )
 
     @property
     def _stiffness(self) -> bool:
         return self.wanted is None or STIFFNESS in self.wanted
 
-    def _operator(self) -> Operator:
-        if self.warm.operator is None:
-            problem = self.case.problem
-            engine = CpuEngine(self.threads)
-            self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        return self.warm.operator
-
-    def _stiff(self, result: ContactResult) -> ContactResult:
-        """``result`` with its normal stiffness, if that is wanted."""
-        if not self._stiffness or not np.isnan(result.normal_stiffness):
-            return result
-        cap = cap_at(result.problem.law, result.permanent_indentation)
-        return replace(result, normal_stiffness=normal_stiffness(self._operator(), result.pressure, cap))
-
     def _options(self) -> dict[str, Any]:
-        return {"operator": self._operator(), "on_failure": self.on_failure}
+        if self.warm.operator is None:
+            problem, engine = self.case.problem, CpuEngine(self.threads)
+            self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        return {"operator": self.warm.operator, "on_failure": self.on_failure, "solver": self.case.solver}
 
     def _single(self) -> ContactResult:
         case, keep = self.case, Keep(stiffness=self._stiffness)
         with self.stage("solving") as progress:
-            options = {**self._options(), "solver": case.solver, "state": self.warm.state(case), "progress": progress}
-            return solve(case.problem, case.control, keep=keep, **options)
+            state = self.warm.state()
+            result = solve(case.problem, case.control, keep=keep, state=state, progress=progress, **self._options())
+        self.warm.last = result
+        return result
 
-    def _path(self) -> tuple[LoadPath | None, ContactResult]:
+    def _path(self) -> tuple[HistoryResult | None, ContactResult]:
         """The load path, which is kept for pictures only, and its end."""
         case = self.case
         with self.stage(f"solving {len(case.path)} steps") as progress:
-            stream = steps(case.problem, case.path, **self._options(), solver=case.solver, progress=progress)
+            stream = steps(case.problem, case.path, progress=progress, **self._options())
             results = list(deque(stream, maxlen=None if self.lines else 1))
-        results[-1] = self._stiff(results[-1])
-        return (LoadPath(tuple(results)) if self.lines else None), results[-1]
-
-    def _wet(self, asked: Any) -> Any:
-        case = self.case
-        with self.stage("solving") as progress:
-            options = {**self._options(), "solver": case.solver, "state": self.warm.state(case), "progress": progress}
-            return solve_wet(case.problem, case.control, asked.film, friction=asked.friction, **options)
-
-    def _slid(self, asked: Any) -> ContactResult:
-        """A sliding contact; solved with the method that ``solve_sliding`` prefers unless the document names one."""
-        case = self.case
-        with self.stage("solving") as progress:
-            slid = solve_sliding(
-                case.problem,
-                case.control,
-                asked.coefficient,
-                direction=asked.direction,
-                solver=case.solver if case.chooses_solver else None,
-                progress=progress,
-                engine=CpuEngine(self.threads),
-                on_failure=self.on_failure,
-            )
-        contact = replace(slid.contact, citation_keys=slid.citation_keys)
-        return contact if slid.converged else replace(contact, status=slid.status)
+        last = results[-1]
+        if self._stiffness and last.sliding is None:
+            cap = cap_at(last.problem.law, last.permanent_indentation)
+            stiffness = normal_stiffness(self.warm.operator, last.pressure, cap)  # type: ignore[arg-type]
+            results[-1] = replace(last, normal_stiffness=stiffness)
+        return (HistoryResult(tuple(results)) if self.lines else None), results[-1]

@@ -27,8 +27,8 @@ Of: TypeAlias = Literal["body", "counter_body"]
 class Loaded(Protocol):
     """What stresses need of a contact result: its pressure (nx, ny) in Pa, and the problem.
 
-    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. A result with ``friction``
-    and ``direction`` (as of ``solve_sliding``) brings its own shear traction on ``body``.
+    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. One with a ``friction``
+    (``Coulomb``) brings its own shear traction on ``body``.
     """
 
     @property
@@ -54,7 +54,8 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
     """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
     require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
     if friction is None:
-        friction, direction = getattr(result, "friction", 0.0), getattr(result, "direction", 0.0)
+        own = getattr(result.problem, "friction", None)
+        friction, direction = (0.0, 0.0) if own is None else (own.coefficient, own.direction)
     shear = _shear(friction, direction)
     if of == "counter_body":
         if isinstance(shear, Sliding):
@@ -90,8 +91,8 @@ def stress(
         is not asked for is not kept.
     friction
         Friction coefficient μ of a sliding contact, whose shear traction is μ times the pressure; or a
-        ``ShearTraction(qx, qy)`` of fields. By default none, or that of a ``SlidingResult``. The pressure is taken as it
-        is; ``solve_sliding`` couples the two.
+        ``ShearTraction(qx, qy)`` of fields. By default that of the problem of the result, if it has one. The pressure is
+        taken as it is; ``solve`` couples the two where the problem has a friction.
     direction
         Direction of the shear traction on ``body`` where ``friction`` is a number: angle in rad from +x, or a vector.
     of

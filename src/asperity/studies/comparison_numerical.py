@@ -10,9 +10,9 @@ import numpy as np
 
 from ..contact.advice import advise, review
 from ..contact.control import MeanPressure
-from ..contact.path import steps
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
+from ..contact.solve import steps
 from ..contact.solvers.by_name import default_solver
 from ..contact.solvers.protocol import Solver
 from ..core.arrays import RealArray

@@ -17,7 +17,7 @@ from contact_cases import elastic, rough
 
 import asperity as asp
 from asperity.contact.operators import Operator
-from asperity.contact.path import steps
+from asperity.contact.solve import steps
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean
 from asperity.contact.solvers.protocol import SolverState
 from asperity.core.arrays import RealArray
@@ -54,9 +54,9 @@ def test_every_kind_of_control_equals_its_own_solve(boundary: Any) -> None:
     posed = problem(boundary=boundary)
     aim = asp.solve(posed, asp.MeanPressure(0.08), solver=SOLVER)
     controls = [asp.Force(0.05 * 480), asp.Approach(aim.approach), asp.MeanGap(aim.mean_gap), asp.MeanPressure(0.02)]
-    path = asp.solve_path(posed, controls, solver=SOLVER)
+    path = asp.solve(posed, asp.History(controls), solver=SOLVER)
     assert path.converged
-    for result, control in zip(path.results, controls, strict=True):
+    for result, control in zip(path.steps, controls, strict=True):
         assert result.control is control
         alone = asp.solve(posed, control, solver=SOLVER)
         assert result.mean_pressure == pytest.approx(alone.mean_pressure, rel=1e-6)
@@ -66,14 +66,14 @@ def test_every_kind_of_control_equals_its_own_solve(boundary: Any) -> None:
 
 
 def test_arrays_of_a_path_are_the_values_of_its_results() -> None:
-    path = asp.solve_path(problem(asp.Hardness(0.4)), pressures(LOADS))
+    path = asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures(LOADS)))
     np.testing.assert_allclose(path.mean_pressure, LOADS, rtol=1e-12)
     for name in ("mean_pressure", "area_fraction_corrected", "approach", "mean_gap", "plastic_work"):
-        np.testing.assert_array_equal(getattr(path, name), [getattr(r, name) for r in path.results])
+        np.testing.assert_array_equal(getattr(path, name), [getattr(r, name) for r in path.steps])
     assert (np.diff(path.approach) > 0.0).all()
     assert (np.diff(path.mean_gap) < 0.0).all()
-    assert np.isnan(path.results[0].normal_stiffness)
-    assert asp.solve_path(problem(), pressures((0.1,)), keep=asp.Keep()).results[0].normal_stiffness > 0.0
+    assert np.isnan(path.steps[0].normal_stiffness)
+    assert asp.solve(problem(), asp.History(pressures((0.1,))), keep=asp.Keep()).steps[0].normal_stiffness > 0.0
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -81,20 +81,20 @@ def test_load_unload_reload(boundary: Any) -> None:
     hardness = 0.4
     loading, unloading = (0.05, 0.1, 0.15, 0.2), (0.15, 0.1, 0.05)
     posed = problem(asp.Hardness(hardness), boundary=boundary)
-    path = asp.solve_path(posed, pressures((*loading, *unloading, 0.2)), solver=SOLVER)
+    path = asp.solve(posed, asp.History(pressures((*loading, *unloading, 0.2))), solver=SOLVER)
     assert path.converged
     assert (path.plastic_work >= 0.0).all()
     assert (path.plastic_work[:4] > 0.0).all()
-    top, reloaded = path.results[3], path.results[-1]
+    top, reloaded = path.steps[3], path.steps[-1]
 
     # unloading is elastic but for points whose neighbours lose contact, where pressure may rise to the cap
     assert path.plastic_work[4:].sum() <= 0.02 * path.plastic_work[:4].sum()
-    indentations = [r.permanent_indentation for r in path.results]
+    indentations = [r.permanent_indentation for r in path.steps]
     for before, after in itertools.pairwise(indentations):
         assert (after >= before).all()
 
     # hysteresis: at equal load the bodies are closer after than before, by the dent left
-    for down, up in zip(path.results[4:7], path.results[2::-1], strict=True):
+    for down, up in zip(path.steps[4:7], path.steps[2::-1], strict=True):
         assert down.approach > up.approach
         assert down.elastic_energy < top.elastic_energy
 
@@ -110,14 +110,14 @@ def test_twenty_steps_equal_twenty_solves_and_cost_less() -> None:
     """Measured at 128²: 0.8 of the pairs. Extrapolated pressures miss the front of the contact, which moves."""
     posed, solver = benchmark(128), ActiveSet(tolerance=1e-6)
     controls = pressures(tuple(np.linspace(0.01, 0.2, 20)))
-    path = asp.solve_path(posed, controls, solver=solver)
+    path = asp.solve(posed, asp.History(controls), solver=solver)
     operator = asp.prepare_operator(posed.compliance, posed.grid, posed.boundary)
     keep = asp.Keep(stiffness=False)
     cold = [asp.solve(posed, control, solver=solver, operator=operator, keep=keep) for control in controls]
-    for warm, alone in zip(path.results, cold, strict=True):
+    for warm, alone in zip(path.steps, cold, strict=True):
         found, bound = energy_distance(warm, alone)
         assert found <= bound
-    used = [sum(r.certificate.fft_pairs for r in results) for results in (path.results, cold)]
+    used = [sum(r.certificate.fft_pairs for r in results) for results in (path.steps, cold)]
     assert used[0] <= 0.9 * used[1]
 
 
@@ -164,7 +164,7 @@ def test_without_operator_one_is_prepared(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr("asperity.contact.solve.prepare_operator", counted)
     engine = asp.CpuEngine(1)
-    asp.solve_path(problem(), pressures(LOADS), engine=engine)
+    asp.solve(problem(), asp.History(pressures(LOADS)), engine=engine)
     assert made == [{"engine": engine}]
 
 
@@ -192,14 +192,14 @@ class Flaky:
 
 def test_a_failed_step_is_flagged_and_the_next_starts_from_the_last_good_one() -> None:
     solver = Flaky(at=0.1)
-    path = asp.solve_path(problem(asp.Hardness(0.4)), pressures(LOADS), solver=solver, on_failure="return")
-    assert [r.converged for r in path.results] == [True, False, True]
+    path = asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures(LOADS)), solver=solver, on_failure="return")
+    assert [r.converged for r in path.steps] == [True, False, True]
     assert not path.converged
-    assert path.results[1].status.outcome == "stagnated"
-    np.testing.assert_array_equal(solver.starts[2], path.results[0].pressure)
-    straight = asp.solve_path(problem(asp.Hardness(0.4)), pressures((0.05, 0.15)), solver=SOLVER)
+    assert path.steps[1].status.outcome == "stagnated"
+    np.testing.assert_array_equal(solver.starts[2], path.steps[0].pressure)
+    straight = asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures((0.05, 0.15))), solver=SOLVER)
     np.testing.assert_array_equal(
-        path.results[2].permanent_indentation, straight.results[1].permanent_indentation
+        path.steps[2].permanent_indentation, straight.steps[1].permanent_indentation
     )  # nothing of the failed step is left
 
 
@@ -207,14 +207,14 @@ def test_a_failed_first_step_leaves_the_given_state() -> None:
     posed = problem(asp.Hardness(0.4))
     given = asp.solve(posed, asp.MeanPressure(0.12), solver=SOLVER).state
     solver = Flaky(at=0.05)
-    path = asp.solve_path(posed, pressures((0.05, 0.06)), solver=solver, state=given, on_failure="return")
+    path = asp.solve(posed, asp.History(pressures((0.05, 0.06))), solver=solver, state=given, on_failure="return")
     assert solver.starts[1] is given.pressure
-    np.testing.assert_array_equal(path.results[1].permanent_indentation >= given.permanent_indentation, True)
+    np.testing.assert_array_equal(path.steps[1].permanent_indentation >= given.permanent_indentation, True)
 
 
 def test_a_failed_step_raises_with_its_number_and_result() -> None:
     with pytest.raises(asp.ConvergenceError, match=r"Step 2 of the history: Stagnated above .* Try another") as caught:
-        asp.solve_path(problem(), pressures(LOADS), solver=Flaky(at=0.1))
+        asp.solve(problem(), asp.History(pressures(LOADS)), solver=Flaky(at=0.1))
     assert isinstance(caught.value.result, asp.ContactResult)
     assert caught.value.result.control == asp.MeanPressure(0.1)
 
@@ -222,15 +222,15 @@ def test_a_failed_step_raises_with_its_number_and_result() -> None:
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
 def test_a_step_without_solution_raises_with_its_number(on_failure: Any) -> None:
     with pytest.raises(asp.NoSolutionError, match=r"Step 2 of the history: mean pressure must be at most"):
-        asp.solve_path(problem(asp.Hardness(0.4)), pressures((0.1, 0.5)), on_failure=on_failure)
+        asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures((0.1, 0.5))), on_failure=on_failure)
 
 
 def test_splitting_a_path_changes_nothing_beyond_the_tolerance() -> None:
     posed = problem(asp.Hardness(0.4))
-    whole = asp.solve_path(posed, pressures(LOADS), solver=SOLVER)
-    first = asp.solve_path(posed, pressures(LOADS[:2]), solver=SOLVER)
-    second = asp.solve_path(posed, pressures(LOADS[2:]), solver=SOLVER, state=first.results[-1].state)
-    found, bound = energy_distance(whole.results[-1], second.results[-1])
+    whole = asp.solve(posed, asp.History(pressures(LOADS)), solver=SOLVER)
+    first = asp.solve(posed, asp.History(pressures(LOADS[:2])), solver=SOLVER)
+    second = asp.solve(posed, asp.History(pressures(LOADS[2:])), solver=SOLVER, state=first.steps[-1].state)
+    found, bound = energy_distance(whole.steps[-1], second.steps[-1])
     assert found <= bound
 
 
@@ -252,7 +252,7 @@ def test_inputs_are_left_alone() -> None:
     posed = problem(asp.Hardness(0.4))
     state = asp.solve(posed, asp.MeanPressure(0.05)).state
     kept = state.pressure.copy(), state.permanent_indentation.copy(), posed.profile().copy()
-    asp.solve_path(posed, pressures(LOADS), state=state)
+    asp.solve(posed, asp.History(pressures(LOADS)), state=state)
     for found, wanted in zip((state.pressure, state.permanent_indentation, posed.profile()), kept, strict=True):
         np.testing.assert_array_equal(found, wanted)
 
@@ -286,7 +286,7 @@ def test_the_examples_of_the_guide() -> None:
     for block in re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
         exec(compile(block, "load-paths.md", "exec"), names)  # noqa: S102 - running the page is the test
     path = names["path"]
-    assert len(path.results) == 12
+    assert len(path.steps) == 12
     assert path.plastic_work[:10].sum() > 0.0
     assert path.plastic_work[10:].sum() <= 0.02 * path.plastic_work[:10].sum()
     np.testing.assert_allclose(names["areas"], path.area_fraction_corrected[:10], rtol=1e-3)

@@ -65,8 +65,8 @@ def test_what_cannot_be_run_through(kind, points, message):
 
 def test_the_turns_of_a_path():
     problem = asp.ContactProblem(rough((12, 10), 1), elastic(1.0), law=asp.Hardness(0.5))
-    path = asp.solve_path(problem, asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.3], steps=3))
+    path = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.3], steps=3)))
     assert path.turns == (2, 5, 8)
-    assert asp.solve_path(problem, [asp.MeanPressure(0.1)]).turns == (0,)
+    assert asp.solve(problem, asp.History([asp.MeanPressure(0.1)])).turns == (0,)
     assert path.start is None
     np.testing.assert_array_equal(path.force, path.mean_pressure * problem.grid.area)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from catalogue import rough
+from contact_cases import slid as solve_sliding
 
 import asperity as asp
-from asperity.contact.sliding import solve_sliding
 
 STEEL, COMPRESSIBLE = asp.Elastic(200e9, 0.3), asp.Elastic(70e9, 0.1)
 COATED = asp.Layered([asp.Layer(asp.Elastic(300e9, 0.2), 40e-9)], COMPRESSIBLE)
@@ -22,9 +22,9 @@ def test_without_coupling_friction_changes_nothing(body, counter_body, boundary)
     problem = asp.ContactProblem(rough(), body, counter_body=counter_body, boundary=boundary)
     slid, still = solve_sliding(problem, asp.MeanPressure(1e8), 0.5), asp.solve(problem, asp.MeanPressure(1e8))
     assert slid.converged
-    assert slid.rounds == 1
+    assert slid.certificate.rounds == 1
     np.testing.assert_allclose(slid.pressure, still.pressure, atol=1e-4 * still.max_pressure)
-    np.testing.assert_allclose(slid.shear_displacement, 0.0, atol=1e-13 * np.abs(still.displacement).max())
+    np.testing.assert_allclose(slid.sliding.shear_displacement, 0.0, atol=1e-13 * np.abs(still.displacement).max())
 
 
 @pytest.mark.parametrize("body", [COMPRESSIBLE, COATED], ids=["homogeneous", "coated"])
@@ -35,8 +35,8 @@ def test_displacement_is_that_of_pressure_and_shear_together(body, boundary):
     problem = asp.ContactProblem(rough((12, 10)), body, boundary=boundary)
     slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.4, direction=0.6)
     surface = asp.stress(slid, [0.0], displacement=True).displacement.z[0]
-    np.testing.assert_allclose(slid.contact.displacement, surface, atol=2e-6 * np.abs(surface).max())
-    gap = slid.contact.offset + surface - problem.profile()
+    np.testing.assert_allclose(slid.displacement, surface, atol=2e-6 * np.abs(surface).max())
+    gap = slid.offset + surface - problem.profile()
     assert gap.min() > -2e-6 * np.abs(surface).max()
     np.testing.assert_allclose(gap[slid.pressure > 0.0], 0.0, atol=2e-6 * np.abs(surface).max())
 
@@ -49,7 +49,7 @@ def test_turning_the_direction_round_mirrors_the_pressure():
     right, left, up = (
         solve_sliding(problem, asp.Force(5e-4), 0.5, direction=angle) for angle in (0.0, np.pi, np.pi / 2)
     )
-    largest = right.contact.max_pressure
+    largest = right.max_pressure
     np.testing.assert_allclose(left.pressure, right.pressure[::-1], atol=1e-5 * largest)
     np.testing.assert_allclose(up.pressure, right.pressure.T, atol=1e-5 * largest)
     # the body is dragged towards +x and bulges at the trailing side
@@ -94,10 +94,10 @@ def test_displacement_of_a_free_line_is_that_of_pressure_and_shear_together(body
     problem = asp.ContactProblem(profile, body, boundary=asp.FreeLine())
     slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.4, direction=0.6)
     surface = asp.stress(slid, [0.0], displacement=True).displacement.z[0]
-    np.testing.assert_allclose(slid.contact.displacement, surface, atol=2e-6 * np.abs(surface).max())
+    np.testing.assert_allclose(slid.displacement, surface, atol=2e-6 * np.abs(surface).max())
     along = solve_sliding(problem, asp.MeanPressure(1e8), 0.4 * np.cos(0.6))
-    np.testing.assert_allclose(along.pressure, slid.pressure, atol=1e-5 * slid.contact.max_pressure)
-    assert np.abs(slid.shear_displacement).max() > 0.01 * np.abs(surface).max()
+    np.testing.assert_allclose(along.pressure, slid.pressure, atol=1e-5 * slid.max_pressure)
+    assert np.abs(slid.sliding.shear_displacement).max() > 0.01 * np.abs(surface).max()
 
 
 def test_sliding_cylinder_on_a_free_line():
@@ -122,18 +122,18 @@ def test_layers_that_slip_couple_too(boundary):
     profile = asp.Surface(rough((12, 10) if boundary.name == "free" else (40, 1)).heights, 1e-7, 1e-7)
     slid = solve_sliding(asp.ContactProblem(profile, SLIPPING, boundary=boundary), asp.MeanPressure(1e8), 0.4)
     assert slid.converged
-    assert np.abs(slid.shear_displacement).max() > 0.0
+    assert np.abs(slid.sliding.shear_displacement).max() > 0.0
     asp.stress(slid, [20e-9])
 
 
 def test_prescribed_approach_counts_from_the_true_surfaces():
     problem = asp.ContactProblem(rough(), COMPRESSIBLE, boundary=asp.Free())
     loaded = solve_sliding(problem, asp.MeanPressure(1e8), 0.5)
-    again = solve_sliding(problem, asp.Approach(loaded.contact.approach), 0.5)
-    assert again.contact.mean_pressure == pytest.approx(1e8, rel=1e-5)
-    assert again.contact.approach == pytest.approx(loaded.contact.approach, rel=1e-6)
-    assert again.contact.control == asp.Approach(loaded.contact.approach)
-    assert again.problem is problem
+    again = solve_sliding(problem, asp.Approach(loaded.approach), 0.5)
+    assert again.mean_pressure == pytest.approx(1e8, rel=1e-5)
+    assert again.approach == pytest.approx(loaded.approach, rel=1e-6)
+    assert again.control == asp.Approach(loaded.approach)
+    assert again.problem.surface is problem.surface
 
 
 def test_a_pressure_that_does_not_settle_is_said_so():
@@ -160,7 +160,7 @@ def test_progress_counts_the_iterations_of_all_rounds():
     slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.5, progress=Heard(), engine=engine)
     iterations, errors, tolerances = map(np.array, zip(*heard, strict=True))
     assert np.all(np.diff(iterations) >= 0)
-    assert iterations[-1] >= slid.rounds
+    assert iterations[-1] >= slid.certificate.rounds
     assert errors[-1] <= tolerances[-1] == 1e-12
     np.testing.assert_allclose(slid.pressure, solve_sliding(problem, asp.MeanPressure(1e8), 0.5).pressure, rtol=1e-12)
 
@@ -168,11 +168,11 @@ def test_progress_counts_the_iterations_of_all_rounds():
 def test_permanent_indentation_is_kept_once_not_once_per_round():
     problem = asp.ContactProblem(rough(), COMPRESSIBLE, law=asp.Hardness(0.6e9))
     slid = solve_sliding(problem, asp.MeanPressure(1.5e8), 0.4)
-    assert slid.contact.plastic_area_fraction > 0.01
-    surface = slid.contact.offset + slid.contact.displacement - problem.profile() + slid.contact.permanent_indentation
-    np.testing.assert_allclose(np.maximum(surface, 0.0), slid.contact.gap, atol=1e-6 * np.ptp(problem.profile()))
-    on = solve_sliding(problem, asp.MeanPressure(2e8), 0.4, state=slid.contact.state).contact
-    assert on.total_plastic_work == pytest.approx(slid.contact.plastic_work + on.plastic_work, rel=1e-12)
+    assert slid.plastic_area_fraction > 0.01
+    surface = slid.offset + slid.displacement - problem.profile() + slid.permanent_indentation
+    np.testing.assert_allclose(np.maximum(surface, 0.0), slid.gap, atol=1e-6 * np.ptp(problem.profile()))
+    on = solve_sliding(problem, asp.MeanPressure(2e8), 0.4, state=slid.state)
+    assert on.total_plastic_work == pytest.approx(slid.plastic_work + on.plastic_work, rel=1e-12)
     assert on.total_plastic_work == pytest.approx(0.6e9 * on.plastic_volume, rel=1e-9)
 
 

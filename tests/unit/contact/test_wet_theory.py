@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from contact_cases import wetted
 
 import asperity as asp
 from asperity.theories.rough.kotwal_bhushan import KotwalBhushan
@@ -29,8 +30,12 @@ def film(thickness: float, **options) -> asp.LiquidFilm:
     return asp.LiquidFilm(surface_tension=0.025, thickness=thickness, **options)
 
 
+def with_film(result: asp.ContactResult, film: asp.LiquidFilm) -> asp.ContactResult:
+    return replace(result, couplings={"menisci": replace(result.menisci, film=film)})
+
+
 def test_it_is_the_closed_theory_of_the_summits_of_the_map(problem):
-    wet = asp.solve_wet(problem, LOAD, film(2.0 * NM, contact_angles=(math.radians(10.0), 0.0)))
+    wet = wetted(problem, LOAD, film(2.0 * NM, contact_angles=(math.radians(10.0), 0.0)))
     found = asp.wet_theory(wet)
     summits = KotwalBhushan.from_roughness(asp.roughness_of(problem.surface), problem.contact_modulus)
     theory = StatisticalMeniscus(summits.greenwood_williamson, 0.025, 2.0 * NM, math.radians(10.0))
@@ -38,19 +43,19 @@ def test_it_is_the_closed_theory_of_the_summits_of_the_map(problem):
     assert found.meniscus_force == pytest.approx(direct, rel=1e-12)
     assert 0.0 < found.meniscus_force < theory.largest * problem.grid.area
     # each of the two models is off by a factor of order one, and both are about the same thing
-    assert 0.2 < found.meniscus_force / wet.meniscus_force < 5.0
+    assert 0.2 < found.meniscus_force / wet.menisci.meniscus_force < 5.0
 
 
 def test_two_angles_count_by_the_sum_of_their_cosines(problem):
     """cos 60° + cos 60° = 1 + cos 90°."""
-    both = asp.solve_wet(problem, LOAD, film(NM, contact_angles=(math.pi / 3.0, math.pi / 3.0)))
-    one = replace(both, film=film(NM, contact_angles=(math.pi / 2.0, 0.0)))
+    both = wetted(problem, LOAD, film(NM, contact_angles=(math.pi / 3.0, math.pi / 3.0)))
+    one = with_film(both, film(NM, contact_angles=(math.pi / 2.0, 0.0)))
     assert asp.wet_theory(both).meniscus_force == pytest.approx(asp.wet_theory(one).meniscus_force, rel=1e-9)
 
 
 def test_the_force_rises_from_contact_to_equilibrium(problem):
     """At first, menisci as high as the film pull summits near it less; in the end all pull with the full force."""
-    wet = asp.solve_wet(problem, LOAD, film(2.0 * NM, viscosity=0.01))
+    wet = wetted(problem, LOAD, film(2.0 * NM, viscosity=0.01))
     found = asp.wet_theory(wet)
     assert 0.0 < found.first_force < found.meniscus_force
     assert found.growth is not None
@@ -60,9 +65,9 @@ def test_the_force_rises_from_contact_to_equilibrium(problem):
 
 def test_no_growth_without_viscosity_or_from_a_film_that_holds_its_liquid(problem):
     """Disjoining pressure of 0.1 nm: 1e-19/(6π 1e-30) = 5 GPa, ten times the suction of a meniscus of that height."""
-    wet = asp.solve_wet(problem, LOAD, film(NM))
+    wet = wetted(problem, LOAD, film(NM))
     assert asp.wet_theory(wet).growth is None
-    thin = replace(wet, film=film(0.1 * NM, viscosity=0.01))
+    thin = with_film(wet, film(0.1 * NM, viscosity=0.01))
     assert asp.wet_theory(thin).growth is None
     assert math.isnan(asp.wet_theory(thin).first_force)
 
@@ -73,8 +78,8 @@ def test_there_is_no_theory_without_summits_or_load(problem):
         asp.Surface(-np.add.outer(x**2, x**2) / 2e-6, 10 * NM), asp.Elastic(100e9, 0.3), boundary=asp.Free()
     )
     with pytest.raises(asp.InputError, match="at least 20 summits"):
-        asp.wet_theory(asp.solve_wet(ball, asp.Force(1e-7), film(NM)))
-    apart = asp.solve_wet(problem, asp.MeanGap(5.8 * NM), film(2.0 * NM))
+        asp.wet_theory(wetted(ball, asp.Force(1e-7), film(NM)))
+    apart = wetted(problem, asp.MeanGap(5.8 * NM), film(2.0 * NM))
     assert apart.external_force <= 0.0
     with pytest.raises(asp.InputError, match="external force"):
         asp.wet_theory(apart)

@@ -17,63 +17,63 @@ from asperity.io.words import FIELDS
 
 
 @pytest.fixture(scope="module")
-def path() -> asp.LoadPath:
+def path() -> asp.HistoryResult:
     noise = np.random.default_rng(7).standard_normal((16, 12))
     heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
     surface = asp.Surface(heights, 2e-8, 1e-8, periodic=True)
     strong, soft = (asp.Elastic(1e11, 0.3, asp.Strength(hardness=h)) for h in (6e9, 3e9))
     body = asp.Layered([asp.Layer(strong, 2e-9)], soft)
     problem = asp.ContactProblem(surface, body, law=asp.LayeredHardness(body))
-    return asp.solve_path(problem, asp.ramps(asp.MeanPressure, [8e8, 0.0], steps=3))
+    return asp.solve(problem, asp.History.ramps(asp.MeanPressure, [8e8, 0.0], steps=3))
 
 
-def test_every_step_is_in_the_file(path: asp.LoadPath, tmp_path: Path) -> None:
+def test_every_step_is_in_the_file(path: asp.HistoryResult, tmp_path: Path) -> None:
     asp.save(path, tmp_path / "path.nc", document="version = 1")
     data = asp.open_tree(tmp_path / "path.nc")["path"].to_dataset()
     assert {dim: data.sizes[dim] for dim in ("step", "x", "y")} == {"step": 6, "x": 16, "y": 12}
     assert asp.open_tree(tmp_path / "path.nc").attrs["document"] == "version = 1"
     for item in FIELDS:
         assert data[item.name].attrs["units"] == item.unit
-        for step, result in enumerate(path.results):
+        for step, result in enumerate(path.steps):
             np.testing.assert_array_equal(data[item.name][step], getattr(result, item.name))
     for item in SCALARS:
-        np.testing.assert_array_equal(data[item.name], [getattr(r, item.name) for r in path.results])
-    balance = asp.energy_balance(path)
+        np.testing.assert_array_equal(data[item.name], [getattr(r, item.name) for r in path.steps])
+    balance = path.energies
     np.testing.assert_array_equal(data["path_external_work"], balance.external_work)
     np.testing.assert_array_equal(data["path_residual"], balance.residual)
     assert data["converged"].all()
     controls = [rebuild(json.loads(text)) for text in data["control"].values]
-    assert controls == [result.control for result in path.results]
+    assert controls == [result.control for result in path.steps]
     assert all("units" in data[name].attrs for name in data.data_vars)
     with pytest.raises(OutputError):
         asp.save(path, tmp_path / "path.nc")
 
 
-def test_a_path_is_read_back_whole(path: asp.LoadPath, tmp_path: Path) -> None:
+def test_a_path_is_read_back_whole(path: asp.HistoryResult, tmp_path: Path) -> None:
     asp.save(path, tmp_path / "path.nc")
     again = asp.load(tmp_path / "path.nc")
-    assert len(again.results) == len(path.results)
-    for found, result in zip(again.results, path.results, strict=True):
+    assert len(again.steps) == len(path.steps)
+    for found, result in zip(again.steps, path.steps, strict=True):
         assert (found.control, found.status, found.certificate) == (result.control, result.status, result.certificate)
         for item in (*SCALARS, *FIELDS):
             np.testing.assert_array_equal(getattr(found, item.name), getattr(result, item.name))
         np.testing.assert_array_equal(found.plastic, result.plastic)
         np.testing.assert_array_equal(found.spot_areas, result.spot_areas)
-    np.testing.assert_array_equal(asp.energy_balance(again).residual, asp.energy_balance(path).residual)
+    np.testing.assert_array_equal(again.energies.residual, path.energies.residual)
 
 
-def test_the_table_has_a_row_for_each_step(path: asp.LoadPath, tmp_path: Path) -> None:
+def test_the_table_has_a_row_for_each_step(path: asp.HistoryResult, tmp_path: Path) -> None:
     asp.export_csv(path, tmp_path / "path.csv")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["step"] for row in rows] == ["1", "2", "3", "4", "5", "6"]
-    assert [float(row["plastic_volume (m**3)"]) for row in rows] == [r.plastic_volume for r in path.results]
+    assert [float(row["plastic_volume (m**3)"]) for row in rows] == [r.plastic_volume for r in path.steps]
     assert [float(row["path_plastic_work (J)"]) for row in rows] == list(np.cumsum(path.plastic_work))
     assert {row["converged"] for row in rows} == {"True"}
 
 
-def test_a_result_of_a_path_is_read_back(path: asp.LoadPath, tmp_path: Path) -> None:
-    for number, result in enumerate((path.results[2], path.results[-1])):
+def test_a_result_of_a_path_is_read_back(path: asp.HistoryResult, tmp_path: Path) -> None:
+    for number, result in enumerate((path.steps[2], path.steps[-1])):
         asp.save(result, tmp_path / f"{number}.nc")
         again = asp.load(tmp_path / f"{number}.nc")
         assert again.control == result.control

@@ -13,13 +13,13 @@ from asperity import plots
 
 
 @pytest.fixture(scope="module")
-def path() -> asp.LoadPath:
+def path() -> asp.HistoryResult:
     noise = np.random.default_rng(7).standard_normal((24, 16))
     heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
     problem = asp.ContactProblem(
         asp.Surface(heights, 2e-8, 1e-8, periodic=True), asp.Elastic(1e11, 0.3), law=asp.Hardness(3e9)
     )
-    return asp.solve_path(problem, asp.ramps(asp.MeanPressure, [4e8, 0.0, 5e8], steps=3))
+    return asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0, 5e8], steps=3)))
 
 
 def axes():
@@ -52,8 +52,8 @@ def test_area_against_load(path):
 
 
 def test_a_path_that_goes_on_starts_with_its_first_step(path):
-    rest = asp.solve_path(
-        path.results[0].problem, [asp.MeanPressure(2e8), asp.MeanPressure(1e8)], state=path.results[-1].state
+    rest = asp.solve(
+        path.steps[0].problem, asp.History([asp.MeanPressure(2e8), asp.MeanPressure(1e8)]), state=path.steps[-1].state
     )
     ((name, x, _),) = lines(plots.plot_area_loop(rest, axes()))
     assert name == "unloading"
@@ -62,7 +62,7 @@ def test_a_path_that_goes_on_starts_with_its_first_step(path):
 
 def test_energies(path):
     found = {name: y for name, _, y in lines(plots.plot_energies(path, axes()))}
-    balance = asp.energy_balance(path)
+    balance = path.energies
     scale = found["plastic work"][-1] / balance.plastic_work[-1]
     np.testing.assert_allclose(found["external work ∫F dδ"], scale * balance.external_work)
     np.testing.assert_allclose(found["elastic energy"], scale * balance.elastic_energy)
@@ -70,7 +70,7 @@ def test_energies(path):
 
 
 def test_plastic_zone_and_residual_surface(path):
-    result = path.results[-1]
+    result = path.steps[-1]
     zone = np.ma.filled(plots.plot_indentation(result, axes()).images[0].get_array(), np.nan).T
     np.testing.assert_array_equal(np.isnan(zone), ~result.indented)
     np.testing.assert_allclose(np.nanmax(zone), result.max_permanent_indentation * 1e9, rtol=1e-9)
@@ -81,7 +81,7 @@ def test_plastic_zone_and_residual_surface(path):
 
 def test_only_indented_results_have_figures_of_it(path, elastic, tmp_path: Path):
     names = {plot.name for plot in plots.PLASTIC_PLOTS}
-    plastic = {file.stem for file in asp.save_plots(path.results[-1], tmp_path / "a")}
+    plastic = {file.stem for file in asp.save_plots(path.steps[-1], tmp_path / "a")}
     assert names <= plastic
     assert {file.stem for file in asp.save_plots(elastic, tmp_path / "b")} == plastic - names
 

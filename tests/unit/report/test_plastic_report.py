@@ -24,8 +24,8 @@ def posed(law: asp.Hardness | asp.HardWall) -> asp.ContactProblem:
 
 
 @pytest.fixture(scope="module")
-def path() -> asp.LoadPath:
-    return asp.solve_path(posed(asp.Hardness(3e9)), asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=4))
+def path() -> asp.HistoryResult:
+    return asp.solve(posed(asp.Hardness(3e9)), asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=4)))
 
 
 def page(tmp_path: Path, answer: asp.ContactResult | asp.Outcome) -> str:
@@ -33,8 +33,8 @@ def page(tmp_path: Path, answer: asp.ContactResult | asp.Outcome) -> str:
     return (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
-def test_a_path_is_reported(path: asp.LoadPath, tmp_path: Path) -> None:
-    text = page(tmp_path, analysed(path.results[-1], {"path": True, "plasticity": True}, path))
+def test_a_path_is_reported(path: asp.HistoryResult, tmp_path: Path) -> None:
+    text = page(tmp_path, analysed(path.steps[-1], {"path": True, "plasticity": True}, path))
     for words in (
         "Plastic deformation",
         "Load path",
@@ -53,7 +53,7 @@ def test_an_elastic_contact_has_no_such_part(tmp_path: Path) -> None:
     assert "Load path" not in text
 
 
-def test_tables_hold_the_turns(path: asp.LoadPath) -> None:
+def test_tables_hold_the_turns(path: asp.HistoryResult) -> None:
     turns, energies = turn_table(path), energy_table(path)
     assert [cells[0] for cells in turns.cells] == [cells[0] for cells in energies.cells] == ["4", "8"]
     assert turns.cells[0][1] == "400 MPa"
@@ -63,8 +63,8 @@ def test_tables_hold_the_turns(path: asp.LoadPath) -> None:
     assert energies.cells[1][2] == "0 J"
 
 
-def test_rows_and_summary(path: asp.LoadPath) -> None:
-    top, last = path.results[3], path.results[-1]
+def test_rows_and_summary(path: asp.HistoryResult) -> None:
+    top, last = path.steps[3], path.steps[-1]
     rows = dict(plastic_rows(top))
     assert "plastic: more than 2 %" in rows["plastic area under this load / real area"]
     assert "µm²" in rows["area ever plastic"] or "nm²" in rows["area ever plastic"]
@@ -77,15 +77,15 @@ def test_rows_and_summary(path: asp.LoadPath) -> None:
     assert "indented for good" in summary(lighter)
 
 
-def test_steps_that_failed_are_named(path: asp.LoadPath) -> None:
-    failed = replace(path.results[2], status=Status(Outcome.STAGNATED, "Stuck.", "Try."))
-    broken = asp.LoadPath((*path.results[:2], failed, *path.results[3:]))
+def test_steps_that_failed_are_named(path: asp.HistoryResult) -> None:
+    failed = replace(path.steps[2], status=Status(Outcome.STAGNATED, "Stuck.", "Try."))
+    broken = asp.HistoryResult((*path.steps[:2], failed, *path.steps[3:]))
     assert path_sentence(broken).endswith("Not converged: step 3.")
     assert "Not converged" not in path_sentence(path)
 
 
-def test_the_plastic_load_is_reported(path: asp.LoadPath, tmp_path: Path) -> None:
-    result = path.results[0]
+def test_the_plastic_load_is_reported(path: asp.HistoryResult, tmp_path: Path) -> None:
+    result = path.steps[0]
     found = asp.plastic_load(result.problem)
     label, text = plastic_load_row(found)
     assert label == "first load at which 2 % of the real area is plastic"

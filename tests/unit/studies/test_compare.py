@@ -88,10 +88,10 @@ def test_curves_are_those_of_the_theories_and_of_a_load_path(film, compared):
     for name in ("bush-gibson-thomas", "discrete-summits", "persson", "interacting-crests"):
         alone = theory(name).from_roughness(roughness, E_STAR).at_pressure(compared.pressures)
         np.testing.assert_array_equal(compared.curve(name).prediction.area_fraction, alone.area_fraction)
-    path = asp.solve_path(asp.ContactProblem(film, STEEL), [asp.MeanPressure(p) for p in compared.pressures])
+    path = asp.solve(asp.ContactProblem(film, STEEL), asp.History([asp.MeanPressure(p) for p in compared.pressures]))
     np.testing.assert_allclose(compared.numerical.area_fraction_corrected, path.area_fraction_corrected, rtol=1e-12)
     np.testing.assert_allclose(compared.numerical.mean_gap, path.mean_gap, rtol=1e-12)
-    spots = [result.n_spots / math.prod(film.size) for result in path.results]
+    spots = [result.n_spots / math.prod(film.size) for result in path.steps]
     np.testing.assert_allclose(compared.numerical.contact_density, spots)
 
 

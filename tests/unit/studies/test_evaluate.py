@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from contact_cases import slid
 from study_cases import LOADS, PROBLEM, SEEDS, InProcess, plan
 
 import asperity as asp
@@ -103,10 +105,10 @@ def test_coupled_sliding_is_solved_as_on_its_own(tmp_path):
     problem = {**PROBLEM, "stress": stress, "body": "E=100GPa,nu=0.2"}
     data = collected(tmp_path, problem=problem, axes=[{**LOADS, "values": ["2 MPa"]}], quantities=["approach"])
     case = build(checked(problem))
-    slid = asp.solve_sliding(case.problem, case.control, 0.5).contact
-    assert float(data["approach"][0]) == pytest.approx(slid.approach, rel=1e-9, abs=0.0)
+    alone = slid(case.problem, case.control, 0.5)
+    assert float(data["approach"][0]) == pytest.approx(alone.approach, rel=1e-9, abs=0.0)
     assert float(data["approach"][0]) != pytest.approx(
-        asp.solve(case.problem, case.control).approach, rel=1e-4, abs=0.0
+        asp.solve(replace(case.problem, friction=None), case.control).approach, rel=1e-4, abs=0.0
     )
 
 
@@ -251,9 +253,9 @@ def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):
     peaks = {"path": "control.path.mean_pressure.0", "values": ["5 MPa", "20 MPa"], "name": "peak"}
     data = collected(tmp_path, problem=problem, axes=[peaks], quantities=["max_permanent_indentation", "mean_pressure"])
     case = build(checked(problem))
-    path = asp.solve_path(case.problem, case.path, solver=case.solver)
+    path = asp.solve(case.problem, asp.History(case.path), solver=case.solver)
     assert float(data["max_permanent_indentation"][1]) == pytest.approx(
-        path.results[-1].max_permanent_indentation, rel=3.0 * TOLERANCE**0.5, abs=0.0
+        path.steps[-1].max_permanent_indentation, rel=3.0 * TOLERANCE**0.5, abs=0.0
     )
     np.testing.assert_allclose(data["mean_pressure"], 1e6, rtol=1e-6)
     assert 0.0 < float(data["max_permanent_indentation"][0]) < float(data["max_permanent_indentation"][1])

@@ -6,6 +6,7 @@ import importlib
 
 import numpy as np
 import pytest
+from contact_cases import wetted
 from study_cases import InProcess, plan
 
 import asperity as asp
@@ -46,11 +47,11 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
     for number, humidity in enumerate(humidities):
         case = build(checked(replaced(WET, ("film", "humidity"), humidity)))
         film = case.asks["film"]
-        alone = asp.solve_wet(case.problem, case.control, film.film, friction=film.friction, solver=case.solver)
-        assert float(data["meniscus_force"][number]) == alone.meniscus_force
+        alone = wetted(case.problem, case.control, film.film, friction=film.friction, solver=case.solver)
+        assert float(data["meniscus_force"][number]) == alone.menisci.meniscus_force
         theory = asp.wet_theory(alone).meniscus_force
         assert float(data["statistical_meniscus_force"][number]) == pytest.approx(theory, rel=1e-12)
-        assert float(data["static_friction"][number]) == pytest.approx(alone.static_friction, rel=1e-12)
+        assert float(data["static_friction"][number]) == pytest.approx(alone.menisci.static_friction, rel=1e-12)
 
 
 def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path, monkeypatch):
@@ -70,12 +71,10 @@ def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path
     data = dataset(made, tmp_path / "r.log")
     for number, load in enumerate(loads):
         case = build(checked(replaced(WET, ("control", "mean_pressure"), load)))
-        alone = asp.solve_wet(
-            case.problem, case.control, case.asks["film"].film, solver=case.solver, operator=prepared[0]
-        )
-        pixels = 2.0 * alone.suction * case.problem.grid.pixel_area
+        alone = wetted(case.problem, case.control, case.asks["film"].film, solver=case.solver, operator=prepared[0])
+        pixels = 2.0 * alone.menisci.suction * case.problem.grid.pixel_area
         slack = 1e-4 * alone.external_force + pixels
-        assert float(data["meniscus_force"][number]) == pytest.approx(alone.meniscus_force, abs=slack, rel=0.0)
+        assert float(data["meniscus_force"][number]) == pytest.approx(alone.menisci.meniscus_force, abs=slack, rel=0.0)
     assert len(prepared) == 1
 
 

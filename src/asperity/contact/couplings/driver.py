@@ -185,6 +185,7 @@ class _Iteration:
         tolerance = self._next_tolerance(np.inf, self.active)
         lowest, progressed = np.inf, 0
         for count in range(1, self.rounds.most + 1):
+            tolerance = self.finest if count == self.rounds.most else tolerance
             contact = self._solved(self._posed(), tolerance)
             if not contact.solution.status.converged:
                 return self._ended(contact, count, contact.solution.status)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ...core.settings import Settings, setting
 from ...core.values import Angle, Number, Speed
 from ..part import Part
+
+if TYPE_CHECKING:
+    from ...contact.laws import Coulomb
 
 Coefficient = Annotated[float, Number(least=0.0, fix="Turn the direction by 180 deg instead.")]
 
@@ -24,6 +27,13 @@ class FrictionSettings(Settings):
     speed: Speed | None = setting(
         None, option="--speed", help="Sliding speed, for the viscous part of the friction of a film: 1mm/s"
     )
+
+
+def coulomb(settings: FrictionSettings) -> Coulomb:
+    """Friction of the problem with these ``settings``."""
+    from ...contact.laws import Coulomb
+
+    return Coulomb(settings.coefficient, settings.direction, settings.speed or 0.0, settings.coupled)
 
 
 class Friction(Part):
@@ -42,4 +52,4 @@ class Friction(Part):
 
     def coupling(self, ask: FrictionSettings) -> Mapping[str, Any]:
         """Sliding joins the solve."""
-        return {"sliding": ask}
+        return {"friction": coulomb(ask)}

@@ -32,16 +32,14 @@ class LoadPath(Part):
         """Scalars and energies of the steps, if these were kept."""
         import numpy as np
 
-        from ...contact.energy import energy_balance
-
         if solved.path is None:
             return Found()
-        balance, values = energy_balance(solved.path), {}
+        balance, values = solved.path.energies, {}
         for item in self.quantities:
             if item.name.startswith("path_"):
                 values[item.name] = getattr(balance, item.name.removeprefix("path_"))
             else:
-                values[item.name] = np.array([getattr(step, item.name) for step in solved.path.results])
+                values[item.name] = np.array([getattr(step, item.name) for step in solved.path.steps])
         return Found(values, solved.path)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:

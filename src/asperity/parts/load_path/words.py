@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from ...contact.energy import energy_balance
-from ...contact.path import LoadPath
+from ...contact.history import HistoryResult
 from ...core.units import percent, show
 from ..part import Table, Words
 
 
-def words(path: LoadPath) -> Words:
+def words(path: HistoryResult) -> Words:
     """Where the load turns, and where its work goes."""
     tables = (("Where the load turns", turn_table(path)), ("Energies from the start of the path", energy_table(path)))
     return Words(path_sentence(path), tables=tables, alarming=not path.converged)
 
 
-def turn_table(path: LoadPath) -> Table:
+def turn_table(path: HistoryResult) -> Table:
     """State of the contact wherever the load of ``path`` turns, and at its end."""
     cells = []
     for step in path.turns:
-        result = path.results[step]
+        result = path.steps[step]
         cells.append(
             (
                 f"{step + 1}",
@@ -42,9 +41,9 @@ def turn_table(path: LoadPath) -> Table:
     return Table(headings, tuple(cells))
 
 
-def energy_table(path: LoadPath) -> Table:
+def energy_table(path: HistoryResult) -> Table:
     """Energies along ``path`` wherever its load turns, and at its end."""
-    balance = energy_balance(path)
+    balance = path.energies
     rounding = 1e-12 * float(abs(balance.external_work).max())
     cells = []
     for step in path.turns:
@@ -55,12 +54,12 @@ def energy_table(path: LoadPath) -> Table:
     return Table(headings, tuple(cells))
 
 
-def path_sentence(path: LoadPath) -> str:
+def path_sentence(path: HistoryResult) -> str:
     """One sentence on the ``path``: its steps, and how well the energies add up."""
-    failed = [number for number, result in enumerate(path.results, start=1) if not result.converged]
+    failed = [number for number, result in enumerate(path.steps, start=1) if not result.converged]
     text = (
-        f"The load ran through {len(path.results)} steps, each from the interface the last one left. External work and the sum "
-        f"of elastic energy and plastic work differ by at most {percent(energy_balance(path).relative_error, 2)} of the largest "
+        f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
+        f"of elastic energy and plastic work differ by at most {percent(path.energies.relative_error, 2)} of the largest "
         "work, by the error of the trapezoidal rule; more steps reduce it."
     )
     if failed:

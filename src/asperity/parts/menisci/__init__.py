@@ -14,10 +14,11 @@ from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Angle, Humidity, Length, NonEmpty, Pressure, SurfaceTension, Viscosity
+from ..friction import coulomb
 from ..part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
-    from ...contact.wet import Friction
+    from ...contact.laws import Coulomb
     from ...contact.wetting import LiquidFilm
     from ...plots.picture import Figure
 
@@ -73,7 +74,7 @@ class Wetted:
     """The film that is asked for, and its friction."""
 
     film: LiquidFilm
-    friction: Friction
+    friction: Coulomb
 
 
 class Menisci(Part):
@@ -87,7 +88,7 @@ class Menisci(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars of a wet contact."""
-        from ...contact.wet_result import WET_SCALARS
+        from ...contact.result import WET_SCALARS
 
         return WET_SCALARS
 
@@ -95,35 +96,31 @@ class Menisci(Part):
         """The film of the table [film], with the friction of the table [friction]."""
         if document.film is None:
             return None
-        from ...contact.wet import Friction
-
-        speed = document.friction.speed
-        return Wetted(_film(document.film, folder), Friction(document.friction.coefficient, speed or 0.0))
+        return Wetted(_film(document.film, folder), coulomb(document.friction))
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""
-        return {"film": ask}
+        return {"film": ask.film, "friction": ask.friction}
 
     def compute(self, ask: Wetted, solved: Solved) -> Found:
         """Scalars of the menisci."""
-        from ...contact.wet_advice import review_wet
-        from ...contact.wet_result import WET_SCALARS
+        from ...contact.result import WET_SCALARS
 
-        wet = solved.coupled["film"]
-        values = {q.name: getattr(wet, q.name) for q in WET_SCALARS}
-        return Found(values, wet, review_wet(wet), wet.citation_keys, wet.status)
+        menisci = solved.result.require_menisci()
+        values = {q.name: getattr(menisci, q.name) for q in WET_SCALARS}
+        return Found(values, menisci, (), menisci.citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of the menisci."""
         from ...plots.contact import wet_figures
 
-        return wet_figures(found.detail)
+        return wet_figures(solved.result)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Liquid, menisci and friction."""
         from .words import words
 
-        return words(found.detail)
+        return words(found.detail, solved.control)
 
 
 class WetTheory(Part):
@@ -139,7 +136,7 @@ class WetTheory(Part):
         from ...contact.wet_theory import wet_theory
 
         try:
-            theory = wet_theory(solved.found["film"].detail)
+            theory = wet_theory(solved.result)
         except InputError as error:
             return Found({"statistical_meniscus_force": math.nan}, str(error))
         return Found({"statistical_meniscus_force": theory.meniscus_force}, theory, (), theory.citation_keys)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from ...contact.wet_result import WET_SCALARS, WetContactResult
+from ...contact.control import Control
+from ...contact.couplings.menisci import Menisci
+from ...contact.result import WET_SCALARS
 from ...contact.wet_theory import HAMAKER, WetTheory
 from ...core.units import percent, show
 from ...io.words import value_text
@@ -33,23 +35,23 @@ THEORY_REMARK = (
 """What the theory of summits is, and why it differs."""
 
 
-def words(result: WetContactResult) -> Words:
+def words(result: Menisci, control: Control) -> Words:
     """Liquid, menisci and friction."""
     cells = tuple(wet_rows(result))
     return Words(
         wet_sentence(result),
-        rows=film_rows(result),
+        rows=film_rows(result, control),
         tables=(("", Table(("Quantity", "Value"), cells)),),
         remarks=(REMARK,),
     )
 
 
-def theory_words(found: WetTheory | str, result: WetContactResult) -> Words:
+def theory_words(found: WetTheory | str, result: Menisci) -> Words:
     """What the theory of summits says beside the ``result`` on the map, or why it says nothing."""
     return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
 
 
-def theory_rows(found: WetTheory | str, result: WetContactResult) -> Rows:
+def theory_rows(found: WetTheory | str, result: Menisci) -> Rows:
     """Statistical and kinetic menisci beside the ``result`` on the map."""
     if isinstance(found, str):
         return [("no statistical theory", found)] if found else []
@@ -84,11 +86,10 @@ def _over(force: float, other: float) -> str:
     return f"{force / other:.3g}" if other > 0.0 else "–"
 
 
-def film_rows(result: WetContactResult) -> Rows:
+def film_rows(result: Menisci, control: Control) -> Rows:
     """Liquid and film."""
     film = result.film
     angles = " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)
-    control = result.control
     rows = [
         (f"prescribed {control.name}", show(control.value, control.unit)),
         ("surface tension", show(film.surface_tension, "N/m")),
@@ -100,7 +101,7 @@ def film_rows(result: WetContactResult) -> Rows:
     return rows
 
 
-def wet_rows(result: WetContactResult) -> Rows:
+def wet_rows(result: Menisci) -> Rows:
     """Every scalar of the menisci, and the regime; without friction where none was given."""
     regime = result.wetting.regime
     rows = [("regime", f"{regime}: {REGIMES[regime]}")]
@@ -111,7 +112,7 @@ def wet_rows(result: WetContactResult) -> Rows:
     return rows
 
 
-def wet_sentence(result: WetContactResult) -> str:
+def wet_sentence(result: Menisci) -> str:
     """One sentence on the menisci."""
     if result.wetting.regime == "dry":
         return "No liquid bridges the gap: the contact is dry."
