@@ -16,7 +16,6 @@ from ..contact.laws import LimitByDepth
 from ..contact.measure import distribution
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
-from ..core.errors import InputError
 from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface

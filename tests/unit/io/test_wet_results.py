@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from contact_cases import wetted
 
 import asperity as asp
