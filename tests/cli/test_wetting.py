@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import Runner
-
 from contact_cases import wetted
 
 import asperity as asp
