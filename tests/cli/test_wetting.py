@@ -135,7 +135,6 @@ def test_every_option_of_the_film_reaches_the_document(run: Runner, scan: Path, 
         (("--liquid", "water", "--film", "1nm", "--contact-angle", "1deg,2deg,3deg"), "one or two angles"),
         (("--liquid", "water", "--film", "1nm", "--contact-angle", "120deg,80deg"), "no meniscus forms"),
         (("--liquid", "PFPE", "--film", "1nm", "--speed", "1mm/s"), "viscosity of the liquid must be known"),
-        (("--liquid", "PFPE", "--film", "1nm", "--coupled", "--friction", "0.3"), "not solved together"),
     ],
 )
 def test_films_that_cannot_be_used_are_refused(run: Runner, scan: Path, options: tuple[str, ...], message: str) -> None:

@@ -314,6 +314,7 @@ def _with_film(node: Node, contact: ContactResult) -> ContactResult:
         problem=replace(contact.problem, film=film, friction=friction),
         control=rebuild(json.loads(attributes["control"])),
         status=status_from(attributes),
+        certificate=replace(contact.certificate, rounds=int(attributes["stored_rounds"])),
         couplings={"menisci": Menisci(film, stands, **stored)},
         memory={"menisci": {"force": np.asarray(stored["meniscus_force"])}},
     )
