@@ -8,7 +8,6 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
 from ..io.results import (
@@ -59,9 +58,7 @@ def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
 
 def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "") -> Node:
     """Tree of ``outcome``."""
-    details = {name: found.detail for name, found in outcome.found.items()}
-    result = outcome.path or details.get("film") or outcome.result
-    groups = dict(result_tree(result).children)
+    groups = dict(result_tree(outcome.path or outcome.result).children)
     for part in parts():
         if part.name in outcome.found:
             groups[part.name] = _group(part, outcome, groups.get(part.name, Node()))
@@ -92,11 +89,12 @@ def load_outcome(path: str | Path) -> Outcome:
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
         outcome = analysed(contact, asks, course)
-        if "film" not in groups or (isinstance(answer, ContactResult) and answer.menisci is None):
+        if contact.menisci is None:
             return outcome
-        return replace(outcome, found={**outcome.found, "film": Found({}, answer, citation_keys=answer.citation_keys)})
+        film = Found({}, contact.menisci, citation_keys=contact.menisci.citation_keys)
+        return replace(outcome, found={**outcome.found, "film": film})
     solved = Solved(contact.problem, contact.control, contact, course)
-    known = {"film": answer, "path": course}
+    known = {"film": contact.menisci, "path": course}
     found = {
         part.name: _found(part, groups[part.name], solved, known.get(part.name))
         for part in parts()
