@@ -33,8 +33,7 @@ def plot(
     from .show import print_files
 
     outcome = load_outcome(file)
-    film = outcome.found["film"].detail if "film" in outcome.found else None
-    found = figures_of(outcome.path or film or outcome.result)
+    found = figures_of(outcome.path or outcome.result)
     if kind not in found:
         figures = (figure for figures in outcome.figures.values() for figure in figures)
         found = {**{figure.name: partial(bytes, figure.picture) for figure in figures}, **found}
