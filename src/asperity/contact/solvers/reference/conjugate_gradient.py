@@ -22,6 +22,7 @@ from ..protocol import (
 from .steepest_descent import descend, levelling_step
 
 _ROUNDING = 1e-13
+"""Relative rise of the energy that counts as none: the rounding of sums over some 10⁵ points."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -219,9 +219,9 @@ class DenseActiveSet:
         found, used = all_at_once(dense, start, limit)
         x: RealArray | None = None if found is None else found.x
         if found is None and used < limit:
-            x, more, finished = one_by_one(dense, start, limit - used)
-            used += more
-            if not finished:  # feasible and better than the start, but the limit must be what is reported
+            pivoted = one_by_one(dense, start, limit - used)
+            x, used = pivoted.x, used + pivoted.solves
+            if not pivoted.optimal:  # feasible and better than the start, but the limit must be what is reported
                 return answered(qp, state, x, dense.unit, iterations=used, tolerance=np.inf)
         return answered(qp, state, x, dense.unit, iterations=used, tolerance=self.tolerance)
 
@@ -244,8 +244,16 @@ def all_at_once(qp: DenseQP, start: RealArray, limit: int) -> tuple[OnSet | None
     return None, limit
 
 
-def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> tuple[RealArray, int, bool]:
-    """Primal active set from the feasible ``start``, one point at a time: x, linear solves used, whether optimal.
+class Pivoted(NamedTuple):
+    """Feasible ``x``, linear ``solves`` used, and whether it is ``optimal``."""
+
+    x: RealArray
+    solves: int
+    optimal: bool
+
+
+def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
+    """Primal active set from the feasible ``start``, one point at a time.
 
     The energy never increases. Among violated conditions the worst is taken, or after a step of no length the one of
     lowest index (Bland's rule), so that no set comes back.
@@ -267,9 +275,9 @@ def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> tuple[RealArray, in
         x = np.where(free, trial.x, x)
         entering = _entering(qp, x, trial, worst_first=moved)
         if entering is None:
-            return x, count + 1, True
+            return Pivoted(x, count + 1, optimal=True)
         free[entering], capped[entering] = True, False
-    return x, limit, False
+    return Pivoted(x, limit, optimal=False)
 
 
 def _way_to(qp: DenseQP, x: RealArray, trial: OnSet) -> tuple[float, int | None]:
@@ -308,6 +316,7 @@ LARGEST = 400
 """Largest number of points: with a cap the tableau then has 801 rows and 1604 columns (10 MB, about 5 ms a pivot)."""
 
 _ZERO = 1e-11
+"""Entries of the tableau, of order one, below which they count as rounding left by earlier pivots."""
 
 
 @dataclass(frozen=True)

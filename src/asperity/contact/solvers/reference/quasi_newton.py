@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -23,7 +23,19 @@ from ..protocol import (
 from .steepest_descent import levelling_step
 
 _STALLS = 8
+"""Runs of the library without a smaller error or load error after which the method gives up: more than the two or three that the
+bracketing of the level may take without."""
+
 _PAIRS = 20
+"""Pairs of steps and gradients from which the library builds its Hessian; its default of 10 is for smooth problems."""
+
+
+class _Minimum(NamedTuple):
+    """``pressure`` (Pa) of least energy at a level, the ``iterations`` of the library, ``applications`` of the operator."""
+
+    pressure: RealArray
+    iterations: int
+    applications: int
 
 
 @dataclass(frozen=True)
@@ -90,7 +102,8 @@ class QuasiNewton:
         """One run of L-BFGS-B, and the next level."""
         memory = state.memory
         assert isinstance(memory, _Memory)
-        p, iterations, applications = self._minimised(qp, state, memory)
+        minimum = self._minimised(qp, state, memory)
+        p, applications = minimum.pressure, minimum.applications
         nearer = False
         if isinstance(qp.constraint, FixedMean):
             load_error = float(p.sum()) - qp.constraint.mean_pressure * p.size
@@ -106,14 +119,14 @@ class QuasiNewton:
             p,
             deflection,
             error,
-            state.iterations + max(iterations, 1),
+            state.iterations + max(minimum.iterations, 1),
             state.applications + applications + 1,
             exhausted=stalls >= _STALLS,
             memory=replace(memory, best=min(error, memory.best), stalls=stalls),
         )
 
-    def _minimised(self, qp: ContactQP, state: SolverState, memory: _Memory) -> tuple[RealArray, int, int]:
-        """Pressure (Pa) of least energy at the current level, library iterations, applications of the operator."""
+    def _minimised(self, qp: ContactQP, state: SolverState, memory: _Memory) -> _Minimum:
+        """Pressure of least energy at the current level."""
         from scipy.optimize import Bounds, minimize
 
         reference, shape = state.pressure, state.pressure.shape
@@ -146,7 +159,7 @@ class QuasiNewton:
         moved = reference + memory.unit * fit.x.reshape(shape)
         moved = np.where(fit.x.reshape(shape) >= upper.reshape(shape), qp.cap, np.clip(moved, 0.0, qp.cap))
         moved = np.where(fit.x.reshape(shape) <= lower.reshape(shape), 0.0, moved)
-        return moved, int(fit.nit), int(fit.nfev)
+        return _Minimum(moved, int(fit.nit), int(fit.nfev))
 
 
 def _cap_leverage(qp: ContactQP) -> float:

@@ -20,7 +20,10 @@ from ..protocol import (
 )
 
 _SUFFICIENT = 1e-4
+"""Share of the decrease that the slope promises which a step must reach (Armijo's rule with its usual constant)."""
+
 _HALVINGS = 40
+"""Halvings of a step at most, to 1e-12 of it: any decrease is then hidden by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
