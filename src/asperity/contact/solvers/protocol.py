@@ -275,21 +275,38 @@ _OFF_CENTRE = 10.0
 
 _MOST_DEFLECTIONS = 30.0
 _FEWEST_DEFLECTIONS = 1e-4
-_UNRESOLVED = 1e-7
+_UNRESOLVED = 1e-5
+
+
+def lightly_loaded(qp: ContactQP) -> bool:
+    """Whether a load is prescribed under which the bodies deform by far less than the rms height."""
+    if isinstance(qp.constraint, FixedOffset):
+        return False
+    return qp.largest_compliance * qp.constraint.mean_pressure < _LIGHT * qp.height_scale
 
 
 def heights_near_contact(qp: ContactQP) -> RealArray:
     """Heights (nx, ny) in m from a level near the contact, a copy only where that matters: roundings would hide the error.
 
-    At prescribed load any level serves: the highest point under a light load, whose deflection is far smaller than the
-    heights, the mean where the profile is far from zero. At prescribed position the profile is as it is.
+    At prescribed load any level serves: the height down to which rigid bodies would be in contact under a light load, whose
+    deflection is far smaller than the heights, the mean where the profile is far from zero. At prescribed position the profile is as it is.
     """
     if isinstance(qp.constraint, FixedOffset):
         return qp.profile
-    if qp.largest_compliance * qp.constraint.mean_pressure < _LIGHT * qp.height_scale:
-        return qp.profile - float(qp.profile.max())
+    if lightly_loaded(qp):
+        return qp.profile - _rigid_level(qp, qp.constraint.mean_pressure)
     mean = float(qp.profile.mean())
     return qp.profile - mean if abs(mean) > _OFF_CENTRE * qp.height_scale else qp.profile
+
+
+def _rigid_level(qp: ContactQP, mean: float) -> float:
+    """Height (m) of the last point that is needed to carry the load at the cap, the highest points first; without a cap the highest."""
+    if qp.elastic:
+        return float(qp.profile.max())
+    order = np.argsort(-qp.profile, axis=None, kind="stable")
+    carried = np.broadcast_to(np.asarray(qp.cap, dtype=float), qp.profile.shape).ravel()[order].cumsum()
+    last = int(np.searchsorted(carried, mean * qp.profile.size * (1.0 - 1e-12)))
+    return float(qp.profile.ravel()[order[min(last, order.size - 1)]])
 
 
 def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> float:
@@ -314,8 +331,8 @@ def least_length(qp: ContactQP, total: float, energy: float) -> float:
     """Length (m) of which errors of 1e-7 to 1e-10 can be resolved.
 
     1e-4 of the deflection under load, of which roundings of 1e-15 cannot be removed (flat punches, heights that are nearly
-    zero), and 1e-7 of the deflection that the mean pressure would cause in the longest wave (flat bodies in periodic contact,
-    which hardly deflect at all). An error of 1e-7 still bounds the pressure to some 1e-6.
+    zero), and 1e-5 of the deflection that the mean pressure would cause in the longest wave (flat bodies in periodic contact,
+    which hardly deflect at all). An error of 1e-7 still bounds the pressure to some 1e-5 of its mean.
     """
     deflection = energy / total if total > 0.0 else 0.0
     longest = qp.largest_compliance * total / qp.profile.size

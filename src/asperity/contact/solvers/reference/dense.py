@@ -16,6 +16,8 @@ from ..protocol import (
     FixedMean,
     SolverState,
     feasible_start,
+    heights_near_contact,
+    lightly_loaded,
     relative_error,
     require_settings,
     scaled_to_load,
@@ -44,7 +46,7 @@ class DenseQP:
     matrix
         A, (n, n).
     heights
-        h, (n,): heights above the highest point (fixed sum) or above the prescribed plane (free sum).
+        h, (n,): heights above the highest point or a level near the contact (fixed sum), or above the prescribed plane (free sum).
     cap
         (n,), infinite where there is none.
     total
@@ -53,6 +55,8 @@ class DenseQP:
         Whether A maps a uniform x to zero.
     unit
         Pressure in Pa that is 1 here; a power of two, so that no digit is lost on the way back.
+    light
+        Whether deflections are far smaller than the heights, which are then measured from a level near the contact.
     """
 
     matrix: RealArray
@@ -61,6 +65,7 @@ class DenseQP:
     total: float | None
     singular: bool
     unit: float
+    light: bool = False
 
     @property
     def shift(self) -> float:
@@ -81,8 +86,8 @@ class OnSet:
     capped: BoolArray
 
 
-def dense_form(qp: ContactQP) -> DenseQP:
-    """Dense form of ``qp``.
+def dense_form(qp: ContactQP, *, near_contact: bool = False) -> DenseQP:
+    """Dense form of ``qp``; with heights from a level ``near_contact`` instead of the highest point, if the load is light.
 
     Raises
     ------
@@ -92,18 +97,21 @@ def dense_form(qp: ContactQP) -> DenseQP:
     compliance = qp.operator.matrix()
     length = _power_of_two(qp.height_scale)
     unit = _power_of_two(length / float(compliance[0, 0]))
-    plane, total = float(qp.profile.max()), None
+    light, total = near_contact and lightly_loaded(qp), None
+    profile = heights_near_contact(qp) if light else qp.profile
+    plane = 0.0 if light else float(qp.profile.max())
     if isinstance(qp.constraint, FixedMean):
         total = qp.constraint.mean_pressure * qp.profile.size / unit
     else:
         plane = qp.constraint.offset
     return DenseQP(
         matrix=compliance * (unit / length),
-        heights=(qp.profile.ravel() - plane) / length,
+        heights=(profile.ravel() - plane) / length,
         cap=np.broadcast_to(np.asarray(qp.cap, dtype=float), qp.profile.shape).ravel() / unit,
         total=total,
         singular=qp.operator.zero_mean_mode,
         unit=unit,
+        light=light,
     )
 
 
@@ -155,7 +163,8 @@ def violation(qp: DenseQP, trial: OnSet, gap: RealArray) -> float:
 
 def magnitude(qp: DenseQP, x: RealArray) -> float:
     """Largest number in the optimality conditions at ``x``."""
-    return 1.0 + float(np.abs(qp.heights).max()) + float(np.abs(x).max()) + float(np.abs(qp.matrix @ x).max())
+    heights = 0.0 if qp.light else 1.0 + float(np.abs(qp.heights).max())
+    return heights + float(np.abs(x).max()) + float(np.abs(qp.matrix @ x).max())
 
 
 def answered(
@@ -213,7 +222,7 @@ class DenseActiveSet:
         InputError
             If the grid is too large for a dense matrix.
         """
-        dense = dense_form(qp)
+        dense = dense_form(qp, near_contact=True)
         start = state.pressure.ravel() / dense.unit
         limit = self.max_iterations - state.iterations
         found, used = all_at_once(dense, start, limit)
