@@ -15,7 +15,7 @@ import xarray
 from cli.conftest import Runner
 from study_cases import LOADS, PROBLEM, SEEDS, study, workers_of
 
-from asperity.cli.campaign_progress import BETWEEN_LINES, Lines, Pace, duration, watched
+from asperity.cli.campaigns import BETWEEN_LINES, Lines, Pace, duration, watched
 from asperity.studies.campaign import CampaignState, open_study, prepare_study
 from asperity.studies.store import records
 

@@ -14,7 +14,7 @@ from study_cases import PROBLEM, InProcess
 
 import asperity as asp
 from asperity.run.document import checked, save_document
-from asperity.studies.quantities import computed
+from asperity.studies.plan import computed
 
 FLAT = {key: value for key, value in PROBLEM.items() if key not in ("body", "control")}
 BODY = "E=100GPa,nu=0.3,H=5GPa"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -100,6 +101,17 @@ def test_it_shows_up_at_every_door(run: Runner, matrix: Path, tmp_path: Path, en
     assert data["hot_share"].attrs["long_name"] == "share of the contact under a high pressure"
     assert float(data["hot_share"][0]) > float(data["hot_share"][1])
     assert np.isnan(data["hot_share"][2]), "the part failed, the solve survived"
+
+
+def test_the_part_of_the_guide_works(entry: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = Path(__file__).parents[2] / "docs/how-to/own-part.md"
+    code = page.read_text(encoding="utf-8").partition("```python\n")[2].partition("```")[0]
+    (tmp_path / "hot_spots.py").write_text(code, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    entry(hot=importlib.import_module("hot_spots").Hot)
+    outcome = asp.run({**PROBLEM, "hot": {}})
+    assert 0.0 < outcome.values["hot_share"] < 1.0
+    assert any("under a high pressure" in words.sentence for _, words in outcome.sections)
 
 
 def test_a_part_that_fails_is_a_finding(entry: Any) -> None:

@@ -54,7 +54,7 @@ def info(
     from ..surfaces.formats import chosen
     from ..surfaces.prepare.level import levelled
     from ..surfaces.read import channels
-    from .reading import level_of, read_surface
+    from .options import level_of, read_surface
     from .show import console
 
     _check(answer)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 from typer import Argument, Option
 
-from .panel import option
+if TYPE_CHECKING:
+    from ..surfaces.surface import Surface
+
 
 READING, BODIES = "Reading the file", "Bodies and interface"
 LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
@@ -172,3 +174,43 @@ class OutputOptions:
     def wants_stress(self) -> bool:
         """Whether a file is asked for that holds stresses."""
         return self.stress_vtk is not None or self.stress_nc is not None
+
+
+class PanelOption(Protocol):
+    """Makes the options of one panel."""
+
+    def __call__(self, name: str, text: str, metavar: str | None = None) -> Any:
+        """Option ``name`` with the ``text`` of its help."""
+
+
+def option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
+    """Option ``name`` with the ``text`` of its help, under the heading ``panel``."""
+    return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
+
+
+def options_of(panel: str) -> PanelOption:
+    """What makes the options under the heading ``panel``."""
+
+    def panel_option(name: str, text: str, metavar: str | None = None) -> Any:
+        return option(name, text, panel, metavar)
+
+    return panel_option
+
+
+def read_surface(file: Path, reading: ReadingOptions) -> Surface:
+    """Surface in ``file``; units are those that the options give."""
+    from ..core.units import parse, parse_size
+    from ..surfaces.read import read
+
+    return read(
+        file,
+        channel=reading.channel,
+        size=None if reading.size is None else parse_size(reading.size, "--size"),
+        height_unit=reading.height_unit,
+        z_scale=None if reading.z_scale is None else parse(reading.z_scale, "length", "--z-scale"),
+    )
+
+
+def level_of(surface: Surface, level: str) -> str:
+    """What ``level`` removes from ``surface``: left to itself, the mean of a periodic one and the plane of any other."""
+    return level if level != "auto" else "mean" if surface.periodic else "plane"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..core.errors import InputError
-from .panel import options_of
+from .options import options_of
 
 PREPARATION = "Preparation, in this order"
 

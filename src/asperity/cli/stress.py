@@ -11,8 +11,7 @@ import typer
 
 from .asked import part_names, part_options, with_parts
 from .declared import Given, offers
-from .options import OUTPUT
-from .panel import options_of
+from .options import OUTPUT, options_of
 from .results import Result
 
 if TYPE_CHECKING:

@@ -30,7 +30,7 @@ from ..plots.campaign import (
 )
 from ..plots.picture import CURVE_SIZE, Figure, png, save_pictures
 from ..studies.campaign import Campaign, CampaignState
-from ..studies.failures import Cause
+from ..studies.collect import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
 from .page import rendered
 

@@ -13,8 +13,7 @@ from ..core import require
 from ..core.errors import InputError
 from ..io.schemas.study import AxisTable
 from ..run.document import ProblemDocument, checked
-from .edits import Edit, edited
-from .places import Place, locate, problem_table
+from .places import Edit, Place, edited, locate, problem_table
 
 Coordinate: TypeAlias = float | str
 """Where a point lies on its axis: a number in SI units, or a word."""

@@ -13,8 +13,8 @@ from ..core.errors import FileFormatError, OutputError
 if TYPE_CHECKING:
     import xarray
 
+    from .collect import Cause
     from .documents import LoadedStudy
-    from .failures import Cause
     from .plan import Plan
     from .run import RunSummary, Watch
 
@@ -119,15 +119,13 @@ class Campaign:
 
     def findings(self) -> tuple[Cause, ...]:
         """Warnings and notes of the cases, counted by their criterion; each with its first case."""
-        from .collect import findings
-        from .failures import causes
+        from .collect import causes, findings
 
         return causes(findings(self.plan, self.records), by_kind=True)
 
     def causes(self) -> tuple[Cause, ...]:
         """Failed cases grouped by cause."""
-        from .collect import failures
-        from .failures import causes
+        from .collect import causes, failures
 
         return causes(failures(self.plan, self.records))
 

@@ -1,9 +1,10 @@
-"""From plan and store to one labelled dataset."""
+"""From plan and store to one labelled dataset; failed cases and findings grouped by cause."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -15,17 +16,16 @@ from ..contact.certificate import Certificate
 from ..io.provenance import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
-from .axes import Axis
+from .axes import Axis, Coordinate
 from .evaluate import CHECKS
-from .failures import Failure
 from .monte_carlo import Stop
-from .plan import Plan
-from .quantities import measures
+from .plan import Plan, measures
 from .run import stop_quantity, stopping
 from .store import Record, records
 
 if TYPE_CHECKING:
     import xarray
+
 
 DONE, FAILED, MISSING = 0, 1, 2
 """Values of the variable ``outcome``."""
@@ -190,3 +190,34 @@ def _labels(name: str) -> dict[str, str]:
     if name in CHECKS and name in Certificate.__dataclass_fields__:
         return next(entry for entry in CERTIFICATE if entry.name == name).attributes
     return measures()[name].attributes
+
+
+_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One failed case: where it lies, and its exception."""
+
+    at: Mapping[str, Coordinate]
+    kind: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Failures with the same exception and, but for numbers, the same message: ``count``, and the ``first`` of them."""
+
+    kind: str
+    count: int
+    first: Failure
+
+
+def causes(failures: Iterable[Failure], *, by_kind: bool = False) -> tuple[Cause, ...]:
+    """Causes of ``failures``, the most frequent first; ``by_kind`` whatever their messages say."""
+    groups: dict[tuple[str, str], list[Failure]] = {}
+    for failure in failures:
+        text = "" if by_kind else _NUMBER.sub("#", failure.message)
+        groups.setdefault((failure.kind, text), []).append(failure)
+    found = [Cause(kind, len(group), group[0]) for (kind, _), group in groups.items()]
+    return tuple(sorted(found, key=lambda cause: -cause.count))

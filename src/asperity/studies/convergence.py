@@ -10,8 +10,7 @@ from itertools import pairwise
 from ..core.errors import InputError
 from ..io.schemas.study import ConvergenceTable
 from .axes import Axis, Base, Point
-from .edits import Edit
-from .places import locate
+from .places import Edit, locate
 
 HALVINGS = 60
 """Bisections of an interval of orders, which so shrinks below the rounding."""

@@ -14,8 +14,7 @@ from ..core.errors import InputError
 from ..io.schemas.study import CriticalThicknessTable
 from ..run.document import checked
 from .axes import Axis, Base, Point, values_of
-from .edits import Change, Edit, edited
-from .places import locate, problem_table
+from .places import Change, Edit, edited, locate, problem_table
 
 CHANGES: tuple[Change, Change] = ("without", "endless")
 """The layer at both ends of the axis."""

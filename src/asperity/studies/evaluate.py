@@ -14,7 +14,7 @@ from ..io.provenance import software
 from ..run.build import Case, build
 from ..run.document import checked
 from ..run.execute import Warm, execute
-from .edits import edited, from_plain
+from .places import edited, from_plain
 from .store import Record
 
 CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterations", "fft_pairs", "wall_time")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -11,17 +12,17 @@ from typing import Any
 
 from ..core.arrays import content_digest
 from ..core.errors import InputError
+from ..core.quantity import Quantity
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
-from ..parts.registry import versions
+from ..parts.registry import parts, versions
+from ..run.document import ProblemDocument
 from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
 from .documents import LoadedStudy
-from .edits import Edit, edited_content
-from .places import content, problem_table
-from .quantities import computed, measures
-from .sampling import sample_axis
+from .monte_carlo import sample_axis
+from .places import Edit, content, edited_content, problem_table
 from .sensitivity import parameter_axis
 
 
@@ -175,3 +176,35 @@ def _require_distinct_scalars(axes: Sequence[Axis]) -> None:
                     shown = ".".join(map(str, edit.keys))
                     raise InputError(f"axes must vary different scalars, but {name} and {item.name} both set {shown}.")
             seen[keys] = item.name
+
+
+def measures() -> dict[str, Quantity]:
+    """Every quantity that a part finds, by its name, in the order of tables."""
+    return {item.name: item for part in parts() for item in part.quantities if not item.dims}
+
+
+def computed(document: ProblemDocument, asked: Iterable[str]) -> tuple[str, ...]:
+    """Names of the quantities that are computed of each case: all that cost nothing, and the costly ones ``asked`` for.
+
+    Raises
+    ------
+    InputError
+        If one that is asked for is unknown, or needs a table that the document lacks.
+    """
+    wanted = tuple(asked)
+    there: dict[str, bool] = {}
+    for part in parts():
+        given = part.settings_in(document) is not None
+        for item in (item for item in part.quantities if not item.dims):
+            there[item.name] = given
+            if item.name in wanted and not given:
+                raise InputError(
+                    f"quantity {item.name} needs the table [{part.table}] in the problem, but it is missing; add it."
+                )
+    for name in wanted:
+        if name not in there:
+            near = difflib.get_close_matches(name, there, n=3, cutoff=0.4)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"known are {', '.join(there)}."
+            raise InputError(f"quantities must be names of results, but {name!r} is none; {hint}")
+    known = measures()
+    return tuple(name for name, item in known.items() if there[name] and (not item.costly or name in wanted))

@@ -11,9 +11,9 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..io.provenance import software
-from .edits import plain
 from .executors import Executor, Lost, Task
 from .monte_carlo import Stop
+from .places import plain
 from .plan import Plan, StudyCase
 from .store import Finished, Record, Store
 

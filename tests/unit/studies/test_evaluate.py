@@ -17,11 +17,10 @@ from asperity.parts.contact import Contact
 from asperity.run.build import build
 from asperity.run.document import checked
 from asperity.studies.analysis import analysis
-from asperity.studies.collect import dataset, failures, findings, stopped_at
+from asperity.studies.collect import Failure, causes, dataset, failures, findings, stopped_at
 from asperity.studies.convergence import step_sizes
-from asperity.studies.failures import Failure, causes
 from asperity.studies.places import replaced
-from asperity.studies.quantities import computed
+from asperity.studies.plan import computed
 from asperity.studies.run import carry_out
 from asperity.studies.store import records
 

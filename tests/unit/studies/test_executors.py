@@ -14,8 +14,7 @@ from study_cases import CRASHING, LOADS, QUICK, SLOW, InProcess, plan, workers_o
 
 from asperity.core.errors import InputError
 from asperity.studies.cluster import DaskCluster
-from asperity.studies.collect import dataset, failures
-from asperity.studies.failures import causes
+from asperity.studies.collect import causes, dataset, failures
 from asperity.studies.local import LocalProcesses
 from asperity.studies.run import carry_out
 from asperity.studies.store import records

@@ -12,8 +12,7 @@ from study_cases import LOADS, PROBLEM, SEEDS, plan
 from asperity.core.arrays import content_digest
 from asperity.core.errors import InputError
 from asperity.run.document import checked
-from asperity.studies.edits import edited
-from asperity.studies.places import content
+from asperity.studies.places import content, edited
 
 THICKNESS = {"path": "body.layers.0.thickness", "first": "1 nm", "last": "1 um", "count": 4, "scale": "log"}
 
