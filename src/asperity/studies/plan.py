@@ -156,6 +156,11 @@ def _names(document: StudyDocument) -> list[str]:
     names: list[str] = []
     for table in tables:
         name = table.name or default_name(table.path, reserved | set(names))
+        if "/" in name or not name.isprintable() or name != name.strip():
+            raise InputError(
+                f"name of the axis {table.path} must be printable, without / and spaces at its ends, but is {name!r}: it "
+                "names a variable of the result file."
+            )
         if name in names or name in reserved:
             raise InputError(
                 f"name of the axis {table.path} must differ from other axes and from quantities, but is {name!r}; "

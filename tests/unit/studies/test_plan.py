@@ -21,6 +21,12 @@ def cases(**tables):
     return [case for path in plan(**tables).paths() for case in path]
 
 
+@pytest.mark.parametrize("name", ["p/E", " p", "p\n"])
+def test_names_that_files_cannot_hold_are_refused_before_any_case(name: str) -> None:
+    with pytest.raises(InputError, match="must be printable, without /"):
+        plan(axes=[{"path": "control.mean_pressure", "values": ["1 MPa"], "name": name}])
+
+
 def test_ranges_are_equally_spaced_in_si():
     (log,) = plan(axes=[THICKNESS]).axes
     np.testing.assert_allclose([point.coordinate for point in log.points], [1e-9, 1e-8, 1e-7, 1e-6], rtol=1e-12)
