@@ -230,7 +230,7 @@ def _of_surface(
     from ..contact.roughness import roughness_of
     from ..surfaces.prepare.fill import filled
     from ..surfaces.prepare.level import levelled
-    from .reading import level_of, read_surface
+    from .options import level_of, read_surface
 
     method: Any = _measured(kind)
     taken = {item.name: item for item in list(inspect.signature(method).parameters.values())[1:]}
