@@ -80,7 +80,7 @@ def test_a_load_beyond_the_hardness_is_named_and_the_exit_code_tells(run: Runner
     ("options", "expected"),
     [
         (("--pressures", "5"), "--pressures must have a unit"),
-        (("--pressures", "1MPa..2nm"), "--pressures must be in a unit such as Pa"),
+        (("--pressures", "1MPa..2nm"), "--pressures must be a pressure (unit such as Pa)"),
         (("--pressures", "1MPa,0Pa"), "pressure (Pa) of a comparison must be greater than zero, but is 0.0."),
         (("--loads", "5"), "--loads must be given together with a range only"),
         (("--pressures", "1MPa,2MPa", "--loads", "5"), "--loads must be given together with a range only"),

@@ -17,7 +17,7 @@ from ...core.errors import NoSolutionError
 from ..control import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
-TARGET_ERROR = 1e-7
+TARGET_ERROR = 1e-9
 """Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height."""
 
 _HEIGHT_ERROR = 1e-9
