@@ -197,8 +197,10 @@ def build_control(table: ControlTable) -> Control:
 def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:
     """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``."""
     chosen = default_solver(problem)
-    name = table.method or chosen.name
-    return solver_by_name(name, table.tolerance, table.max_iterations, precision=table.precision)
+    name, tolerance = table.method or chosen.name, table.tolerance
+    if tolerance is None and name == chosen.name:
+        tolerance = chosen.tolerance
+    return solver_by_name(name, tolerance, table.max_iterations, precision=table.precision)
 
 
 def _pressure(value: float | str | None) -> float:
