@@ -20,8 +20,7 @@ import rough_cylinder
 import rough_sphere
 
 import asperity as asp
-from asperity.plots import picture as style
-from asperity.plots import plot_heights, plot_stress_section
+from asperity.plots import plot_heights, plot_stress_section, style
 from asperity.plots.picture import BLACK, BLUE, VERMILLION
 
 if TYPE_CHECKING:

@@ -29,7 +29,6 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, "--path", "1MPa,1MPa"),
     (*BODY, "--path", "1MPa", "--path-steps", "0"),
     (*BODY, *LOAD, "--path-steps", "3"),
-    (*BODY, "--path", "1MPa", "--friction", "0.1", "--coupled"),
     ("--body", "E=1GPa,nu=0.3", *LOAD, "--hardness", "effective"),
     (*BODY, *LOAD, "--plastic-load"),
     (*BODY, *LOAD, "--tolerance", "2"),

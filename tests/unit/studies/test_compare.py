@@ -139,7 +139,7 @@ def test_every_theory_of_a_surface_has_a_curve_or_a_reason(compared):
     names = [curve.name for curve in compared.curves]
     assert sorted([*names, *(item.name for item in compared.left_out)]) == sorted(surface_theories())
     reasons = {item.name: item.reason for item in compared.left_out}
-    assert "work of adhesion (work, J/m^2)" in reasons["fuller-tabor"]
+    assert "work of adhesion w (work, J/m^2)" in reasons["fuller-tabor"]
     assert "yield stress" in reasons["jackson-green"]
     assert {"kogut-etsion", "interacting-crests", "persson"} <= set(names)
     assert compared.curve("kogut-etsion").family == "elastic-plastic"
