@@ -11,6 +11,7 @@ import argparse
 import base64
 from dataclasses import dataclass
 from html import escape
+from operator import attrgetter
 from pathlib import Path
 
 import asperity as asp
@@ -95,7 +96,7 @@ def _index(made: list[Entry], level: str) -> str:
 
 
 def _text(quantity: asp.roughness.Quantity, found: asp.Characterisation) -> str:
-    value = quantity.of(found)
+    value = float(attrgetter(quantity.name)(found))
     return "–" if value != value else show(value, quantity.unit, 3)
 
 
