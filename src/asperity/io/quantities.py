@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from pydantic.fields import FieldInfo
 
-from ..core.settings import Settings, declared
+from ..core.settings import declared
 from ..core.values import Interval, Lengths, Number, Several
-
-
-def si_values(table: Settings, leave: tuple[str, ...] = ()) -> dict[str, Any]:
-    """Values of ``table`` by key, in SI units; without the keys to ``leave`` and those that are not given."""
-    return table.given(*leave)
 
 
 def quantity(field: FieldInfo) -> str | None:

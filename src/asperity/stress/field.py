@@ -255,10 +255,6 @@ def peak_at(field: StressField, value: float, place: tuple[int, ...]) -> Peak:
 # Largest stresses of each region and interface of a body, found plane by plane as a stream of planes goes by.
 
 
-DRAWN = ("von_mises", "principal_tensile", "shear_xz", "shear_yz")
-"""Stresses of either sign whose largest magnitude in the whole body is sought, for sections through it."""
-
-
 @dataclass(frozen=True, eq=False)
 class RegionMaxima:
     """Largest stresses of one region on the planes that were computed: von Mises, tension (σ1), and shear (σ1 - σ3)/2."""

@@ -57,7 +57,6 @@ class _LengthUnit(Values):
 Channel: TypeAlias = Annotated[str | int, _Channel()]
 HeightUnit: TypeAlias = Annotated[str, _LengthUnit()]
 Method: TypeAlias = Annotated[str, Choice({name: name for name in SOLVERS})]
-PlaceOnMap: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=(MIDDLE,))]
 PressureOrBody: TypeAlias = Annotated[float | str, Number("pressure", above=0.0, words=(FROM_BODY, EFFECTIVE))]
 PathPressure: TypeAlias = Annotated[float | str, Number("pressure", least=0.0, words=(NONE,))]
 PathForce: TypeAlias = Annotated[float | str, Number("force", least=0.0, words=(NONE,))]
