@@ -16,7 +16,8 @@ from pathlib import Path
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.surface import SURFACE_PLOTS, render_surface_plot
+from asperity.plots.picture import render
+from asperity.plots.surface import SURFACE_PLOTS
 
 SHOWN = ("heights", "spectrum", "autocorrelation")
 """Pictures of each file on the page of all."""
@@ -104,7 +105,7 @@ def _section(name: str, found: asp.Characterisation) -> str:
     pictures = [plot for plot in SURFACE_PLOTS if plot.name in SHOWN]
     shown = "".join(
         f'<figure><img alt="{escape(plot.title)}" src="data:image/png;base64,'
-        f'{base64.b64encode(render_surface_plot(plot, found)).decode("ascii")}"><figcaption>{escape(plot.title)}</figcaption></figure>'
+        f'{base64.b64encode(render(plot, found)).decode("ascii")}"><figcaption>{escape(plot.title)}</figcaption></figure>'
         for plot in pictures
     )
     remarks = "".join(f"<p>{escape(remark)}</p>" for remark in found.remarks)

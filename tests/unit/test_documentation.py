@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
-from asperity.parts.menisci import Menisci
+from asperity.parts.film import Menisci
 from asperity.parts.stress import Stress
 from asperity.run.document import load_document, loads
 from asperity.studies.documents import study_from_table

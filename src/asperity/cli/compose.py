@@ -9,8 +9,8 @@ from typing import Any
 
 from ..core import units
 from ..core.errors import InputError, UnitError
-from ..io.schemas.body_text import SYMBOLS, body_from_text
-from ..io.schemas.values import EFFECTIVE, FROM_BODY, NONE
+from ..io.schemas.bodies import SYMBOLS, body_from_text
+from ..io.schemas.problem import EFFECTIVE, FROM_BODY, NONE
 from .options import BodyOptions, ReadingOptions, SolveOptions
 from .preparing import PreparationOptions, steps
 
@@ -146,7 +146,7 @@ def with_steps(control: Any, steps: int) -> dict[str, Any]:
 
 
 def body_table(text: str, option: str, materials_file: Path | None) -> dict[str, Any]:
-    """Body from its one line of text (see ``io.schemas.body_text``); named materials are looked up in the file."""
+    """Body from its one line of text (see ``io.schemas.bodies``); named materials are looked up in the file."""
     try:
         table = body_from_text(text)
     except InputError as error:

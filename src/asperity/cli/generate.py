@@ -142,7 +142,7 @@ def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None
 
 
 def _generated(table: Any) -> Surface:
-    from ..io.build_surface import build_generated
+    from ..run.build import build_generated
     from .interrupt import interruptible
     from .progress import shown
 
@@ -155,8 +155,8 @@ def _generated(table: Any) -> Surface:
 def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
     from ..core.units import parse
-    from ..io.build_surface import build_part, table_grid
     from ..io.surface_files import save_endless, save_gaussian
+    from ..run.build import build_part, table_grid
     from ..surfaces.generate import endless
     from .progress import stage
     from .show import say

@@ -203,7 +203,7 @@ def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter
     InputError
         If a body is not understood, or its strength is needed and not known.
     """
-    from ..io.build_body import body_of_text
+    from ..run.build import body_of_text
     from ..solids.elastic import Rigid
     from ..solids.layers import contact_modulus, weaker_strength
 

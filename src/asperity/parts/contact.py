@@ -1,14 +1,22 @@
-"""The plain contact: areas, pressures, gaps and energies of every solve."""
+"""The plain contact, the load path that leads to it, and what yields on the way."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..core.quantity import Quantity
-from .part import Found, Part, Solved
+from ..core.settings import Settings, setting
+from ..core.units import percent, show
+from ..core.values import Fraction
+from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
+    from ..contact.history import HistoryResult
+    from ..contact.plastic_load import PlasticLoad as SolvedPlasticLoad
     from ..contact.problem import ContactProblem
+    from ..contact.result import ContactResult
+    from ..plots.picture import Figure
 
 STIFFNESS = "normal_stiffness"
 """The quantity that costs about one more solve."""
@@ -57,3 +65,197 @@ class Contact(Part):
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the problem's papers."""
         return problem.citation_keys
+
+
+# A load path: the state of the contact at every step, where the load turns, and where its work goes.
+
+
+class LoadPath(Part):
+    """Steps of a load path and their energies."""
+
+    name = "path"
+    title = "Load path"
+    table = "control.path"
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
+        """Scalars and energies of every step."""
+        from ..contact.result import SCALARS
+        from ..io.results import ENERGIES
+
+        names = {item.name: item for item in SCALARS} | {f"path_{item.name}": item for item in ENERGIES}
+        return tuple(replace(item, name=name, dims=("step",), costly=False) for name, item in names.items())
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Scalars and energies of the steps, if these were kept."""
+        import numpy as np
+
+        if solved.path is None:
+            return Found()
+        balance, values = solved.path.energies, {}
+        for item in self.quantities:
+            if item.name.startswith("path_"):
+                values[item.name] = getattr(balance, item.name.removeprefix("path_"))
+            else:
+                values[item.name] = np.array([getattr(step, item.name) for step in solved.path.steps])
+        return Found(values, solved.path)
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Loops of load and area, and the energies."""
+        from ..plots.contact import PATH_PLOTS
+        from ..plots.picture import drawn
+
+        return () if found.detail is None else drawn(PATH_PLOTS, found.detail)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Where the load turns, and where its work goes."""
+        return Words() if found.detail is None else path_words(found.detail)
+
+
+def path_words(path: HistoryResult) -> Words:
+    """Where the load turns, and where its work goes."""
+    tables = (("Where the load turns", turn_table(path)), ("Energies from the start of the path", energy_table(path)))
+    return Words(path_sentence(path), tables=tables, alarming=not path.converged)
+
+
+def turn_table(path: HistoryResult) -> Table:
+    """State of the contact wherever the load of ``path`` turns, and at its end."""
+    cells = []
+    for step in path.turns:
+        result = path.steps[step]
+        cells.append(
+            (
+                f"{step + 1}",
+                show(result.mean_pressure, "Pa"),
+                show(result.approach, "m"),
+                percent(result.area_fraction_corrected),
+                percent(result.plastic_area_fraction),
+                show(result.max_permanent_indentation, "m"),
+                "converged" if result.converged else "NOT CONVERGED",
+            )
+        )
+    headings = (
+        "Step",
+        "Mean pressure",
+        "Approach",
+        "Real area",
+        "Plastic / real area",
+        "Deepest indentation",
+        "Status",
+    )
+    return Table(headings, tuple(cells))
+
+
+def energy_table(path: HistoryResult) -> Table:
+    """Energies along ``path`` wherever its load turns, and at its end."""
+    balance = path.energies
+    rounding = 1e-12 * float(abs(balance.external_work).max())
+    cells = []
+    for step in path.turns:
+        energies = (balance.external_work, balance.elastic_energy, balance.plastic_work, balance.residual)
+        values = [float(energy[step]) for energy in energies]
+        cells.append((f"{step + 1}", *(show(value if abs(value) > rounding else 0.0, "J") for value in values)))
+    headings = ("Step", "External work", "Elastic energy", "Plastic work", "Error of the steps")
+    return Table(headings, tuple(cells))
+
+
+def path_sentence(path: HistoryResult) -> str:
+    """One sentence on the ``path``: its steps, and how well the energies add up."""
+    failed = [number for number, result in enumerate(path.steps, start=1) if not result.converged]
+    text = (
+        f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
+        f"of elastic energy and plastic work differ by at most {percent(path.energies.relative_error, 2)} of the largest "
+        "work, by the error of the trapezoidal rule; more steps reduce it."
+    )
+    if failed:
+        text += f" Not converged: step{'s' if len(failed) > 1 else ''} {', '.join(map(str, failed))}."
+    return text
+
+
+# Plastic deformation: what has yielded for good, and the load at which a contact becomes plastic.
+
+
+class Plasticity(Part):
+    """Permanent indentation, where there is any."""
+
+    name = "plasticity"
+    title = "Plastic deformation"
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Nothing beside what the contact holds itself."""
+        return Found(detail=solved.result)
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Plastic zone and residual surface."""
+        from ..plots.contact import PLASTIC_PLOTS
+        from ..plots.picture import drawn
+
+        return drawn(PLASTIC_PLOTS, solved.result) if solved.result.indented.any() else ()
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Areas, volumes and work."""
+        return Words(rows=plastic_rows(solved.result)) if solved.result.indented.any() else Words()
+
+
+class PlasticLoadSettings(Settings):
+    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
+
+    share: Fraction = setting(
+        0.02, option="--plastic-share", help="Search the load at which this share of the real area is plastic"
+    )
+
+
+class PlasticLoad(Part):
+    """First load at which more than a share of the real area is at the hardness."""
+
+    name = "plastic_load"
+    title = "Plastic load"
+    table = "plastic_load"
+    settings = PlasticLoadSettings
+    quantities = (Quantity("plastic_load_pressure", "Pa", "mean pressure at which the contact becomes plastic"),)
+
+    def check(self, ask: Any, problem: ContactProblem) -> None:
+        """Refuse a law without a limit of the pressure."""
+        from ..contact.plastic_load import mean_cap
+
+        mean_cap(problem)
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """The two loads between which it lies, as detail."""
+        from ..contact.plastic_load import plastic_load
+
+        with solved.stage("searching the plastic load") as progress:
+            found = plastic_load(solved.problem, fraction=ask.share, solver=solved.solver, progress=progress)
+        return Found({"plastic_load_pressure": found.mean_pressure}, found)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """The load."""
+        return Words(rows=[plastic_load_row(found.detail)])
+
+
+def plastic_rows(result: ContactResult) -> Rows:
+    """What has yielded in ``result``, and the energies."""
+    from ..contact.result import PLASTIC_FRACTION
+
+    share = result.indented_area / result.problem.grid.area
+    limit = percent(PLASTIC_FRACTION)
+    verdict = f"plastic: more than {limit}" if result.is_plastic else f"elastic: at most {limit}"
+    return [
+        ("plastic area under this load / real area", f"{percent(result.plastic_area_fraction)} ({verdict})"),
+        ("area ever plastic", f"{show(result.indented_area, 'm**2')} ({percent(share)} of the nominal area)"),
+        ("volume of the permanent indentation", show(result.plastic_volume, "m**3")),
+        ("deepest permanent indentation", show(result.max_permanent_indentation, "m")),
+        ("plastic work since the virgin surface", show(result.total_plastic_work, "J")),
+        ("elastic energy under this load", show(result.elastic_energy, "J")),
+    ]
+
+
+def plastic_load_row(found: SolvedPlasticLoad) -> tuple[str, str]:
+    """Label and text of the load at which a share of the real area is plastic."""
+    load, force = show(found.mean_pressure, "Pa"), show(found.force, "N")
+    share = percent(found.fraction)
+    pixels = int(found.below.contact.sum())
+    return (
+        f"first load at which {share} of the real area is plastic",
+        f"mean pressure {load}, force {force}, at {percent(found.below.area_fraction)} area ({pixels} pixels)",
+    )

@@ -6,12 +6,9 @@ import functools
 import warnings
 from importlib import metadata
 
-from .contact import Contact
-from .friction import Friction
-from .load_path import LoadPath
-from .menisci import Menisci, WetTheory
+from .contact import Contact, LoadPath, Plasticity, PlasticLoad
+from .film import Friction, Menisci, WetTheory
 from .part import Part
-from .plasticity import Plasticity, PlasticLoad
 from .stress import Stress, Yielding
 
 GROUP = "asperity.parts"

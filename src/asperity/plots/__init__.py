@@ -12,26 +12,21 @@ from .contact import (
     PATH_PLOTS,
     PLASTIC_PLOTS,
     PLOTS,
-    PathPlot,
-    Plot,
     plot_area_loop,
     plot_energies,
     plot_gap_histogram,
     plot_load_loop,
     plot_pressure_histogram,
     plot_section,
-    render,
-    render_path_plot,
     save_path_plots,
     save_plots,
     save_surface_plot,
 )
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
-from .picture import style
+from .picture import Plot, render, style
 from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import (
     SURFACE_PLOTS,
-    SurfacePlot,
     plot_autocorrelation,
     plot_height_distribution,
     plot_material_ratio,
@@ -39,7 +34,6 @@ from .surface import (
     plot_spectrum,
     plot_summits,
     plot_surface_view,
-    render_surface_plot,
     save_roughness_plots,
 )
 
@@ -48,9 +42,7 @@ __all__ = [
     "PLASTIC_PLOTS",
     "PLOTS",
     "SURFACE_PLOTS",
-    "PathPlot",
     "Plot",
-    "SurfacePlot",
     "plot_area_loop",
     "plot_autocorrelation",
     "plot_contact",
@@ -80,8 +72,6 @@ __all__ = [
     "plot_surface_view",
     "plot_transitions",
     "render",
-    "render_path_plot",
-    "render_surface_plot",
     "save_path_plots",
     "save_plots",
     "save_roughness_plots",

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,7 +22,6 @@ from .maps import plot_classes, plot_contact, plot_gap, plot_heights, plot_inden
 from .picture import (
     BLACK,
     BLUE,
-    CURVE_SIZE,
     GREEN,
     NO_CONTACT,
     ORANGE,
@@ -32,9 +30,11 @@ from .picture import (
     VERMILLION,
     YELLOW,
     Figure,
+    Plot,
     Scale,
     map_size,
     png,
+    render,
     save_pictures,
     scale,
 )
@@ -198,57 +198,40 @@ def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
-Draw: TypeAlias = "Callable[[ContactResult, Axes], Axes]"
-"""Draws a result on axes."""
-
-
-@dataclass(frozen=True)
-class Plot:
-    """One figure of the standard set: ``name`` of its file, ``title``, ``caption``, how to draw it, map or curve."""
-
-    name: str
-    title: str
-    caption: str
-    draw: Draw
-    is_map: bool = True
-
-
 def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
     return plot_heights(result.problem.surface, ax)
 
 
 PLOTS = (
-    Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface),
-    Plot("pressure", "Pressure", "Contact pressure; grey where the bodies do not touch.", plot_pressure),
+    Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface, "map"),
+    Plot("pressure", "Pressure", "Contact pressure; grey where the bodies do not touch.", plot_pressure, "map"),
     Plot(
         "pressure_log",
         "Pressure, logarithmic",
         "Contact pressure on a logarithmic scale of three decades below the maximum.",
         partial(plot_pressure, log=True),
+        "map",
     ),
-    Plot("contact", "Contact", "Where the bodies touch, elastically or at the hardness.", plot_contact),
-    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap),
+    Plot("contact", "Contact", "Where the bodies touch, elastically or at the hardness.", plot_contact, "map"),
+    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap, "map"),
     Plot(
         "section",
         "Section",
         "Cut along x through the highest pressure: deformed composite surface against the counter surface, "
         "and the pressure below. Heights are exaggerated.",
         plot_section,
-        is_map=False,
     ),
     Plot(
         "histogram",
         "Distribution of pressure",
         "Probability density of the pressure over the real contact area.",
         plot_pressure_histogram,
-        is_map=False,
     ),
     Plot(
         "gap_histogram",
         "Distribution of the gap",
         "Probability density of the gap over the area out of contact.",
         plot_gap_histogram,
-        is_map=False,
     ),
 )
 """The standard figures of a result in the order of a report."""
@@ -259,12 +242,14 @@ PLASTIC_PLOTS = (
         "Plastic zone",
         "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
         plot_indentation,
+        "map",
     ),
     Plot(
         "residual",
         "Residual surface",
         "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
         plot_residual,
+        "map",
     ),
 )
 """The figures of a result that is permanently indented."""
@@ -281,16 +266,10 @@ def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
     contact = result.last if isinstance(result, HistoryResult) else result
     found |= {plot.name: partial(render, plot, contact) for plot in plots_of(contact)}
     if isinstance(result, HistoryResult):
-        found |= {plot.name: partial(render_path_plot, plot, result) for plot in PATH_PLOTS}
+        found |= {plot.name: partial(render, plot, result) for plot in PATH_PLOTS}
     if contact.menisci is not None:
         found["menisci"] = partial(png, partial(plot_menisci, contact), map_size(contact.problem.grid))
     return found
-
-
-def render(plot: Plot, result: ContactResult) -> bytes:
-    """PNG of ``plot`` for ``result``."""
-    size = map_size(result.problem.grid) if plot.is_map else CURVE_SIZE
-    return png(lambda ax: plot.draw(result, ax), size)
 
 
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
@@ -389,35 +368,21 @@ def _draw_legs(x: RealArray, y: RealArray, path: HistoryResult, ax: Axes) -> Non
 # The figures of a load path.
 
 
-DrawPath: TypeAlias = "Callable[[HistoryResult, Axes], Axes]"
-"""Draws a load path on axes."""
-
-
-@dataclass(frozen=True)
-class PathPlot:
-    """One figure of a load path: ``name`` of its file, ``title``, ``caption``, how to draw it."""
-
-    name: str
-    title: str
-    caption: str
-    draw: DrawPath
-
-
 PATH_PLOTS = (
-    PathPlot(
+    Plot(
         "load_loop",
         "Load against approach",
         "Mean pressure against approach from first touch of the virgin surfaces. The area within a loop is the plastic work "
         "per nominal area.",
         plot_load_loop,
     ),
-    PathPlot(
+    Plot(
         "area_loop",
         "Area against load",
         "Real contact area against mean pressure. After yielding, the same load has more area than before.",
         plot_area_loop,
     ),
-    PathPlot(
+    Plot(
         "energies",
         "Where the work goes",
         "External work, elastic energy and plastic work after each step. The dotted line lies on the black one but for the "
@@ -428,11 +393,6 @@ PATH_PLOTS = (
 """The figures of a load path in the order of a report."""
 
 
-def render_path_plot(plot: PathPlot, path: HistoryResult) -> bytes:
-    """PNG of ``plot`` for ``path``."""
-    return png(partial(plot.draw, path), CURVE_SIZE)
-
-
 def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their paths.
 
@@ -441,5 +401,5 @@ def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool 
     OutputError
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    pictures = {plot.name: partial(render_path_plot, plot, path) for plot in PATH_PLOTS}
+    pictures = {plot.name: partial(render, plot, path) for plot in PATH_PLOTS}
     return save_pictures(pictures, folder, overwrite=overwrite)

@@ -15,9 +15,9 @@ from ..stress.field import StressField
 from ..surfaces.surface import Surface
 from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
-from .picture import CURVE_SIZE, map_size, png, style
+from .picture import CURVE_SIZE, VIEW_SIZE, map_size, png, style
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
-from .surface import VIEW_SIZE, plot_surface_view
+from .surface import plot_surface_view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,7 +84,7 @@ def _shape(thing: Any, kind: str) -> tuple[tuple[float, float], str | None]:
     if isinstance(thing, Surface):
         return (VIEW_SIZE, "3d") if kind == "view" else (map_size(thing.grid), None)
     if isinstance(thing, ContactResult):
-        curves = [figure.name for figure in (*PLOTS, *PLASTIC_PLOTS) if not figure.is_map]
+        curves = [figure.name for figure in (*PLOTS, *PLASTIC_PLOTS) if figure.kind != "map"]
         return (CURVE_SIZE if kind in curves else map_size(thing.problem.grid)), None
     if isinstance(thing, HistoryResult):
         return CURVE_SIZE, None

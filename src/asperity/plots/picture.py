@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -126,8 +126,35 @@ class Figure:
 CURVE_SIZE = (5.6, 3.4)
 """Width and height in inches of figures that are no maps."""
 
+VIEW_SIZE = (5.6, 4.2)
+"""Width and height in inches of a view in space."""
+
 MAP_SIZE = 3.4
 """Longer side of a map in inches, about."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """How one figure is made: ``name`` of its file, ``title``, ``caption``, what draws it; ``kind`` map, curve or view."""
+
+    name: str
+    title: str
+    caption: str
+    draw: Callable[[Any, Axes], Axes]
+    kind: str = "curve"
+
+
+def render(plot: Plot, thing: Any) -> bytes:
+    """PNG of ``plot`` for ``thing``: a contact, a load path or a characterised surface."""
+    last = getattr(thing, "last", thing)
+    grid = getattr(last, "problem", last).surface.grid
+    size = {"map": map_size(grid), "view": VIEW_SIZE}.get(plot.kind, CURVE_SIZE)
+    return png(lambda ax: plot.draw(thing, ax), size, projection="3d" if plot.kind == "view" else None)
+
+
+def drawn(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
+    """Figures of ``thing`` by ``plots``."""
+    return tuple(Figure(plot.name, plot.title, plot.caption, render(plot, thing)) for plot in plots)
 
 
 def png(

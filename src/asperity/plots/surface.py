@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,15 +22,14 @@ from .maps import plot_heights
 from .picture import (
     BLACK,
     BLUE,
-    CURVE_SIZE,
     GREEN,
     HEIGHT_MAP,
     ORANGE,
     SKY,
     VERMILLION,
+    Plot,
     Scale,
-    map_size,
-    png,
+    render,
     save_pictures,
     scale,
 )
@@ -320,24 +317,6 @@ def _wavelengths(unit: Scale, ax: Axes) -> None:
 # The standard figures of a surface, as PNG.
 
 
-Draw: TypeAlias = "Callable[[Characterisation, Axes], Axes]"
-"""Draws a characterisation on axes."""
-
-VIEW_SIZE = (5.6, 4.2)
-"""Width and height in inches of a view in space."""
-
-
-@dataclass(frozen=True)
-class SurfacePlot:
-    """One figure: ``name`` of its file, ``title``, ``caption``, how to draw it; ``kind`` map, curve or view in space."""
-
-    name: str
-    title: str
-    caption: str
-    draw: Draw
-    kind: str = "curve"
-
-
 def _heights(found: Characterisation, ax: Axes) -> Axes:
     return plot_heights(found.surface, ax)
 
@@ -347,39 +326,39 @@ def _view(found: Characterisation, ax: Axes) -> Axes:
 
 
 SURFACE_PLOTS = (
-    SurfacePlot("heights", "Heights", "Heights relative to their mean; missing points are grey.", _heights, "map"),
-    SurfacePlot("view", "View", "The surface in space; heights are exaggerated.", _view, "view"),
-    SurfacePlot(
+    Plot("heights", "Heights", "Heights relative to their mean; missing points are grey.", _heights, "map"),
+    Plot("view", "View", "The surface in space; heights are exaggerated.", _view, "view"),
+    Plot(
         "distribution",
         "Distribution of heights",
         "Probability density of the heights, and the normal density of the same deviation.",
         plot_height_distribution,
     ),
-    SurfacePlot(
+    Plot(
         "material_ratio",
         "Material ratio",
         "Material ratio (Abbott) curve with the equivalent line of the core; triangles for peaks and valleys.",
         plot_material_ratio,
     ),
-    SurfacePlot(
+    Plot(
         "spectrum",
         "Power spectrum",
         "Radial mean of the power spectrum and the fitted model; the range of the fit is shaded.",
         plot_spectrum,
     ),
-    SurfacePlot(
+    Plot(
         "autocorrelation",
         "Autocorrelation",
         "Autocorrelation along x and y; its falls to 1/e and to 0.1 define correlation lengths.",
         plot_autocorrelation,
     ),
-    SurfacePlot(
+    Plot(
         "scale_dependence",
         "Slope and curvature by scale",
         "Rms slope and curvature of profiles against the length of the stencil.",
         plot_scale_dependence,
     ),
-    SurfacePlot(
+    Plot(
         "summits",
         "Summits",
         "Points above all eight neighbours; the area of a dot grows with the radius of the summit.",
@@ -388,12 +367,6 @@ SURFACE_PLOTS = (
     ),
 )
 """The standard figures of a surface in the order of a report."""
-
-
-def render_surface_plot(plot: SurfacePlot, found: Characterisation) -> bytes:
-    """PNG of ``plot`` for ``found``."""
-    projection = "3d" if plot.kind == "view" else None
-    return png(lambda ax: plot.draw(found, ax), _size(plot.kind, found.surface.grid), projection=projection)
 
 
 def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
@@ -405,9 +378,5 @@ def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwri
         If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     return save_pictures(
-        {plot.name: partial(render_surface_plot, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite
+        {plot.name: partial(render, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite
     )
-
-
-def _size(kind: str, grid: Grid) -> tuple[float, float]:
-    return map_size(grid) if kind == "map" else VIEW_SIZE if kind == "view" else CURVE_SIZE

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,7 +18,7 @@ from ..parts.part import Table
 from ..plots.comparison import comparison_figures
 from ..plots.picture import Figure
 from ..studies.comparison import Comparison, TheoryCurve
-from .page import rendered
+from .page import rendered, shown
 
 # A comparison of theories in words for tables.
 
@@ -216,10 +215,7 @@ def _html(comparison: Comparison, title: str, figures: Sequence[Figure] | None) 
         surface=surface_rows(comparison.surface),
         limits=limit_rows(comparison),
         left_out=left_out_rows(comparison),
-        figures=[
-            {"title": f.title, "caption": f.caption, "picture": base64.b64encode(f.picture).decode("ascii")}
-            for f in drawn
-        ],
+        figures=shown(drawn),
         provenance=[
             *((name.replace("_", " "), text) for name, text in software().items()),
             ("SHA-256 of the heights", surface_provenance(comparison.surface)["digest"]),

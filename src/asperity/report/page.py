@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import base64
+from collections.abc import Iterable
 from importlib import resources
 from typing import Any
 
-# HTML pages from the templates of this folder.
+from ..plots.picture import Figure
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -22,8 +24,13 @@ def rendered(template: str, **values: Any) -> str:
     return environment.get_template(template).render(**values)
 
 
+def shown(figures: Iterable[Figure]) -> list[dict[str, str]]:
+    """``figures`` for a template: title, caption, and the picture as base64."""
+    return [
+        {"title": f.title, "caption": f.caption, "picture": base64.b64encode(f.picture).decode("ascii")}
+        for f in figures
+    ]
+
+
 def _source(name: str) -> str:
     return resources.files(__package__).joinpath("templates", name).read_text(encoding="utf-8")
-
-
-# Tables of text for the templates.

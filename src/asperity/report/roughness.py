@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import math
 from pathlib import Path
 
@@ -13,12 +12,13 @@ from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import surface_rows
-from ..plots.surface import SURFACE_PLOTS, render_surface_plot
+from ..plots.picture import drawn
+from ..plots.surface import SURFACE_PLOTS
 from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation, SpectralParameters
 from ..theories.rough.profile_peaks import SampledPeaks
 from ..theories.statistics.nayak import NayakSummits
-from .page import rendered
+from .page import rendered, shown
 
 # The numbers of a characterisation in words for a table.
 
@@ -256,14 +256,7 @@ def _html(found: Characterisation, title: str) -> str:
         summary=summary(found),
         headline=headline_values(found),
         remarks=found.remarks,
-        figures=[
-            {
-                "title": plot.title,
-                "caption": plot.caption,
-                "picture": base64.b64encode(render_surface_plot(plot, found)).decode("ascii"),
-            }
-            for plot in SURFACE_PLOTS
-        ],
+        figures=shown(drawn(SURFACE_PLOTS, found)),
         groups=quantity_rows(found),
         summits=summit_comparison(found),
         peaks=peak_comparison(found),

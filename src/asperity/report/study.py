@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -32,7 +31,7 @@ from ..plots.picture import CURVE_SIZE, Figure, png, save_pictures
 from ..studies.campaign import Campaign, CampaignState
 from ..studies.collect import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
-from .page import rendered
+from .page import rendered, shown
 
 if TYPE_CHECKING:
     import xarray
@@ -381,10 +380,7 @@ def _html(campaign: Campaign, figures: Sequence[Figure] | None) -> str:
         n_cases=int(data["outcome"].size),
         failures=failure_table(campaign),
         findings=finding_table(campaign),
-        figures=[
-            {"title": f.title, "caption": f.caption, "picture": base64.b64encode(f.picture).decode("ascii")}
-            for f in drawn
-        ],
+        figures=shown(drawn),
         provenance=[
             ("collected (UTC)", data.attrs["created"]),
             *((name.replace("_", " "), text) for name, text in software.items()),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,10 +24,10 @@ from ..io.words import (
     surface_rows,
 )
 from ..parts.part import Part, Words
-from ..plots.contact import PLOTS, render
-from ..plots.picture import Figure
+from ..plots.contact import PLOTS
+from ..plots.picture import Figure, drawn
 from ..run.execute import Outcome, analysed
-from .page import rendered
+from .page import rendered, shown
 
 TEMPLATE = "report.html"
 """Template in the folder ``templates``."""
@@ -88,7 +87,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
         inputs=_inputs(result),
         certificate=certificate_rows(result),
         results=result_rows(result),
-        figures=[_shown(plot.title, plot.caption, render(plot, result)) for plot in PLOTS],
+        figures=shown(drawn(PLOTS, result)),
         sections=[_section(part, words, outcome.figures[part.name]) for part, words in outcome.sections],
         warnings=[item for item in advice if item.level == "warning"],
         notes=[item for item in advice if item.level != "warning"],
@@ -100,8 +99,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
 
 def _section(part: Part, words: Words, figures: Sequence[Figure]) -> dict[str, Any]:
     """What one part says and draws, for the template."""
-    shown = [_shown(figure.title, figure.caption, figure.picture) for figure in figures]
-    return {"name": part.name, "title": part.title, "words": words, "figures": shown}
+    return {"name": part.name, "title": part.title, "words": words, "figures": shown(figures)}
 
 
 def _title(result: ContactResult) -> str:
@@ -118,11 +116,6 @@ def _inputs(result: ContactResult) -> list[tuple[str, Rows]]:
         ("Counter body", body_rows(problem.counter_body)),
         ("Boundary, law and load", setting_rows(result)),
     ]
-
-
-def _shown(title: str, caption: str, picture: bytes) -> dict[str, str]:
-    """A figure for the template: the picture as base64."""
-    return {"title": title, "caption": caption, "picture": base64.b64encode(picture).decode("ascii")}
 
 
 def _provenance_rows(described: dict[str, Any]) -> Rows:

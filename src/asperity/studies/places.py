@@ -13,11 +13,9 @@ from pydantic.fields import FieldInfo
 from ..core import units
 from ..core.arrays import file_digest
 from ..core.errors import InputError
-from ..core.settings import Settings
-from ..core.values import Written, WrittenPair
-from ..io.quantities import quantity
-from ..io.schemas.problem import CONTROLS, ProblemDocument
-from ..io.schemas.values import NONE
+from ..core.settings import Settings, declared
+from ..core.values import Interval, Lengths, Number, Several, Written, WrittenPair
+from ..io.schemas.problem import CONTROLS, NONE, ProblemDocument
 from ..run.document import RENAMED, tidy
 
 Key: TypeAlias = str | int
@@ -79,6 +77,15 @@ class Place:
         if self.quantity is None:
             return _file_content(self.keys[-1], value, folder)
         return _si(value, self.quantity, self.path)
+
+
+def quantity(field: FieldInfo) -> str | None:
+    """Kind of quantity that the ``field`` of a table holds as text, None for any other."""
+    values = declared("", field).values
+    values = values.item if isinstance(values, Several) else values
+    if isinstance(values, Lengths | Interval):
+        return "size" if isinstance(values, Lengths) else "length"
+    return values.quantity or None if isinstance(values, Number) else None
 
 
 def locate(document: ProblemDocument, path: str) -> Place:

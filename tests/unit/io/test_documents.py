@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from asperity import FileFormatError, InputError, OutputError
-from asperity.io.schemas.body_text import body_from_text
+from asperity.io.schemas.bodies import body_from_text
 from asperity.run.document import (
     ProblemDocument,
     checked,

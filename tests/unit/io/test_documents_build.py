@@ -40,9 +40,8 @@ from asperity import (
 )
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
-from asperity.io.build_surface import build_part, build_surface
 from asperity.io.schemas.surfaces import SURFACE_TABLES, SURFACES
-from asperity.run.build import build, build_control
+from asperity.run.build import build, build_control, build_part, build_surface
 from asperity.run.document import checked, relocated
 from asperity.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate

@@ -72,7 +72,7 @@ def ax() -> Axes:
 
 @pytest.mark.parametrize("plot", plots.SURFACE_PLOTS, ids=lambda plot: plot.name)
 def test_every_figure_of_every_surface_is_a_picture(plot, found):
-    picture = Image.open(io.BytesIO(plots.render_surface_plot(plot, found)))
+    picture = Image.open(io.BytesIO(plots.render(plot, found)))
     assert picture.format == "PNG"
     assert min(picture.size) > 200
     assert max(picture.size) < 2400
@@ -191,5 +191,5 @@ def test_colours_stay_those_of_the_caller(measured, tmp_path: Path):
     from matplotlib import rcParams
 
     before = dict(rcParams)
-    plots.render_surface_plot(plots.SURFACE_PLOTS[0], measured)
+    plots.render(plots.SURFACE_PLOTS[0], measured)
     assert dict(rcParams) == before

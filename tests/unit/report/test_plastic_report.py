@@ -11,9 +11,8 @@ import pytest
 import asperity as asp
 from asperity.core.status import Outcome, Status
 from asperity.io.words import summary
-from asperity.parts.load_path.words import energy_table, path_sentence, turn_table
+from asperity.parts.contact import energy_table, path_sentence, plastic_load_row, plastic_rows, turn_table
 from asperity.parts.part import Found
-from asperity.parts.plasticity.words import plastic_load_row, plastic_rows
 from asperity.run.execute import analysed
 
 

@@ -57,7 +57,7 @@ def test_a_page_of_every_surface(surface, tmp_path):
 
 
 def test_titles_are_escaped(found, tmp_path, monkeypatch):
-    monkeypatch.setattr("asperity.report.roughness.render_surface_plot", lambda plot, found: b"")
+    monkeypatch.setattr("asperity.plots.picture.png", lambda *a, **k: b"")
     path = tmp_path / "page.html"
     write_roughness_report(found, path, title="<film> & co")
     assert "&lt;film&gt; &amp; co" in path.read_text(encoding="utf-8")
@@ -131,7 +131,6 @@ def test_comparison_where_there_is_nothing_to_compare():
 
 
 def test_public_functions(found, tmp_path: Path, monkeypatch):
-    for module in ("report.roughness", "plots.surface"):
-        monkeypatch.setattr(f"asperity.{module}.render_surface_plot", lambda plot, found: b"")
+    monkeypatch.setattr("asperity.plots.picture.png", lambda *a, **k: b"")
     asp.write_roughness_report(found, tmp_path / "page.html")
     assert len(asp.save_roughness_plots(found, tmp_path / "pictures")) == 8

@@ -11,7 +11,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.parts.stress.words import (
+from asperity.parts.stress import (
     interface_table,
     maxima_table,
     region_text,

@@ -6,12 +6,30 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, model_validator
 
+from ...contact.solvers.by_name import SOLVERS
 from ...core.errors import InputError
 from ...core.settings import Settings
-from ...core.values import Count, Force, Fraction, Length, Pressure
+from ...core.values import Choice, Count, Force, Fraction, Length, Number, Pressure
 from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
-from .values import Method, PathForce, PathLength, PathPressure, PressureOrBody
+
+FROM_BODY = "from body"
+"""Hardness that stands for the lowest known hardness of the two bodies."""
+
+EFFECTIVE = "effective"
+"""Hardness that stands for that of the softer body with all its layers, by the depth of the indentation."""
+
+NONE = "0"
+"""Turning point of a load path without load."""
+
+MIDDLE = "middle"
+"""Word for a position: of the line in the middle of a map."""
+
+Method: TypeAlias = Annotated[str, Choice({name: name for name in SOLVERS})]
+PressureOrBody: TypeAlias = Annotated[float | str, Number("pressure", above=0.0, words=(FROM_BODY, EFFECTIVE))]
+PathPressure: TypeAlias = Annotated[float | str, Number("pressure", least=0.0, words=(NONE,))]
+PathForce: TypeAlias = Annotated[float | str, Number("force", least=0.0, words=(NONE,))]
+PathLength: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=(NONE,))]
 
 LOADS = ("mean_pressure", "force", "approach", "mean_gap")
 """What can be prescribed."""

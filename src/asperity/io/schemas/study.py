@@ -10,9 +10,6 @@ from ...core.errors import InputError
 from ...core.settings import Settings
 from ...core.values import Count, Fraction, NonEmpty, Positive, Seed, Whole
 
-VERSION = 1
-"""Version of the document that this package reads and writes."""
-
 DEFAULT_QUANTITIES = ("area_fraction_corrected", "max_pressure", "approach", "mean_gap")
 """What is collected unless the document asks for something else."""
 
