@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import json
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
@@ -19,6 +21,7 @@ from asperity.core.settings import Settings, setting
 from asperity.core.values import Pressure
 from asperity.parts import registry
 from asperity.parts.part import Found, Part, Solved, Table, Words
+from asperity.plots.picture import Figure, png
 from asperity.run import document as documents
 from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
@@ -44,6 +47,10 @@ class Hot(Part):
             raise ValueError("nothing is that hard")
         return Found({"hot_share": float((pressure >= ask.level).sum() / max((pressure > 0.0).sum(), 1))})
 
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        picture = png(lambda ax: ax.hist(solved.result.pressure.ravel()), (3.0, 2.0), dpi=50)
+        return (Figure("hot_map", "Hot points", "Where it is hot.", picture),)
+
     def words(self, found: Found, solved: Solved) -> Words:
         share = found.values["hot_share"]
         return Words(
@@ -60,8 +67,7 @@ def entry(monkeypatch: pytest.MonkeyPatch) -> Any:
     def installed(**objects: Any) -> None:
         dist = SimpleNamespace(name="hot-spots", version="1.2")
         found = [
-            SimpleNamespace(name=k, load=lambda v=v: v, dist=dist, module="cli.test_own_part")
-            for k, v in objects.items()
+            SimpleNamespace(name=k, load=lambda v=v: v, dist=dist, module=Hot.__module__) for k, v in objects.items()
         ]
         monkeypatch.setattr(
             registry.metadata, "entry_points", lambda group="": found if group == registry.GROUP else real(group=group)
@@ -88,6 +94,19 @@ def test_it_shows_up_at_every_door(run: Runner, matrix: Path, tmp_path: Path, en
     share = outcome.values["hot_share"]
     assert 0.0 < share < 1.0
     assert f"Hot: {share:.3g} of the contact." in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    with h5py.File(tmp_path / "run" / "result.nc") as file:
+        assert file["hot/hot_share"][()] == share
+        assert json.loads(file.attrs["provenance"])["software"]["hot-spots"] == "1.2"
+    assert f"hot_share,{share!r},1," in (tmp_path / "run" / "scalars.csv").read_text(encoding="utf-8")
+    assert "hot-spots" in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    assert run("plot", tmp_path / "run" / "result.nc", "--kind", "hot_map", "--out", tmp_path).exit_code == 0
+    assert (tmp_path / "hot_map.png").read_bytes() == (tmp_path / "run" / "plots" / "hot_map.png").read_bytes()
+    assert run("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "again.csv").exit_code == 0
+    assert f"hot_share,{share!r},1," in (tmp_path / "again.csv").read_text(encoding="utf-8")
+    kept = (tmp_path / "run" / "result.nc").read_bytes()
+    lost = run("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "run" / "result.nc", "--force")
+    assert lost.exit_code == 2
+    assert (tmp_path / "run" / "result.nc").read_bytes() == kept
     refused = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200nm")
     assert "--hot-level must be a pressure" in refused.stderr
 

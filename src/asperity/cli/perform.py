@@ -56,7 +56,7 @@ def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> 
     result, text = outcome.result, dumps(document)
     save_document(document, folder / "problem.toml")
     save_plots(result, folder / "plots")
-    export_csv(result, folder / "scalars.csv")
+    export_csv(result, folder / "scalars.csv", scalars=outcome.scalars)
     if outcome.path is not None:
         export_csv(outcome.path, folder / PATH_NAMES[0])
     write_parts(outcome, folder, text, document.title)
@@ -111,7 +111,7 @@ def _write_files(outcome: Outcome, document: ProblemDocument, base_folder: Path,
         moved = relocated(document, base_folder, output.save_document.parent)
         save_document(moved, output.save_document, overwrite=output.force)
     if output.csv is not None:
-        export_csv(outcome.result, output.csv, overwrite=output.force)
+        export_csv(outcome.result, output.csv, scalars=outcome.scalars, overwrite=output.force)
     if output.vtk is not None:
         export_vtk(outcome.result, output.vtk, overwrite=output.force)
 

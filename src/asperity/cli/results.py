@@ -72,18 +72,19 @@ def export(
     from ..core.errors import InputError
     from ..io.atomic import require_new_files
     from ..io.export import export_csv, export_vtk
-    from ..io.results import contact_of, load
+    from ..run.stored import load_outcome
     from .show import print_files
 
     wanted = [path for path in (csv, vtk) if path is not None]
     if not wanted:
         raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
-    require_new_files(wanted, overwrite=force)
-    result = load(file)
+    require_new_files(wanted, overwrite=force, inputs=(file,))
+    outcome = load_outcome(file)
     if csv is not None:
-        export_csv(result, csv, overwrite=force)
+        result = outcome.result if outcome.stored or outcome.path is None else outcome.path
+        export_csv(result, csv, scalars=outcome.scalars, overwrite=force)
     if vtk is not None:
-        export_vtk(contact_of(result), vtk, overwrite=force)
+        export_vtk(outcome.result, vtk, overwrite=force)
     print_files(wanted)
 
 

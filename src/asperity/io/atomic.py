@@ -1,12 +1,18 @@
-"""Output appears whole or not at all: write beside the target, rename on success, clean up on any failure."""
+"""Output appears whole or not at all: write beside the target, rename on success, clean up on failure or in the next run."""
 
 from __future__ import annotations
 
+import ctypes
+import importlib.util
+import os
+import re
 import secrets
 import shutil
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from ..core.errors import AsperityError, OutputError
 
@@ -18,7 +24,8 @@ OVERWRITE = "overwrite it with overwrite=True (--force)"
 def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Yield the path of a temporary file beside ``path``; rename it to ``path`` on success, else remove it.
 
-    The temporary file has the suffix of ``path`` and exists already, so an unwritable folder fails before any work.
+    The temporary file has the suffix of ``path`` and exists already, so an unwritable folder fails before any work. A file
+    that is replaced leaves its mode to the new one; a symbolic link stays and leads to the new file.
 
     Raises
     ------
@@ -27,10 +34,12 @@ def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
     """
     target = Path(path)
     require_new_file(target, overwrite=overwrite)
+    target = Path(os.path.realpath(target)) if target.is_symlink() else target
     with _partial(target) as partial:
-        partial.touch()
         yield partial
         require_new_file(target, overwrite=overwrite)
+        if target.exists():
+            shutil.copymode(target, partial)
         partial.replace(target)
 
 
@@ -38,8 +47,9 @@ def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
 def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Yield the path of a temporary folder beside ``path``; rename it to ``path`` on success, else remove it.
 
-    Missing folders above ``path`` are made. With ``overwrite``, files of an existing folder are replaced by new ones
-    of the same name; all others are kept. An existing empty folder needs no ``overwrite``.
+    Missing folders above ``path`` are made. With ``overwrite``, an existing folder is exchanged at once for the new one, which
+    takes over (by hard links) what it does not replace; only in the working folder files are replaced one by one. An
+    existing empty folder needs no ``overwrite``.
 
     Raises
     ------
@@ -48,22 +58,36 @@ def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path
     """
     target = Path(path)
     _require_new_folder(target, overwrite=overwrite)
-    with _partial(target) as partial:
-        partial.mkdir(parents=True)
+    target = Path(os.path.realpath(target))
+    with _partial(target, folder=True) as partial:
         yield partial
         _require_new_folder(target, overwrite=overwrite)
-        if target.exists():
+        if not target.exists():
+            partial.replace(target)
+        elif Path.cwd().is_relative_to(target):
             _move_contents(partial, target)
         else:
-            partial.replace(target)
+            _keep(target, partial)
+            _exchange(partial, target)
 
 
 @contextmanager
-def _partial(target: Path) -> Iterator[Path]:
-    """A name beside ``target`` that is gone at the end, whatever happens; a failure to write is one sentence."""
+def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
+    """A new file or folder beside ``target`` that is gone at the end; a failure to write is one sentence.
+
+    It is locked as long as this process lives, so that what a killed process has left can be told apart and removed.
+    """
     absolute = target.absolute()
-    partial = absolute.with_name(f".{absolute.stem[:100]}.{secrets.token_hex(4)}.partial{absolute.suffix}")
+    held, partial = -1, absolute
+    start, end = f".{absolute.stem[:30]}.", f".partial{absolute.suffix if len(absolute.suffix) < 20 else ''}"
     try:
+        if folder:
+            absolute.parent.mkdir(parents=True, exist_ok=True)
+        _clear(absolute, re.compile(re.escape(start) + "[0-9a-f]{8}" + re.escape(end)))
+        while held == -1:
+            partial = absolute.with_name(f"{start}{secrets.token_hex(4)}{end}")
+            partial.mkdir() if folder else partial.touch()
+            held = _lock(partial)
         yield partial
     except AsperityError:
         raise
@@ -72,7 +96,81 @@ def _partial(target: Path) -> Iterator[Path]:
             f"{target} cannot be written: {error.strerror or error}; check rights, path and free space."
         ) from error
     finally:
-        _remove(partial)
+        if partial != absolute:
+            _remove(partial)
+        if held >= 0:
+            os.close(held)
+
+
+def _lock(path: Path) -> int:
+    """Descriptor that locks ``path`` until it is closed; -1 if another process has it, -2 where there are no locks."""
+    if importlib.util.find_spec("fcntl") is None:  # Windows
+        return -2
+    import fcntl
+
+    try:
+        held = os.open(path, os.O_RDONLY)
+    except FileNotFoundError:  # taken for that of a killed process before it was locked
+        return -1
+    try:
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(held)
+        return -1
+    except OSError:  # a file system without locks
+        os.close(held)
+        return -2
+    return held
+
+
+def _clear(target: Path, name: re.Pattern[str]) -> None:
+    """Remove what killed processes have left beside ``target``, and put back a folder that one had moved away."""
+    with suppress(OSError):
+        for entry in [entry.name for entry in os.scandir(target.parent) if entry.name.startswith(".")]:
+            path = target.with_name(entry)
+            if entry.endswith(_AWAY) and name.fullmatch(entry.removesuffix(_AWAY)):
+                path.rename(target) if not target.exists() else _remove(path)
+            elif name.fullmatch(entry) and (held := _lock(path)) >= 0:
+                _remove(path)
+                os.close(held)
+
+
+_AWAY = ".old"
+"""Ending of a folder that has been moved away to make room for the new one."""
+
+
+def _exchange(new: Path, old: Path) -> None:
+    """Let two folders change their names, at once where the system can."""
+    names = [os.fsencode(path) for path in (new, old)]
+    library: Any = ctypes.CDLL(None) if sys.platform != "win32" else None
+    done = -1
+    if hasattr(library, "renameat2"):  # Linux: AT_FDCWD, RENAME_EXCHANGE
+        done = library.renameat2(-100, names[0], -100, names[1], 2)
+    elif hasattr(library, "renamex_np"):  # macOS: RENAME_SWAP
+        done = library.renamex_np(*names, 2)
+    if done != 0:
+        away = new.with_name(f"{new.name}{_AWAY}")
+        old.rename(away)
+        new.rename(old)
+        away.rename(new)
+
+
+def _keep(source: Path, target: Path) -> None:
+    """Give the folder ``target`` all that ``source`` has and it lacks, and the modes of what it replaces."""
+    for entry in source.iterdir():
+        kept = target / entry.name
+        if entry.is_dir() and not entry.is_symlink():
+            if not kept.exists():
+                kept.mkdir()
+            _keep(entry, kept)
+        elif kept.exists():
+            shutil.copymode(entry, kept)
+        else:
+            try:
+                os.link(entry, kept, follow_symlinks=False)
+            except OSError:  # a file system without hard links
+                shutil.copy2(entry, kept, follow_symlinks=False)
+    shutil.copymode(source, target)
 
 
 def require_new_file(target: Path, *, overwrite: bool) -> None:
@@ -81,20 +179,21 @@ def require_new_file(target: Path, *, overwrite: bool) -> None:
     Raises
     ------
     OutputError
-        If ``target`` exists and ``overwrite`` is false, is a folder, or lies in no folder.
+        If ``target`` exists and ``overwrite`` is false, is a folder, lies in no folder, or is no possible name.
     """
+    exists = _exists(target)
     if not target.parent.is_dir():
         raise OutputError(f"output file must lie in an existing folder, but {target.parent} is none; create it first.")
     if target.is_dir():
         raise OutputError(f"output file must not be a folder, but {target} is one; add a file name.")
-    if target.exists() and not target.is_file():
+    if exists and not target.is_file():
         raise OutputError(f"output file must be an ordinary file, but {target} is a device; choose another name.")
-    if target.exists() and not overwrite:
+    if exists and not overwrite:
         raise OutputError(f"output file must not exist yet, but {target} does; choose another name or {OVERWRITE}.")
 
 
-def require_new_files(targets: Sequence[Path], *, overwrite: bool) -> None:
-    """Refuse ``targets`` of which two are the same, or one cannot be written as a new file.
+def require_new_files(targets: Sequence[Path], *, overwrite: bool, inputs: Sequence[Path] = ()) -> None:
+    """Refuse ``targets`` of which two are the same, one is among the ``inputs``, or cannot be written as a new file.
 
     Raises
     ------
@@ -102,16 +201,30 @@ def require_new_files(targets: Sequence[Path], *, overwrite: bool) -> None:
         As said.
     """
     for number, target in enumerate(targets):
+        if _exists(target) and any(path.exists() and path.samefile(target) for path in inputs):
+            raise OutputError(f"output file must not be the input, but {target} is; choose another name.")
         require_new_file(target, overwrite=overwrite)
-        if target.absolute() in [other.absolute() for other in targets[:number]]:
+        if os.path.realpath(target) in [os.path.realpath(other) for other in targets[:number]]:
             raise OutputError(f"output files must differ, but {target} is given twice; choose another name for one.")
 
 
 def _require_new_folder(target: Path, *, overwrite: bool) -> None:
-    if target.exists() and not target.is_dir():
+    if _exists(target) and not target.is_dir():
         raise OutputError(f"output folder must not be a file, but {target} is one; choose another name.")
     if target.is_dir() and not overwrite and any(target.iterdir()):
         raise OutputError(f"output folder must be new or empty, but {target} is not; choose another or {OVERWRITE}.")
+
+
+def _exists(target: Path) -> bool:
+    """Whether there is something; an ``OutputError`` if there cannot be, as its name is too long for one."""
+    try:
+        target.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"{target} cannot be written: {reason}; choose another name.") from None
+    return True
 
 
 def _move_contents(source: Path, target: Path) -> None:
@@ -124,7 +237,7 @@ def _move_contents(source: Path, target: Path) -> None:
 
 
 def _remove(partial: Path) -> None:
-    if partial.is_dir():
+    if partial.is_dir() and not partial.is_symlink():
         shutil.rmtree(partial, ignore_errors=True)
     with suppress(OSError):
         partial.unlink()

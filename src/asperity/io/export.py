@@ -7,7 +7,7 @@ import csv
 import math
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 from typing import IO, Any
@@ -18,6 +18,7 @@ import numpy as np
 from ..contact.history import HistoryResult
 from ..contact.result import SCALARS, WET_SCALARS, ContactResult
 from ..core.errors import InputError
+from ..core.quantity import Labelled
 from ..stress.field import Peak, StressField
 from ..stress.survey import StressSurvey
 from .atomic import atomic_file
@@ -33,30 +34,37 @@ def export_csv(
     result: ContactResult | HistoryResult | StressSurvey,
     path: str | Path,
     *,
+    scalars: Iterable[Labelled] = (),
     overwrite: bool = False,
 ) -> None:
     """Write the numbers of ``result`` to ``path`` as a table, SI, exact.
 
-    Of a contact: scalars, certificate and status, with the columns name, value, unit, label. Of a load path: one row a step, with its
-    number, whether it converged, scalars and energies. Of stresses: the maxima of layers and interfaces with their places, and the
-    load factors.
+    Of a contact: scalars, further ``scalars`` such as those of an outcome, certificate and status, with the columns name, value,
+    unit, label. Of a load path: one row a step, with its number, whether it converged, scalars and energies. Of stresses: the
+    maxima of layers and interfaces with their places, and the load factors.
 
     Raises
     ------
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    table: Any = _step_table if isinstance(result, HistoryResult) else _table
-    table = _stress_table if isinstance(result, StressSurvey) else table
+    rows: Iterable[Any]
+    if isinstance(result, HistoryResult):
+        rows = _step_table(result)
+    else:
+        rows = _stress_table(result) if isinstance(result, StressSurvey) else _table(result, scalars)
     with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows(table(result))
+        csv.writer(file).writerows(rows)
 
 
-def _table(result: ContactResult) -> Iterator[tuple[Any, ...]]:
+def _table(result: ContactResult, scalars: Iterable[Labelled]) -> Iterator[tuple[Any, ...]]:
     yield ("name", "value", "unit", "label")
-    yield from ((q.name, getattr(result, q.name), q.unit, q.label) for q in SCALARS)
-    if result.menisci is not None:
-        yield from ((q.name, getattr(result.menisci, q.name), q.unit, q.label) for q in WET_SCALARS)
+    known = [Labelled(q, getattr(result, q.name)) for q in SCALARS]
+    known += [Labelled(q, getattr(result.menisci, q.name)) for q in WET_SCALARS if result.menisci is not None]
+    values = {item.quantity.name: item for item in (*scalars, *known)}
+    first = dict.fromkeys(item.quantity.name for item in known)
+    for q, value in ((values[name].quantity, values[name].values) for name in first | dict.fromkeys(values)):
+        yield q.name, value, q.unit, q.label
     for q in CERTIFICATE:
         yield f"certificate.{q.name}", getattr(result.certificate, q.name), q.unit, q.label
     yield "status.outcome", str(result.status.outcome), "", "how the solver ended"

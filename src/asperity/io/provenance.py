@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib import metadata
+from types import MappingProxyType
 from typing import Any
 
 from ..contact.result import ContactResult
@@ -39,15 +41,17 @@ def surface_provenance(surface: Surface) -> dict[str, Any]:
     }
 
 
-def provenance(result: ContactResult) -> dict[str, Any]:
+def provenance(result: ContactResult, packages: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:
     """Provenance of ``result`` as it is written now: a dictionary of text, lists and dictionaries, fit for JSON.
+
+    ``packages`` are versions of further software by its name.
 
     Keys: ``created`` (UTC, ISO 8601), ``software``, ``surface``, ``counter_surface`` (only if it is rough) and
     ``citation_keys``.
     """
     described: dict[str, Any] = {
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "software": software(),
+        "software": {**software(), **packages},
         "surface": surface_provenance(result.problem.surface),
     }
     counter = result.problem.counter_surface

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -231,11 +232,13 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
     )
 
 
-def root_attributes(result: ContactResult, document: str | None) -> dict[str, Any]:
-    """What describes a whole file: title, provenance, citation keys, and the text of the ``document``."""
+def root_attributes(
+    result: ContactResult, document: str | None, packages: Mapping[str, str] = MappingProxyType({})
+) -> dict[str, Any]:
+    """What describes a whole file: title, provenance (with ``packages``), citation keys, and the text of the ``document``."""
     attributes = {
         "title": "contact of rough surfaces",
-        "provenance": json.dumps(provenance(result)),
+        "provenance": json.dumps(provenance(result, packages)),
         "citation_keys": " ".join(result.citation_keys),
     }
     return attributes if document is None else attributes | {"document": document}

@@ -137,6 +137,14 @@ class StoredSurvey:
         return iter(()) if self.planes is None else (self.planes.only(n) for n in range(len(self.planes.planes)))
 
 
+_LARGEST = {
+    "max_von_mises": "largest von Mises stress",
+    "max_tension": "largest tension (σ₁)",
+    "max_shear": "largest shear stress",
+}
+"""Largest stresses that each layer has, and what they are called."""
+
+
 class Stress(Part):
     """Largest stresses of layers and interfaces."""
 
@@ -145,11 +153,21 @@ class Stress(Part):
     table = "stress"
     settings = StressSettings
     quantities = (
-        Quantity("max_von_mises", "Pa", "largest von Mises stress"),
-        Quantity("max_tension", "Pa", "largest tension (σ₁)"),
-        Quantity("max_shear", "Pa", "largest shear stress"),
+        *(Quantity(name, "Pa", text) for name, text in _LARGEST.items()),
         Quantity("max_interface_shear", "Pa", "largest shear on an interface"),
         Quantity("max_interface_peel", "Pa", "largest peel of an interface"),
+        Quantity("layer", "", "layer, from the surface down", dims=("layer",)),
+        Quantity("layer_top", "m", "depth of the top of the layer", dims=("layer",)),
+        Quantity("layer_bottom", "m", "depth of the bottom of the layer", dims=("layer",)),
+        *(Quantity(f"layer_{name}", "Pa", f"{text} in the layer", dims=("layer",)) for name, text in _LARGEST.items()),
+        *(
+            Quantity(f"layer_{name}_depth", "m", f"depth of the {text} in the layer", dims=("layer",))
+            for name, text in _LARGEST.items()
+        ),
+        Quantity("interface", "", "materials above and below the interface", dims=("interface",)),
+        Quantity("interface_depth", "m", "depth of the interface", dims=("interface",)),
+        Quantity("interface_max_shear", "Pa", "largest shear on the interface", dims=("interface",)),
+        Quantity("interface_max_peel", "Pa", "largest peel of the interface", dims=("interface",)),
     )
 
     def asked(self, document: Any, folder: Path) -> StressRequest | None:
@@ -180,6 +198,7 @@ class Stress(Part):
             "max_shear": _largest(found, "maxima", "shear"),
             "max_interface_shear": _largest(found, "interfaces", "shear"),
             "max_interface_peel": _largest(found, "interfaces", "peel"),
+            **_by_layer(found),
         }
         return Found(values, found, (), found.citation_keys)
 
@@ -237,6 +256,28 @@ class Yielding(Part):
     def words(self, found: Found, solved: Solved) -> Words:
         """Which part of the body yields first, and when."""
         return yield_words(found.detail)
+
+
+def _by_layer(survey: StressSurvey) -> dict[str, Any]:
+    """Largest stresses of each layer with their depths, and of each interface, by the names of their quantities."""
+    import numpy as np
+
+    regions, interfaces = [part.region for part in survey.maxima], survey.interfaces
+    made: dict[str, Any] = {
+        "layer": np.array([region.name for region in regions], object),
+        "layer_top": np.array([region.top for region in regions]),
+        "layer_bottom": np.array([region.bottom for region in regions]),
+    }
+    for name, attribute in zip(_LARGEST, ("von_mises", "tension", "shear"), strict=True):
+        peaks = [getattr(part, attribute) for part in survey.maxima]
+        made[f"layer_{name}"] = np.array([peak.value for peak in peaks])
+        made[f"layer_{name}_depth"] = np.array([peak.depth for peak in peaks])
+    if interfaces:
+        made["interface"] = np.array([f"{item.above} / {item.below}" for item in interfaces], object)
+        made["interface_depth"] = np.array([item.shear.depth for item in interfaces])
+        made["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
+        made["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
+    return made
 
 
 def _largest(survey: StressSurvey, parts: str, peak: str) -> float:

@@ -24,6 +24,7 @@ from ..io.words import (
     surface_rows,
 )
 from ..parts.part import Part, Words
+from ..parts.registry import versions
 from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
 from ..run.execute import Outcome, analysed
@@ -91,7 +92,9 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
         sections=[_section(part, words, outcome.figures[part.name]) for part, words in outcome.sections],
         warnings=[item for item in advice if item.level == "warning"],
         notes=[item for item in advice if item.level != "warning"],
-        provenance=_provenance_rows(json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result)),
+        provenance=_provenance_rows(
+            json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result, versions())
+        ),
         references=[(key, REFERENCES.get(key, "unknown reference")) for key in keys],
         document=document,
     )

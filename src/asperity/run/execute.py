@@ -19,6 +19,7 @@ from ..contact.solvers.active_set.linear_system import normal_stiffness
 from ..contact.state import InterfaceState
 from ..core.engine import CpuEngine
 from ..core.errors import AsperityError
+from ..core.quantity import Labelled
 from ..core.status import Advice, Status
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
@@ -71,13 +72,20 @@ class Outcome:
         return self.status.converged and (self.path is None or self.path.converged)
 
     @property
+    def scalars(self) -> list[Labelled]:
+        """Every scalar with its quantity."""
+        found = ((part, self.found[part.name].values) for part in parts() if part.name in self.found)
+        return [
+            Labelled(q, values[q.name])
+            for part, values in found
+            for q in part.quantities
+            if q.name in values and not q.dims
+        ]
+
+    @property
     def values(self) -> dict[str, Any]:
         """Every scalar by the name of its quantity, SI."""
-        made: dict[str, Any] = {}
-        for part in parts():
-            values = self.found[part.name].values if part.name in self.found else {}
-            made |= {item.name: values[item.name] for item in part.quantities if item.name in values and not item.dims}
-        return made
+        return {item.quantity.name: item.values for item in self.scalars}
 
     @property
     def sections(self) -> Iterator[tuple[Part, Words]]:

@@ -24,7 +24,7 @@ from ..io.results import (
 from ..io.stress_files import field_from, field_node
 from ..io.tree import Node, datatree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
-from ..parts.registry import parts
+from ..parts.registry import parts, versions
 from .execute import Outcome, analysed
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
     for part in parts():
         if part.name in outcome.found:
             groups[part.name] = _group(part, outcome, groups.get(part.name, Node()))
-    attributes = root_attributes(outcome.result, document) | status_attributes(outcome.status)
+    attributes = root_attributes(outcome.result, document, versions()) | status_attributes(outcome.status)
     attributes |= {
         OF_OUTCOME: 1,
         "citation_keys": " ".join(dict.fromkeys((*outcome.result.citation_keys, *outcome.citation_keys))),

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from asperity.core.errors import InputError, OutputError
-from asperity.io.atomic import atomic_file, atomic_folder
+from asperity.io.atomic import atomic_file, atomic_folder, require_new_files
 
 
 def names(folder: Path) -> set[str]:
@@ -131,3 +134,86 @@ def test_a_pipe_or_device_is_never_replaced(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="must be an ordinary file"), atomic_file(tmp_path / "pipe", overwrite=True):
         pass
     assert (tmp_path / "pipe").is_fifo()
+
+
+def test_modes_and_links_survive(tmp_path: Path) -> None:
+    """Of a file that is replaced the mode, of a link the link; of a folder what is not replaced, with its modes."""
+    target, link = tmp_path / "a.txt", tmp_path / "link.txt"
+    target.write_text("old")
+    target.chmod(0o604)
+    link.symlink_to(target)
+    with atomic_file(link, overwrite=True) as partial:
+        partial.write_text("new")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+    assert target.stat().st_mode & 0o777 == 0o604
+    folder, other = tmp_path / "run", tmp_path / "other"
+    (folder / "plots").mkdir(parents=True)
+    (folder / "plots" / "mine.txt").write_text("mine")
+    (folder / "r.txt").write_text("old")
+    (folder / "r.txt").chmod(0o600)
+    (folder / "to").symlink_to("r.txt")
+    folder.chmod(0o750)
+    other.symlink_to(folder)
+    with atomic_folder(other, overwrite=True) as partial:
+        (partial / "r.txt").write_text("new")
+    assert other.is_symlink()
+    assert folder.stat().st_mode & 0o777 == 0o750
+    assert (folder / "to").is_symlink()
+    assert (folder / "r.txt").read_text() == "new"
+    assert (folder / "r.txt").stat().st_mode & 0o777 == 0o600
+    assert (folder / "plots" / "mine.txt").read_text() == "mine"
+    assert names(tmp_path) == {"a.txt", "link.txt", "run", "other"}
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_a_kill_leaves_one_whole_folder_and_the_next_run_clears_up(tmp_path: Path, at_once: bool) -> None:
+    """Killed at any of its system calls that rename or link, a run leaves the files of one run; the next removes the rest."""
+    script = (
+        "import os, sys\nfrom pathlib import Path\nfrom asperity.io import atomic\n"
+        "if sys.argv[3] == '0':\n    atomic.ctypes.CDLL = lambda name: None\n"
+        "left = int(sys.argv[2])\n"
+        "def hook(event, args):\n"
+        "    global left\n"
+        "    if event in ('os.rename', 'os.link', 'os.mkdir', 'shutil.rmtree', 'os.remove'):\n"
+        "        left -= 1\n"
+        "        if left < 0:\n            os.kill(os.getpid(), 9)\n"
+        "with atomic.atomic_folder(sys.argv[1], overwrite=True) as new:\n"
+        "    (new / 'plots').mkdir()\n"
+        "    for name in ('problem', 'result', 'plots/a'):\n        (new / name).write_text('new')\n"
+        "    sys.addaudithook(hook)\n"
+    )
+    folder = tmp_path / "run"
+    for killed_at in range(14):
+        shutil.rmtree(folder, ignore_errors=True)
+        (folder / "plots").mkdir(parents=True)
+        for name in ("problem", "result", "plots/a", "notes"):
+            (folder / name).write_text("old")
+        done = subprocess.run([sys.executable, "-c", script, folder, str(killed_at), str(int(at_once))], check=False)
+        found = (
+            {(folder / name).read_text() for name in ("problem", "result", "plots/a")} if folder.exists() else {"old"}
+        )
+        assert len(found) == 1, killed_at
+        with atomic_folder(folder, overwrite=True):
+            pass
+        assert names(tmp_path) == {"run"}
+        assert (folder / "notes").read_text() == "old"
+        if done.returncode == 0:
+            break
+    assert done.returncode == 0
+    assert killed_at > 3
+
+
+def test_inputs_are_no_outputs(tmp_path: Path) -> None:
+    (tmp_path / "r.nc").write_text("result")
+    (tmp_path / "link.nc").symlink_to(tmp_path / "r.nc")
+    for name in ("r.nc", "link.nc"):
+        with pytest.raises(OutputError, match="must not be the input"):
+            require_new_files([tmp_path / name], overwrite=True, inputs=[tmp_path / "r.nc"])
+    with pytest.raises(OutputError, match="given twice"):
+        require_new_files([tmp_path / "a", tmp_path / ".." / tmp_path.name / "a"], overwrite=True)
+    for make in (atomic_file, atomic_folder):
+        with pytest.raises(OutputError, match="cannot be written: File name too long"), make(tmp_path / ("ü" * 200)):
+            pass
+    with atomic_file(tmp_path / ("ü" * 120)) as partial:
+        partial.write_text("long, but possible")
