@@ -25,7 +25,7 @@ NAMES = MappingProxyType(
         **{
             f"{table}.{key}": f"--{key.replace('_', '-')}"
             for table in ("surface", "counter_surface")
-            for key in ("channel", "size", "height_unit", "z_scale", "mirror")
+            for key in ("channel", "size", "height_unit", "z_scale", "lateral_unit", "mirror")
         },
         **{f"control.path.{key}": "--path" for key in ("mean_pressure", "force", "approach")},
         "control.path.steps": "--path-steps",
@@ -183,5 +183,6 @@ def _place(bodies: BodyOptions) -> dict[str, Any]:
 def _surface(file: Path, reading: ReadingOptions, preparation: PreparationOptions) -> dict[str, Any]:
     keys = {"channel": reading.channel, "size": reading.size}
     keys |= {"height_unit": reading.height_unit, "z_scale": reading.z_scale}
+    keys["lateral_unit"] = reading.lateral_unit
     given = {key: value for key, value in keys.items() if value is not None}
     return {"kind": "file", "path": str(file), **given, "prepare": steps(preparation)}

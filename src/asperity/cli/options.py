@@ -41,6 +41,9 @@ class ReadingOptions:
     z_scale: Annotated[
         str | None, option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
     ] = None
+    lateral_unit: Annotated[
+        str | None, option("--lateral-unit", "Unit of x and y in a list of points x y z.", READING, "UNIT")
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -199,15 +202,17 @@ def options_of(panel: str) -> PanelOption:
 
 def read_surface(file: Path, reading: ReadingOptions) -> Surface:
     """Surface in ``file``; units are those that the options give."""
-    from ..core.units import parse, parse_size
+    from ..core.units import parse
+    from ..core.values import Lengths
     from ..surfaces.read import read
 
     return read(
         file,
         channel=reading.channel,
-        size=None if reading.size is None else parse_size(reading.size, "--size"),
+        size=None if reading.size is None else Lengths().read(reading.size, "--size"),
         height_unit=reading.height_unit,
         z_scale=None if reading.z_scale is None else parse(reading.z_scale, "length", "--z-scale"),
+        lateral_unit=reading.lateral_unit,
     )
 
 

@@ -71,7 +71,8 @@ def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:
 
 def _write_text(surface: Surface, path: Path) -> None:
     length_x, length_y = surface.size
-    header = f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: m"
+    nx, ny = surface.shape
+    header = f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: m\nx-pixels: {nx}\ny-pixels: {ny}"
     with path.open("w", encoding="utf-8", newline="\n") as file:
         np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
 

@@ -43,6 +43,7 @@ from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGr
 from ..solids.layers import Base, Body, Bonded, Frictionless, Interface, Layer, Layered, RigidBase, surface_material
 from ..solids.library import material
 from ..surfaces.common_grid import on_common_grid
+from ..surfaces.formats import checked_size
 from ..surfaces.pair import turned_over
 from ..surfaces.read import read
 from ..surfaces.surface import Surface
@@ -327,7 +328,7 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
 
 def table_grid(table: GeneratedSurface) -> Grid:
     """Grid of a generated surface."""
-    (nx, ny), (length_x, length_y) = table.points, table.size
+    (nx, ny), (length_x, length_y) = table.points, checked_size(table.size, "a generated surface", table.points)
     return Grid((nx, ny), (length_x / nx, length_y / ny))
 
 

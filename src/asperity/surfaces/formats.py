@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -17,8 +16,9 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError, UnitError
-from ..core.units import unit_factor
+from ..core.units import show, unit_factor
 from .surface import Origin, Surface
+from .text_files import cut_short, gridded, is_table, table
 
 # What a file holds, before it is read.
 
@@ -75,8 +75,10 @@ def read_instrument(
     """Surface from one channel of an instrument file; ``size`` and ``height_unit`` only where the file lacks them."""
     with _library(file) as reader:
         info = chosen(_listed(reader, file), channel, file)
-        size, factor = _scales(info, file, size, height_unit)
         raw = next(c for c in reader.channels if c.index == info.index)
+        if type(reader).__name__ == "AscReader":
+            size = _require_whole(info, raw.info.get("raw_metadata", {}), file, size)
+        size, factor = _scales(info, file, size, height_unit)
         given = {} if raw.physical_sizes is not None else {"physical_sizes": size}
         topography = reader.topography(channel_index=info.index, **given)
         values = topography.heights()
@@ -89,6 +91,32 @@ def read_instrument(
         return Surface(heights, size[0] / nx, size[1] / ny, periodic=periodic, origin=origin)
     except InputError as exc:
         raise FileFormatError(f"file {file} does not hold a usable map: {exc}") from exc
+
+
+def _require_whole(
+    info: ChannelInfo, header: Mapping[str, Any], file: Path, size: tuple[float, float] | None
+) -> tuple[float, float] | None:
+    """Refuse text that may be cut short: broken lines, and where the header does not count them, no last line break or
+    pixels that are not square. Returns the ``size`` that is still to be used: None if it confirms the one in the file.
+    """
+    if line := cut_short(file):
+        raise FileFormatError(f"file {file} was cut short or is damaged: line {line} is no complete row of numbers.")
+    if info.size is None or header.get("nb_grid_pts_y") is not None:
+        return size
+    if size is not None and np.allclose(size, info.size, rtol=_SQUARE, atol=0.0):
+        return None
+    (length_x, length_y), (nx, ny) = info.size, info.shape
+    with file.open("rb") as stream:
+        stream.seek(-1, 2)
+        ended = stream.read() == b"\n"
+    if not ended or abs(length_x / nx - length_y / ny) > _SQUARE * length_x / nx:
+        lengths = f"{show(length_x, 'm', 6)} x {show(length_y, 'm', 6)}"
+        raise FileFormatError(
+            f"file {file} holds {nx} x {ny} points on {lengths}, pixels of {show(length_x / nx, 'm')} x "
+            f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. If it is complete, confirm its size with size=... "
+            f'(--size "{lengths}").'
+        )
+    return size
 
 
 @contextmanager
@@ -200,19 +228,31 @@ def _scales(
             f"channel {info.name!r} of file {file} must hold heights, but its unit is {info.unit}. "
             "Choose another channel with channel=... (--channel)."
         ) from exc
-    return checked_size(size if info.size is None else info.size, file), factor
+    return checked_size(size if info.size is None else info.size, f"file {file}", info.shape), factor
 
 
-def checked_size(size: tuple[float, float] | None, file: Path) -> tuple[float, float]:
-    """``size`` as two positive finite lengths in m."""
+_SQUARE = 1e-3
+"""Relative difference of dx and dy up to which a pixel counts as square."""
+
+
+def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, ...]) -> tuple[float, float]:
+    """``size`` of ``what`` as two positive finite lengths in m; one length written for both sides needs square pixels."""
     try:
         length_x, length_y = (float(length) for length in size or ())
     except (TypeError, ValueError):
         length_x = length_y = 0.0
     if not (0.0 < length_x < np.inf and 0.0 < length_y < np.inf):
         raise FileFormatError(
-            f"size of file {file} must be two positive lengths (Lx, Ly) in m, but is {size!r}. "
+            f"size of {what} must be two positive lengths (Lx, Ly) in m, but is {size!r}. "
             'Pass for example size=(20e-6, 20e-6) (--size "20 um x 20 um").'
+        )
+    text = getattr(size, "text", "x")  # of a size that was written, as in a document or an option
+    if shape[0] != shape[1] and "x" not in text and "×" not in text:
+        nx, ny = shape
+        raise FileFormatError(
+            f"size of {what} must be two lengths, since it has {nx} x {ny} points, but is {text!r}: pixels would be "
+            f"{show(length_x / nx, 'm')} x {show(length_y / ny, 'm')}. For square pixels write "
+            f'"{text.strip()} x {show(length_x * ny / nx, "m", 6)}", for these "{text.strip()} x {text.strip()}".'
         )
     return length_x, length_y
 
@@ -336,21 +376,33 @@ def _opened(path: Path, mode: Literal["r", "w"]) -> Any:
     return netcdf_file(path, mode, mmap=False, version=2)
 
 
-# Plain files without units: text matrices, NumPy arrays and grey-scale pictures.
+# Plain files without units: text, NumPy arrays and grey-scale pictures.
 
 
-_TEXT = (".txt", ".dat", ".asc", ".csv", ".tsv")
+_TEXT = (".txt", ".dat", ".asc", ".csv", ".tsv", ".xyz")
 _PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
 _FULL_SCALE = {"1": 1.0, "L": 255.0, "LA": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0}
+_MOST_PIXELS = 10**8  # of a picture: a compressed file of some kB may unpack to any size
 _PARK_TAG = 50432  # private tag of Park Systems AFM files, which are TIFF files with a preview picture
-_SEPARATOR = re.compile(r"[\s,;]+")
+
+
+@dataclass(frozen=True, eq=False)
+class _Plain:
+    """Numbers [x, y] of a plain file, y upwards: heights, or grey levels where ``full_scale`` is theirs.
+
+    ``spacing`` is the pixel of a list of points x y z, in the unit of its coordinates.
+    """
+
+    values: RealArray
+    full_scale: float | None = None
+    spacing: tuple[float, float] | None = None
 
 
 def is_plain(file: Path) -> bool:
-    """Whether ``file`` is a text matrix, NumPy array or picture without units, by its ending and its beginning."""
+    """Whether ``file`` is text, a NumPy array or a picture without units, by its ending and its beginning."""
     ending = file.suffix.lower()
     if ending in _TEXT:
-        return _starts_with_number(file)
+        return is_table(file)
     if ending in (".tif", ".tiff"):
         with _reported(file), _picture(file) as picture:
             return _PARK_TAG not in getattr(picture, "tag_v2", {})
@@ -359,8 +411,7 @@ def is_plain(file: Path) -> bool:
 
 def plain_channels(file: Path) -> tuple[ChannelInfo, ...]:
     """The one channel of a plain file; its size and unit are unknown."""
-    values, _ = _values(file)
-    return (_only_channel(values),)
+    return (ChannelInfo(0, "heights", _numbers(file).values.shape, None, "", True),)
 
 
 def read_plain(
@@ -370,69 +421,85 @@ def read_plain(
     size: tuple[float, float] | None,
     height_unit: str | None,
     z_scale: float | None,
+    lateral_unit: str | None,
 ) -> Surface:
     """Surface from a plain file; see :func:`asperity.surfaces.read.read` for scales and orientation."""
-    values, full_scale = _values(file)
-    chosen((_only_channel(values),), channel, file)
-    length_x, length_y = _given_size(file, size)
-    factor, words = _height_factor(file, full_scale, height_unit, z_scale)
-    nx, ny = values.shape
-    origin = Origin(source=file.name, channel="heights", history=(f"read: {file.name}, {words}",))
+    found = _numbers(file)
+    nx, ny = found.values.shape
+    chosen((ChannelInfo(0, "heights", (nx, ny), None, "", True),), channel, file)
+    (length_x, length_y), lateral = _given_size(file, found, size, lateral_unit)
+    factor, words = _height_factor(file, found.full_scale, height_unit, z_scale)
+    dx, dy = length_x / nx, length_y / ny
+    if abs(dx - dy) > _SQUARE * max(dx, dy):
+        words += f", pixels of {show(dx, 'm')} x {show(dy, 'm')}"
+    origin = Origin(source=file.name, channel="heights", history=(f"read: {file.name}, {lateral}{words}",))
     try:
-        return Surface(values * factor, length_x / nx, length_y / ny, origin=origin)
+        return Surface(found.values * factor, dx, dy, origin=origin)
     except InputError as exc:
         raise FileFormatError(f"file {file} does not hold a usable map: {exc}") from exc
 
 
-def _values(file: Path) -> tuple[RealArray, float | None]:
-    """Array [x, y] with y upwards, and the number of the full grey scale (None if the numbers are heights)."""
-    ending, full_scale = file.suffix.lower(), None
+def _numbers(file: Path) -> _Plain:
+    ending = file.suffix.lower()
     with _reported(file):
         if ending == ".npy":
-            values = np.load(file, allow_pickle=False)
+            found = _Plain(np.load(file, allow_pickle=False))
         elif ending in _TEXT:
-            values = np.flipud(_matrix(file)).T
+            rows = table(file)
+            # three columns and more than three lines: a list of points, of which 2 x 2 is the smallest
+            listed = rows.shape[1] == 3 and rows.shape[0] > 3
+            found = _Plain(*gridded(rows)) if listed else _Plain(np.flipud(rows).T)
         else:
-            picture, full_scale = _grey_levels(file)
-            values = np.flipud(picture).T
-        return require.field(values, f"content of file {file}"), full_scale
+            found = _grey_levels(file)
+        require.field(found.values, f"content of file {file}")
+        return found
 
 
-def _only_channel(values: RealArray) -> ChannelInfo:
-    return ChannelInfo(0, "heights", values.shape, None, "", True)
-
-
-def _matrix(file: Path) -> RealArray:
-    text = file.read_text(encoding="utf-8-sig")
-    first = next(line for line in text.splitlines() if line.strip())
-    delimiter = next((mark for mark in (";", ",", "\t") if mark in first), None)
-    matrix: RealArray = np.loadtxt(text.splitlines(), delimiter=delimiter, ndmin=2)
-    return matrix
-
-
-def _grey_levels(file: Path) -> tuple[RealArray, float | None]:
-    """Rows of the picture from top to bottom, and the number of the full grey scale (None for floating point)."""
+def _grey_levels(file: Path) -> _Plain:
+    """Grey levels of a picture, or its heights if they are of floating point."""
     with _picture(file) as picture:
+        if picture.width * picture.height > _MOST_PIXELS:
+            raise InputError(
+                f"it states {picture.width} x {picture.height} pixels, above the limit of {_MOST_PIXELS:.0e} for a "
+                "picture; save a map of that size as .npy"
+            )
         if picture.mode == "F":
-            return np.asarray(picture, dtype=np.float64), None
+            return _Plain(np.flipud(np.asarray(picture, dtype=np.float64)).T)
         if picture.mode in ("RGB", "RGBA", "P"):
             colours = np.asarray(picture.convert("RGB"))
             if (colours != colours[:, :, :1]).any():
                 raise InputError("it is a colour picture, and heights cannot be told from colours; export it in grey")
-            return colours[:, :, 0].astype(np.float64), 255.0
+            return _Plain(np.flipud(colours[:, :, 0].astype(np.float64)).T, 255.0)
         if picture.mode not in _FULL_SCALE:
             raise InputError(f"its pixels are of type {picture.mode}; use 8 or 16 bit grey or floating point")
         levels = np.asarray(picture.convert("L") if picture.mode == "LA" else picture)
-        return levels.astype(np.float64), _FULL_SCALE[picture.mode]
+        return _Plain(np.flipud(levels.astype(np.float64)).T, _FULL_SCALE[picture.mode])
 
 
-def _given_size(file: Path, size: tuple[float, float] | None) -> tuple[float, float]:
+def _given_size(
+    file: Path, found: _Plain, size: tuple[float, float] | None, lateral_unit: str | None
+) -> tuple[tuple[float, float], str]:
+    """Lengths (Lx, Ly) in m, and words on their unit for the history."""
+    if found.spacing is not None:
+        if size is not None or lateral_unit is None:
+            raise FileFormatError(
+                f"file {file} is a list of points x y z on {found.values.shape[0]} x {found.values.shape[1]} nodes "
+                f"with steps of {found.spacing[0]:.6g} x {found.spacing[1]:.6g} in a unit that it does not state: pass "
+                'lateral_unit="um" (--lateral-unit um) instead of a size.'
+            )
+        metre = unit_factor(lateral_unit, "length", "lateral_unit")
+        nx, ny = found.values.shape
+        return (found.spacing[0] * metre * nx, found.spacing[1] * metre * ny), f"points x y in {lateral_unit}, "
+    if lateral_unit is not None:
+        raise FileFormatError(
+            f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out."
+        )
     if size is None:
         raise FileFormatError(
             f'file {file} does not state its size: pass size=(Lx, Ly) in m (--size "20 um x 20 um") '
             f"and {'z_scale=... (--z-scale)' if file.suffix.lower() in _PICTURES else 'height_unit=... (--height-unit)'}."
         )
-    return checked_size(size, file)
+    return checked_size(size, f"file {file}", found.values.shape), ""
 
 
 def _height_factor(
@@ -454,18 +521,6 @@ def _height_factor(
         )
     z_scale = require.positive(z_scale, "z_scale (m)")
     return z_scale / full_scale, f"full grey scale {full_scale:g} = {z_scale:g} m"
-
-
-def _starts_with_number(file: Path) -> bool:
-    with file.open("rb") as stream:
-        start = stream.read(4096)
-    line = next((line for line in start.decode("utf-8-sig", "replace").splitlines() if line.strip()), "")
-    first = _SEPARATOR.split(line.strip(" \t,;"))[0]
-    try:
-        float(first)
-    except ValueError:
-        return False
-    return b"\0" not in start
 
 
 @contextmanager

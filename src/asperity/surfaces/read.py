@@ -20,14 +20,18 @@ def read(
     size: tuple[float, float] | None = None,
     height_unit: str | None = None,
     z_scale: float | None = None,
+    lateral_unit: str | None = None,
 ) -> Surface:
     """Surface from a file; heights in m on axes x (to the right) and y (upwards in the picture).
 
     * Instrument files (some forty formats, read by SurfaceTopography) state size and units themselves. The picture
       that the instrument software shows has its top row at the largest y.
     * Surfaces saved by this package (.nc) come back whole, with period and history.
-    * Text matrices (.txt, .dat, .asc, .csv, .tsv): one line per row of the picture, top row first, separated by blanks,
-      tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``.
+    * Text matrices (.txt, .dat, .asc, .csv, .tsv, .xyz): one line per row of the picture, top row first, separated by
+      blanks, tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``. A row of
+      column names and decimal commas (with blanks, tabs or semicolons between) are understood.
+    * Lists of points, in the same text files: three columns x, y, z on more than three lines, in any order, on a
+      regular grid on which points may be missing. They need ``lateral_unit`` and ``height_unit``.
     * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.
     * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit, 65535 for 16 bit) is
       ``z_scale``; TIFF files of floating-point heights need ``height_unit`` instead. All need ``size``.
@@ -44,6 +48,8 @@ def read(
         Unit of the heights such as ``"nm"``, only if the file does not state it.
     z_scale
         Height in m of the full grey scale of a picture.
+    lateral_unit
+        Unit of the coordinates of a list of points x y z.
 
     Raises
     ------
@@ -55,13 +61,19 @@ def read(
     """
     file = _checked(path)
     if netcdf.is_own(file):
-        _require_nothing_more(file, channel, size, height_unit, z_scale)
+        _require_nothing_more(file, channel, size, height_unit, z_scale, lateral_unit)
         surface = netcdf.read_netcdf(file)
     elif plain.is_plain(file):
-        surface = plain.read_plain(file, channel=channel, size=size, height_unit=height_unit, z_scale=z_scale)
+        surface = plain.read_plain(
+            file, channel=channel, size=size, height_unit=height_unit, z_scale=z_scale, lateral_unit=lateral_unit
+        )
     else:
         if z_scale is not None:
             raise FileFormatError(f"file {file} is not a picture, so z_scale (--z-scale) must be left out.")
+        if lateral_unit is not None:
+            raise FileFormatError(
+                f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out."
+            )
         surface = instrument.read_instrument(file, channel=channel, size=size, height_unit=height_unit)
     if min(surface.shape) < 2:
         raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {surface.shape}.")

@@ -224,6 +224,8 @@ def test_white_noise_is_reduced_as_the_standard_implies():
     [
         ({}, "neither"),
         ({"short": 3.0}, "at least 4 pixels"),
+        ({"short": 1e3}, "at most 1 times the longer side"),
+        ({"long": 1e3}, "at most 10 times the longer side"),
         ({"short": (8.0, 5.0)}, "along y"),
         ({"short": 20.0, "long": 10.0}, "below the long one"),
         ({"short": -1.0}, "greater than zero"),

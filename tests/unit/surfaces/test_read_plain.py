@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from asperity.core.errors import FileFormatError, UnitError
+from asperity.core.values import Lengths
 from asperity.surfaces.read import channels, read
 
 SIZE = (4e-6, 3e-6)
@@ -40,10 +41,74 @@ def test_text_with_missing_points(tmp_path):
 def test_text_export_with_header_states_its_size(tmp_path):
     path = tmp_path / "export.txt"
     header = "# Channel: Z\n# Width: 4 µm\n# Height: 3 µm\n# Value units: m\n"
-    path.write_text(header + "\n".join(" ".join(f"{v}e-9" for v in row) for row in PICTURE), encoding="utf-8")
+    whole = header + "".join(" ".join(f"{v}e-9" for v in row) + "\n" for row in PICTURE)
+    path.write_text(whole, encoding="utf-8")
     surface = read(path)
     np.testing.assert_allclose(surface.heights, EXPECTED * 1e-9, rtol=1e-12)
     assert surface.size == pytest.approx(SIZE)
+    lines = whole.splitlines(keepends=True)
+    for cut in (whole[:-4], whole[:-5], "".join(lines[:-1])):  # no last line break, a broken number, a line less
+        path.write_text(cut, encoding="utf-8")
+        with pytest.raises(FileFormatError, match="cut short"):
+            read(path)
+    path.write_text("".join(lines[:-1]), encoding="utf-8")  # pixels of 1 x 1.5 µm may be right: the size confirms them
+    assert read(path, size=SIZE).shape == (4, 2)
+
+
+LIST = [(x, y, 10.0 * x + y) for x in (0.5, 0.75, 1.0) for y in (2.0, 2.5, 3.0, 3.5)]
+
+
+@pytest.mark.parametrize(
+    ("name", "header", "mark", "comma"),
+    [
+        ("a.xyz", "", " ", "."),
+        ("a.csv", "x,y,z\n", ",", "."),
+        ("b.csv", "X (µm);Y (µm);Z (nm)\n", ";", ","),
+        ("a.txt", "# a scan\n", "\t", ","),
+    ],
+)
+def test_list_of_points(tmp_path, name, header, mark, comma):
+    points = [LIST[i] for i in np.random.default_rng(1).permutation(12) if i != 5]  # any order, one missing
+    text = header + "\n".join(mark.join(f"{v:.4f}" for v in point).replace(".", comma) for point in points)
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    surface = read(tmp_path / name, lateral_unit="um", height_unit="nm")
+    assert (surface.dx, surface.dy) == pytest.approx((0.25e-6, 0.5e-6))
+    expected = np.array([z for *_, z in LIST]).reshape(3, 4) * 1e-9
+    expected[1, 1] = np.nan
+    np.testing.assert_allclose(surface.heights, expected)
+    for given in ({}, {"size": SIZE}, {"size": SIZE, "height_unit": "nm"}):
+        with pytest.raises(FileFormatError, match=r"3 x 4 nodes.*--lateral-unit"):
+            read(tmp_path / name, **given)
+
+
+@pytest.mark.parametrize(
+    "points", [[(0, 0, 1), (1, 0.1, 1), (2.7, 0.4, 1), (3, 1.3, 2)], [*LIST, LIST[0]], [(0, i, 1) for i in range(5)]]
+)
+def test_three_columns_that_are_no_grid_are_refused(tmp_path, points):
+    (tmp_path / "a.txt").write_text("\n".join(" ".join(map(str, point)) for point in points))
+    with pytest.raises(FileFormatError, match="three columns"):
+        read(tmp_path / "a.txt", size=SIZE, height_unit="nm")
+
+
+@pytest.mark.parametrize(("header", "mark"), [("", " "), ("a\tb\tc\td\n", "\t"), ("a;b;c;d\n", ";")])
+def test_matrix_with_decimal_commas_and_column_names(tmp_path, header, mark):
+    rows = "\n".join(mark.join(f"{v / 2:.1f}".replace(".", ",") for v in row) for row in PICTURE)
+    (tmp_path / "a.csv").write_text(header + rows)
+    np.testing.assert_allclose(read(tmp_path / "a.csv", size=SIZE, height_unit="nm").heights, EXPECTED * 0.5e-9)
+
+
+def test_one_length_is_no_size_of_a_map_with_unequal_sides(tmp_path):
+    np.save(tmp_path / "a.npy", EXPECTED)
+    with pytest.raises(FileFormatError, match=r"pixels would be 250 nm x 333.3 nm.*1um x 750 nm"):
+        read(tmp_path / "a.npy", size=Lengths().read("1um", "--size"), height_unit="nm")
+    surface = read(tmp_path / "a.npy", size=Lengths().read("1um x 1um", "--size"), height_unit="nm")
+    assert "pixels of 250 nm x 333.3 nm" in surface.origin.history[0]
+
+
+def test_picture_of_huge_size_is_refused_before_it_is_unpacked(tmp_path):
+    Image.new("L", (13_000, 13_000)).save(tmp_path / "a.png")
+    with pytest.raises(FileFormatError, match="13000 x 13000 pixels"):
+        read(tmp_path / "a.png", size=SIZE, z_scale=1e-7)
 
 
 def test_numpy_array_is_taken_as_x_y(tmp_path):

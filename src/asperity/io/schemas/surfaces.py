@@ -185,6 +185,7 @@ class FileSurface(AnySurface):
     size: Size | None = setting(None, help='physical size, such as "20 um x 10 um", if the file does not state it')
     height_unit: HeightUnit | None = setting(None, help="unit of the heights, if the file does not state it: nm, um, …")
     z_scale: Length | None = setting(None, help="height of the full grey scale of a picture")
+    lateral_unit: HeightUnit | None = setting(None, help="unit of the coordinates of a list of points x y z")
 
 
 class GeneratedSurface(AnySurface):

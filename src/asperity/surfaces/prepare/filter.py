@@ -150,6 +150,8 @@ Cutoff: TypeAlias = float | tuple[float, float]
 KINDS = ("gaussian", "robust", "sharp")
 """Filters."""
 
+_LONGEST = {"short": 1.0, "long": 10.0}  # cut-offs in sides: beyond the first, hardly a wave of the map is left
+
 FINEST = 4.0
 """Shortest cut-off in pixels: at 3 pixels the transmission at the cut-off would be 0.56 instead of 0.5."""
 
@@ -182,7 +184,8 @@ def filtered(
     surface
         Surface; level it first, since smoothing bends a tilt at the borders (not with ``order`` 1 or 2).
     short, long
-        Wavelengths in m, or pairs (along x, along y), of at least four pixels (two for ``sharp``), short < long.
+        Wavelengths in m, or pairs (along x, along y), of at least four pixels (two for ``sharp``), short < long; the
+        short one at most the longer side of the surface, the long one ten times that.
     kind
         ``gaussian``, ``robust`` or ``sharp``.
     order
@@ -235,6 +238,11 @@ def _cutoffs(
                     f"{name} cut-off of a filter must be at least {finest:g} pixels ({finest * d:g} m along {axis}), "
                     f"but is {length:g} m."
                 )
+        if min(lengths) > _LONGEST[name] * max(surface.size):
+            raise InputError(
+                f"{name} cut-off of a filter must be at most {_LONGEST[name]:g} times the longer side of the surface, "
+                f"{show(max(surface.size), 'm')}, but is {show(min(lengths), 'm')}. Check its unit."
+            )
         found[name] = (lengths[0], lengths[1])
     if not found:
         raise InputError("cut-off of a filter must be given, short or long or both, but neither is.")
