@@ -25,9 +25,9 @@ def contact(
 ) -> None:
     """Press a rough surface against another body: contact area, pressure and gap; menisci and stresses if asked for.
 
-    Examples: asperity contact scan.di --body DLC --pressure 50kPa --hardness body --out run;
-    asperity contact scan.di --body DLC:5nm/steel --pressure 50MPa --friction 0.3 --section y=max --out run;
-    asperity contact scan.di --body DLC --pressure 1MPa --liquid water --humidity 80% --friction 0.3
+    Examples: asperity contact scan.di --body DLC --periodise --pressure 50kPa --hardness body --out run;
+    asperity contact scan.di --body DLC:5nm/steel --periodise --pressure 50MPa --friction 0.3 --section y=max --out run;
+    asperity contact scan.di --body DLC --periodise --pressure 1MPa --liquid water --humidity 80% --friction 0.3
 
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.status import Advice
-from ..core.units import show
+from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
@@ -89,6 +89,7 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
         *_contact_pixels(result),
         *_nearly_full(result),
         *_room(result),
+        *_seam(result),
         *_plastic(result),
         *_hardness(result),
         *wet,
@@ -157,8 +158,8 @@ def _edges(problem: ContactProblem, profile: Surface) -> Iterator[Advice]:
                 "warning",
                 "periodic edges",
                 f"The surface does not repeat along {name}: across the border its rms step is {jump}, and the "
-                "periodic boundary turns that into a cliff. Periodise or taper it (--periodise, --taper), or use the "
-                "free boundary.",
+                "periodic boundary turns that into a cliff. Periodise it (--periodise, periodised()), taper it (--taper), "
+                "or use the free boundary.",
             )
 
 
@@ -249,6 +250,27 @@ def _room(result: ContactResult) -> Iterator[Advice]:
                 f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
                 "interacts with its periodic images. Use the free boundary or a larger grid.",
             )
+
+
+def _seam(result: ContactResult) -> Iterator[Advice]:
+    """Whether the highest pressure lies where opposite borders of a map meet that does not repeat."""
+    problem, pressure = result.problem, result.pressure
+    wrapped = [axis for axis in (0, 1) if problem.boundary.wraps[axis] and pressure.shape[axis] > 2]
+    if not wrapped or all(getattr(s, "periodic", True) for s in (problem.surface, problem.counter_surface)):
+        return
+    seam = np.zeros(pressure.shape, dtype=bool)
+    for axis in wrapped:
+        np.moveaxis(seam, axis, 0)[[0, -1]] = True
+    highest, inside = float(pressure[seam].max()), float(pressure[~seam].max())
+    if highest > inside * (1.0 + 1e-6):
+        share = float(pressure[seam].sum() / pressure.sum())
+        yield Advice(
+            "warning",
+            "pressure at the seam",
+            f"The maximum pressure, {show(highest, 'Pa')}, lies at the seam where opposite borders of the map meet, which does "
+            f"not repeat; elsewhere it is at most {show(inside, 'Pa')}. These border pixels are {percent(float(seam.mean()), 2)} "
+            f"of the area and carry {percent(share, 2)} of the load. Periodise the map (--periodise, periodised()).",
+        )
 
 
 def _plastic(result: ContactResult) -> Iterator[Advice]:

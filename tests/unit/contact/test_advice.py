@@ -72,6 +72,18 @@ def test_edges_of_a_tilted_map():
     assert "periodic edges" not in criteria(before(tilted, boundary=asp.Free()))
 
 
+def test_highest_pressure_at_the_seam():
+    x, _ = SMOOTH.grid.coordinates()
+    tilted = SMOOTH.heights + 0.05 * x
+    (found,) = [a for a in after(asp.Surface(tilted, 1e-6), 1e-3) if a.criterion == "pressure at the seam"]
+    result = asp.solve(asp.ContactProblem(asp.Surface(tilted, 1e-6), elastic(1.0)), asp.MeanPressure(1e-3))
+    assert f"{1e3 * result.max_pressure:.4g} mPa" in found.message
+    assert "6.2 % of the area" in found.message  # 2 * 64 + 2 * 62 of 64² pixels
+    assert "(--periodise, periodised())" in found.message
+    for heights, more in ((tilted, {"periodic": True}), (np.roll(SMOOTH.heights, (9, 9), (0, 1)), {})):
+        assert "pressure at the seam" not in criteria(after(asp.Surface(heights, 1e-6, **more), 1e-3))
+
+
 def test_load_out_of_range():
     assert "load" in criteria(before(SMOOTH, asp.MeanPressure(2e8)))
     assert "load" in criteria(before(SMOOTH, asp.Force(2e8 * SMOOTH.grid.area)))
