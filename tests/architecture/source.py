@@ -24,6 +24,10 @@ class Module:
     def tree(self) -> ast.Module:
         return ast.parse(self.text)
 
+    @cached_property
+    def lines(self) -> list[str]:
+        return self.text.splitlines()
+
     @property
     def folder(self) -> str:
         """Subpackage (or module) directly below the package; empty for the package's own ``__init__``."""
