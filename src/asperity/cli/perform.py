@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -50,12 +51,10 @@ def perform(document: ProblemDocument, base_folder: Path, output: OutputOptions)
 def _write_folder(outcome: Outcome, document: ProblemDocument, folder: Path) -> None:
     """Write everything into ``folder``, with the ``document`` whose paths start there."""
     from ..io.export import export_csv
-    from ..plots.contact import save_plots
     from ..run.document import dumps, save_document
 
     result, text = outcome.result, dumps(document)
     save_document(document, folder / "problem.toml")
-    save_plots(result, folder / "plots")
     export_csv(result, folder / "scalars.csv", scalars=outcome.scalars)
     if outcome.path is not None:
         export_csv(outcome.path, folder / PATH_NAMES[0])
@@ -69,10 +68,9 @@ def write_parts(outcome: Outcome, folder: Path, document: str | None, title: str
     from ..run.stored import save_outcome
 
     save_outcome(outcome, folder / "result.nc", document=document, title=title)
-
-    for figure in (figure for figures in outcome.figures.values() for figure in figures):
-        if not (path := folder / "plots" / f"{figure.name}.png").exists():
-            path.write_bytes(figure.picture)
+    (folder / "plots").mkdir()
+    for figure in itertools.chain(outcome.pictures, *outcome.figures.values()):
+        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
     write_report(outcome, folder / "report.html", document=document, title=title)
     if "stress" in outcome.found:
         export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])

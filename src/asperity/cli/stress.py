@@ -128,12 +128,10 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
 
 def _write_folder(outcome: Outcome, document: ProblemDocument | None, folder: Path) -> list[str]:
     """Write everything into ``folder``; return the names."""
-    from ..plots.contact import save_plots
     from ..run.document import dumps, save_document
     from .perform import STRESS_NAMES, write_parts
 
     names = ["report.html", "result.nc", "plots", *STRESS_NAMES]
-    save_plots(outcome.result, folder / "plots")
     if document is not None:
         save_document(document, folder / "problem.toml")
         names.append("problem.toml")

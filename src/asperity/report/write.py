@@ -25,8 +25,7 @@ from ..io.words import (
 )
 from ..parts.part import Part, Words
 from ..parts.registry import versions
-from ..plots.contact import PLOTS
-from ..plots.picture import Figure, drawn
+from ..plots.picture import Figure
 from ..run.execute import Outcome, analysed
 from .page import rendered, shown
 
@@ -88,7 +87,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
         inputs=_inputs(result),
         certificate=certificate_rows(result),
         results=result_rows(result),
-        figures=shown(drawn(PLOTS, result)),
+        figures=shown(outcome.pictures),
         sections=[_section(part, words, outcome.figures[part.name]) for part, words in outcome.sections],
         warnings=[item for item in advice if item.level == "warning"],
         notes=[item for item in advice if item.level != "warning"],

@@ -24,7 +24,7 @@ from ..core.status import Advice, Status
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
-from ..plots.picture import Figure
+from ..plots.picture import Figure, drawn
 from .build import Case, build
 from .document import ProblemDocument, checked, load_document
 
@@ -99,8 +99,16 @@ class Outcome:
     @cached_property
     def figures(self) -> dict[str, tuple[Figure, ...]]:
         """Figures of each part, by its name; drawn once."""
-        drawn = (part for part in parts() if part.name in self.found)
-        return {part.name: part.figures(self.found[part.name], self.solved) for part in drawn}
+        return {
+            part.name: part.figures(self.found[part.name], self.solved) for part in parts() if part.name in self.found
+        }
+
+    @cached_property
+    def pictures(self) -> tuple[Figure, ...]:
+        """Figures of the contact itself; drawn once."""
+        from ..plots.contact import PLOTS
+
+        return drawn(PLOTS, self.result)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
