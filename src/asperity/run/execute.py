@@ -24,6 +24,7 @@ from ..core.status import Advice, Status
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
+from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
 from .build import Case, build
 from .document import ProblemDocument, checked, load_document
@@ -106,8 +107,6 @@ class Outcome:
     @cached_property
     def pictures(self) -> tuple[Figure, ...]:
         """Figures of the contact itself; drawn once."""
-        from ..plots.contact import PLOTS
-
         return drawn(PLOTS, self.result)
 
     @property
