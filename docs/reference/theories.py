@@ -15,7 +15,7 @@ PAGE = Path(__file__).with_name("theories.md")
 
 HEAD = """# All theories
 
-What `asperity theory --list` shows, made from the catalogue by `make reference`. How to use them:
+What `asperity theory --list` names, made from the catalogue by `make reference`. How to use them:
 [theories of contact](../how-to/theories.md); which must agree with which: [agreement](agreement.md). A star marks what
 `--surface FILE` and `from_roughness` or `of_roughness` measure.
 """

@@ -46,7 +46,7 @@ STANDARD = {
 }
 """Modules of Python itself that may be imported late, and why."""
 
-REMAINING = {"cli": 133, "studies": 7, "surfaces": 1}
+REMAINING = {"cli": 0, "studies": 7, "surfaces": 1}
 """Late imports by folder that the rule forbids and that are still there. The numbers may only fall."""
 
 

@@ -84,7 +84,7 @@ def test_a_load_beyond_the_hardness_is_named_and_the_exit_code_tells(run: Runner
         (("--pressures", "1MPa,0Pa"), "pressure (Pa) of a comparison must be greater than zero, but is 0.0."),
         (("--loads", "5"), "--loads must be given together with a range only"),
         (("--pressures", "1MPa,2MPa", "--loads", "5"), "--loads must be given together with a range only"),
-        (("--pressures", "1MPa..2MPa", "--loads", "1"), "--loads must be at least 2 for a range, but is 1."),
+        (("--pressures", "1MPa..2MPa", "--loads", "1"), "--loads must be a whole number of at least 2, but is 1."),
         (("--theories", "gw"), "name of a theory to compare must be one of greenwood-williamson"),
         (("--work", "5 Pa"), "--work"),
         (("--from", "a.toml"), "must be left out together with --from"),

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import pytest
 import typer
-from typer.testing import CliRunner
 
-from asperity.cli.declared import Given, Lazy, Option, late, offers, options_of
+from asperity.cli.declared import Given, Option, built, offers, options_of
 from asperity.core.settings import Settings, setting, validated
 from asperity.core.values import Count, Length, NonNegative
 
@@ -42,18 +42,14 @@ def clash(given: Given) -> None:
     """Two options of one name."""
 
 
-def app() -> typer.Typer:
-    made = typer.Typer()
-    for command in (wet, clash):
-        made.command(cls=Lazy)(late(command))
-    return made
+def call(command: Callable[..., None], *arguments: str) -> int:
+    with pytest.raises(SystemExit) as ended:
+        built(command, command.__name__).main(list(arguments))
+    return int(ended.value.code or 0)
 
 
 def test_what_is_given_comes_as_a_table() -> None:
-    found = CliRunner().invoke(
-        app(), ["wet", "scan.di", "--film", "2nm", "--no-off", "--steps", "3", "--out", "run"], catch_exceptions=False
-    )
-    assert found.exit_code == 0, found.output
+    assert call(wet, "scan.di", "--film", "2nm", "--no-off", "--steps", "3", "--out", "run") == 0
     file, given, out = SEEN
     assert (file, out) == (Path("scan.di"), Path("run"))
     assert given.table() == {"film": {"thickness": "2nm", "off": False, "steps": "3"}}
@@ -61,12 +57,14 @@ def test_what_is_given_comes_as_a_table() -> None:
     assert validated(Film, given.under("film").table(), "here").steps == 3
 
 
-def test_help_says_what_is_declared() -> None:
-    text = CliRunner().invoke(app(), ["wet", "--help"], env={"COLUMNS": "120"}).output
+def test_help_says_what_is_declared(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("COLUMNS", "120")
+    call(wet, "--help")
+    text = capsys.readouterr().out
     for words in ("Press with a film.", "Liquid film", "--film", "LENGTH", "Thickness of the film.", "Default: 10."):
         assert words in text
 
 
 def test_clashes_are_refused() -> None:
     with pytest.raises(ValueError, match=r"--film of `clash` is the option of other.thickness and of film.thickness"):
-        CliRunner().invoke(app(), ["clash"], catch_exceptions=False)
+        built(clash, "clash")

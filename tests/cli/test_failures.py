@@ -28,7 +28,7 @@ def test_unforeseen_error_is_one_line(run: Runner, monkeypatch: pytest.MonkeyPat
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("two\nlines [/] with brackets")
 
-    monkeypatch.setattr("asperity.surfaces.read.read", broken)
+    monkeypatch.setattr("asperity.io.build_surface.read", broken)
     result = run("info", tmp_path / "x.txt")
     assert result.exit_code == INTERNAL_ERROR
     assert len(result.stderr.splitlines()) == 1

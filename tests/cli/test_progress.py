@@ -12,8 +12,7 @@ import pytest
 from rich.console import Console
 from rich.progress import Progress as Bar
 
-from asperity.cli.interrupt import interruptible
-from asperity.cli.progress import OnBar, done, shown
+from asperity.cli.show import OnBar, done, interruptible, shown
 from asperity.core.progress import NoProgress
 
 

@@ -50,7 +50,7 @@ def test_neither_file_nor_document(run: Runner) -> None:
     assert "FILE with the rough surface must be given" in refused(run, "contact", *BODY, *LOAD)
 
 
-@pytest.mark.parametrize("arguments", [("--nonsense",), ("nonsense",), ("info",), ("contact", "--threads", "two")])
+@pytest.mark.parametrize("arguments", [("--nonsense",), ("nonsense",), ("info",), ("contact", "--nonsense")])
 def test_usage_errors_are_exit_2(run: Runner, arguments: tuple[str, ...]) -> None:
     result = run(*arguments)
     assert result.exit_code == 2

@@ -7,16 +7,16 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
+from rich.progress import BarColumn, Progress, TextColumn
 
+from ..report.study import axis_rows, derived_table, failure_table, finding_table, summary, write_study_files
+from ..studies.campaign import Campaign, open_study, prepare_study
+from ..studies.run import Watch
 from .failures import INTERRUPTED, NOT_CONVERGED, OK
-
-if TYPE_CHECKING:
-    from ..studies.campaign import Campaign
-    from ..studies.run import Watch
-
+from .show import console, error_console, print_files, say, table, watching
 
 Folder = Annotated[
     Path, typer.Argument(help="Folder of the results, or the study document they lie beside.", metavar="FOLDER")
@@ -44,8 +44,6 @@ def run(
     Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed); 2: bad input;
     130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
-    from ..studies.campaign import prepare_study
-    from .show import say
 
     campaign = prepare_study(study, out)
     monte_carlo = campaign.study.document.monte_carlo
@@ -63,10 +61,6 @@ def run(
 
 def status(folder: Folder) -> None:
     """Say how far a campaign is, also while it runs."""
-    from ..report.study import axis_rows, summary
-    from ..studies.campaign import open_study
-    from .show import console, say, table
-
     campaign = open_study(folder)
     state = campaign.state()
     console().print(table(campaign.title, axis_rows(campaign)))
@@ -76,16 +70,11 @@ def status(folder: Folder) -> None:
 
 def collect(folder: Folder) -> None:
     """Write what a campaign has found so far: NetCDF, CSV, pictures and a report, into its folder."""
-    from ..studies.campaign import open_study
-
     raise typer.Exit(_report(open_study(folder)))
 
 
 def _report(campaign: Campaign) -> int:
     """Write and print results; the exit code."""
-    from ..report.study import derived_table, summary, write_study_files
-    from .show import console, print_files, say, table
-
     written = write_study_files(campaign, campaign.folder)
     state, derived = campaign.state(), campaign.analysis()
     if derived is not None:
@@ -98,8 +87,6 @@ def _report(campaign: Campaign) -> int:
 
 
 def _print_causes(campaign: Campaign) -> None:
-    from ..report.study import failure_table, finding_table
-    from .show import console, table
 
     shown = (
         ("Failures by cause", failure_table(campaign)),
@@ -117,12 +104,9 @@ BETWEEN_LINES = 10.0
 @contextmanager
 def watched(title: str) -> Iterator[Watch]:
     """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its ``title``."""
-    if sys.stderr is None or not sys.stderr.isatty():
+    if not watching():
         yield Lines(lambda text: _write(f"{title}: {text}\n"))
         return
-    from rich.progress import BarColumn, Progress, TextColumn
-
-    from .show import error_console
 
     with Progress(BarColumn(24), TextColumn("{task.description}"), console=error_console()) as bar:
         task = bar.add_task("starting workers", total=None)

@@ -1,27 +1,116 @@
-"""The commands that solve a contact: ``contact`` and ``demo``."""
+"""The commands that solve a contact, ``contact`` and ``demo``, and what is written of one."""
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any
 
 import typer
 
-from .asked import part_names, part_options, with_parts
-from .declared import Given, offers
-from .options import BodyOptions, OutputOptions, ReadingOptions, SolveOptions, SourceOptions
-from .preparing import PreparationOptions
+from ..core.errors import InputError
+from ..core.parameters import Parameter
+from ..core.values import Text
+from ..io.atomic import atomic_folder, require_new_files
+from ..io.export import export_csv, export_stress_vtk, export_vtk
+from ..io.stress_files import save_stress
+from ..report import write_report
+from ..run.build import build
+from ..run.document import ProblemDocument, checked, dumps, loads, read_table, relocated, save_document
+from ..run.execute import Outcome, execute
+from ..run.stored import save_outcome
+from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
+from .failures import NOT_CONVERGED, OK
+from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid
+from .show import print_files, print_problem, print_result, say, stage
+
+NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
+"""What a run leaves in its folder."""
+
+PATH_NAMES = ("path.csv",)
+"""What a load path leaves there as well: scalars and energies of its steps."""
+
+STRESS_NAMES = ("stress.csv",)
+"""What stresses leave there as well: the table of the largest ones."""
+
+Out = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", help="Folder for report, result, scalars, plots and document.", rich_help_panel=OUTPUT, metavar="DIR"
+    ),
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.", rich_help_panel=OUTPUT)]
+Document = Annotated[
+    Path | None,
+    typer.Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
+]
 
 
-@offers(part_options)
+def _options() -> list[Option]:
+    return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), *file_options(*FILES)]
+
+
+FILES = MappingProxyType(
+    {
+        "save_document": "the problem as a TOML or JSON document",
+        "csv": "the scalars as a CSV file",
+        "vtk": "the fields as a VTK image file (.vti)",
+        "stress_vtk": "the stresses in the volume as a VTK file (.vtr)",
+        "stress_nc": "the stresses in the volume as a NetCDF file (.nc)",
+    }
+)
+"""Single files that can be written."""
+
+
+def file_options(*names: str) -> list[Option]:
+    """Options for single files."""
+    return [
+        Option(
+            f"--{name.replace('_', '-')}",
+            ("output", name),
+            Parameter(name, str, Text(), None, f"write {FILES[name]}"),
+            f"{ADVANCED}{OUTPUT}",
+            metavar=FILE,
+        )
+        for name in names
+    ]
+
+
+def files_in(given: Given, *, force: bool) -> dict[str, Path]:
+    """The single files that are asked for; none of them exists, unless they are replaced by ``force``."""
+    files = {name: Path(path) for name, path in given.under("output").table().items()}
+    require_new_files([*files.values()], overwrite=force)
+    return files
+
+
+@offers(_options)
 def contact(
-    source: SourceOptions,
-    reading: ReadingOptions,
-    preparation: PreparationOptions,
-    bodies: BodyOptions,
-    solve: SolveOptions,
     given: Given,
-    output: OutputOptions,
+    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    from_: Document = None,
+    out: Out = None,
+    force: Force = False,
+    plastic_load: Annotated[
+        bool,
+        typer.Option(
+            "--plastic-load",
+            help="Search the load at which 2 % of the real area is at the hardness (some 15 solves).",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = False,
+    with_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--with",
+            help="Compute this part with its defaults: stress, plastic_load, … May be repeated.",
+            metavar="PART",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
 ) -> None:
     """Press a rough surface against another body: contact area, pressure and gap; menisci and stresses if asked for.
 
@@ -32,95 +121,104 @@ def contact(
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
     """
-    from ..run.document import checked
-    from .perform import perform
-
-    if source.from_ is None:
-        table, names = _from_options(source.file, reading, preparation, bodies, solve)
-        where, base = "command line", Path()
-    else:
-        require_no_surface(source.file, reading, preparation, bodies)
-        table, names = table_of_document(source.from_, bodies, solve), {}
-        where, base = f"problem document {source.from_}", source.from_.parent
-    asked = (*(output.with_ or ()), *(["plastic_load"] if output.plastic_load else ()))
-    table = with_parts(table, given, (*asked, *(["stress"] if output.wants_stress else ())))
-    document = checked(table, where, names | part_names(given, everything=source.from_ is None))
-    raise typer.Exit(perform(document, base, output))
+    table, names, base = asked_table(file, from_, given)
+    files = files_in(given, force=force)
+    volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
+    table = with_parts(table, given, (*(with_ or ()), *(["plastic_load"] if plastic_load else ()), *volume))
+    where = f"problem document {from_}" if from_ else "command line"
+    document = checked(table, where, names | part_names(given, everything=from_ is None))
+    raise typer.Exit(_perform(document, base, out, files, force=force))
 
 
-def demo(
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report, result and plots.", metavar="DIR")
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
-) -> None:
+def demo(out: Out = None, force: Force = False) -> None:
     """Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."""
-    from importlib import resources
-
-    from ..run.document import loads
-    from .perform import perform
-    from .show import say
-
     document = loads(resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8"))
-    code = perform(document, Path(), OutputOptions(out=out, force=force))
+    code = _perform(document, Path(), out, {}, force=force)
     if out is None:
         say("Add --out DIR for the report, the result file and the plots.", "dim")
     raise typer.Exit(code)
 
 
-def _from_options(
-    file: Path | None,
-    reading: ReadingOptions,
-    preparation: PreparationOptions,
-    bodies: BodyOptions,
-    solve: SolveOptions,
-) -> tuple[dict[str, Any], dict[str, str]]:
-    """Document without its stresses, and what the user calls its keys."""
-    from ..core.errors import InputError
-    from .compose import NAMES, body_names, composed, overlaid, path_names
-    from .preparing import step_names
-
-    if file is None:
-        raise InputError("FILE with the rough surface must be given, or a problem document by --from, but neither is.")
-    table = overlaid(composed(file, reading, preparation, bodies), bodies, solve)
-    return table, {**NAMES, **body_names(table), **path_names(table), **step_names(table["surface"]["prepare"])}
-
-
-def table_of_document(path: Path, bodies: BodyOptions, solve: SolveOptions) -> dict[str, Any]:
-    """The document at ``path`` with what the options replace in it."""
-    from dataclasses import replace
-
-    from ..run.document import read_table
-    from .compose import overlaid
-
-    table: dict[str, Any] = read_table(path)
-    if bodies.materials_file is not None:  # given from where the user stands, not from the document
-        bodies = replace(bodies, materials_file=bodies.materials_file.absolute())
-    if bodies != BodyOptions() or solve != SolveOptions():
-        table = overlaid({"control": {}} | table, bodies, solve)
-    return table
-
-
-def require_no_surface(
-    file: Path | None, reading: ReadingOptions, preparation: PreparationOptions, bodies: BodyOptions
-) -> None:
-    """Refuse a surface given beside that of a document.
+def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple[dict[str, Any], dict[str, str], Path]:
+    """Document without its parts, what the user calls its keys, and the folder at which its paths start.
 
     Raises
     ------
     InputError
-        If a file, or an option for its reading, preparation or pairing, is given.
+        If neither a ``file`` nor a ``document`` is named, or a surface is given beside that of the document.
     """
-    from ..core.errors import InputError
-
-    if (
-        file is not None
-        or reading != ReadingOptions()
-        or preparation != PreparationOptions()
-        or (bodies.counter_surface, bodies.mirror, bodies.shift, bodies.rotate) != (None, None, None, None)
-        or bodies.common_grid
-    ):
+    if document is None:
+        if file is None:
+            raise InputError(
+                "FILE with the rough surface must be given, or a problem document by --from, but neither is."
+            )
+        table = overlaid(composed(file, given), given)
+        return table, names_in(table, given), Path()
+    if file is not None or any(path[0] in CORE for path in given.values):
         raise InputError(
             "FILE and the options for reading, preparation and counter surface must be left out together with --from, "
             "but are given; edit [surface] in the document instead."
         )
+    table = read_table(document)
+    if given.within("control", "path", "body", "counter_body", "bodies", "law", "boundary", "solver").values:
+        table = overlaid({"control": {}} | table, given, Path().absolute())
+    return table, {}, document.parent
+
+
+def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dict[str, Path], *, force: bool) -> int:
+    """Run ``document``, whose relative paths start at ``base``; write what is asked for, print; the exit code."""
+    case = build(document, base)
+    with output_folder(out, force=force) as folder:
+        outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
+        if folder is not None and out is not None:
+            moved = relocated(document, base, out)
+            export_csv(outcome.result, folder / "scalars.csv", scalars=outcome.scalars)
+            if outcome.path is not None:
+                export_csv(outcome.path, folder / PATH_NAMES[0])
+            write_parts(outcome, folder, moved)
+    if "save_document" in files:
+        save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
+    if "csv" in files:
+        export_csv(outcome.result, files["csv"], scalars=outcome.scalars, overwrite=force)
+    if "vtk" in files:
+        export_vtk(outcome.result, files["vtk"], overwrite=force)
+    write_volume(outcome, files, force=force)
+    print_problem(outcome, document.title or "Contact")
+    print_result(outcome)
+    stressed = STRESS_NAMES if "stress" in outcome.found else ()
+    names = [*NAMES_IN_FOLDER, *stressed, *(PATH_NAMES if outcome.path else ())]
+    print_files([*([] if out is None else [out / name for name in names]), *files.values()])
+    return OK if outcome.converged else NOT_CONVERGED
+
+
+def write_parts(outcome: Outcome, folder: Path, document: ProblemDocument | None) -> None:
+    """Write document, result file, report and pictures of ``outcome`` into ``folder``."""
+    text, title = (None, "") if document is None else (dumps(document), document.title)
+    if document is not None:
+        save_document(document, folder / "problem.toml")
+    save_outcome(outcome, folder / "result.nc", document=text, title=title)
+    (folder / "plots").mkdir()
+    for figure in itertools.chain(outcome.pictures, *outcome.figures.values()):
+        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+    write_report(outcome, folder / "report.html", document=text, title=title)
+    if "stress" in outcome.found:
+        export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])
+
+
+def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:
+    """Write all planes of the stresses of ``outcome`` to the ``files`` that are asked for."""
+    if "stress" in outcome.found:
+        survey = outcome.found["stress"].detail
+        for name, write in (("stress_nc", save_stress), ("stress_vtk", export_stress_vtk)):
+            if name in files:
+                write(survey.planes(survey.depths), files[name], overwrite=force)
+
+
+@contextmanager
+def output_folder(out: Path | None, *, force: bool) -> Iterator[Path | None]:
+    """Temporary folder that becomes the folder ``out`` when all has gone well; None if none is wanted."""
+    if out is None:
+        yield None
+        return
+    with atomic_folder(out, overwrite=force) as folder:
+        yield folder

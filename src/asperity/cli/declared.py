@@ -1,25 +1,27 @@
 """Options of commands, made from the declarations of parameters when a command is asked for them.
 
-A command takes ``given: Given`` and says with ``@offers`` which options fill it; ``Lazy`` makes them late, so that the list
-of all commands is shown without importing what declares them.
+A command takes ``given: Given`` and ``@offers`` the options that fill it; ``built`` makes both a command of typer.
 """
 
 from __future__ import annotations
 
-import functools
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Annotated, Any
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
 from ..core import units
+from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter, parameters
+from ..core.settings import declared as parameter_of
 from ..core.values import Choice, Flag, Several, Values
-
-__all__ = ["Given", "Lazy", "Option", "built", "explained", "offers", "options_of"]
+from ..parts.registry import BUILT_IN, parts
+from .show import silence
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,7 @@ class Option:
     panel: str | None = None
     required: bool = False
     others: tuple[str, ...] = ()
+    metavar: str | None = None
 
     @property
     def word(self) -> str:
@@ -43,21 +46,31 @@ class Option:
         """Whether it may be given several times: a list of what has commas in itself."""
         return isinstance(self.parameter.values, Several) and type(self.parameter.values.item) is Values
 
+    @property
+    def named_file(self) -> bool:
+        """Whether its value is the name of a file, which shells complete."""
+        return self.metavar == FILE or self.name.endswith("-file")
+
     def shown(self) -> inspect.Parameter:
         """Parameter of a typer command."""
         names = list(dict.fromkeys((self.name, *self.others, *([self.name.lower()] if not self.others else []))))
-        kind: Any = list[str] if self.repeated else str
+        kind: Any = list[str] if self.repeated else Path if self.named_file else str
         default: Any = REQUIRED if self.required else None
         if isinstance(self.parameter.values, Flag):
             kind = bool
             if self.parameter.default is True:
                 names = [f"{self.name}/--no-{self.name[2:]}"]
-        made = typer.Option(
-            *names, help=explained(self.parameter), metavar=_metavar(self.parameter), rich_help_panel=self.panel
+        metavar = (
+            None if kind is bool else FILE if kind is Path else self.metavar or self.parameter.values.metavar or "TEXT"
         )
+        made = typer.Option(*names, help=explained(self.parameter), metavar=metavar, rich_help_panel=self.panel)
         wanted: Any = kind if self.required else kind | None
         annotation: Any = Annotated[wanted, made]
         return inspect.Parameter(self.word, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+
+FILE = "FILE"
+"""Stands for a value that is the name of a file."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +78,7 @@ class Given:
     """What the user gave: text, flags and lists of text by the path of the key that they fill."""
 
     values: Mapping[tuple[str, ...], Any]
-    options: Sequence[Option]
+    options: Sequence[Option] = ()
 
     def table(self) -> dict[str, Any]:
         """Nested table of everything given."""
@@ -77,6 +90,10 @@ class Given:
             inner[path[-1]] = value
         return made
 
+    def get(self, *path: str) -> Any:
+        """What was given for the key at ``path``, or None."""
+        return self.values.get(path)
+
     @property
     def names(self) -> dict[str, str]:
         """What the user calls each key, by its dotted path."""
@@ -87,19 +104,37 @@ class Given:
         n = len(path)
         return Given({p[n:]: value for p, value in self.values.items() if p[:n] == path and len(p) > n}, self.options)
 
+    def within(self, *tables: str) -> Given:
+        """What was given of these ``tables``, with the options for them."""
+        return Given(
+            {path: value for path, value in self.values.items() if path[0] in tables},
+            [option for option in self.options if option.path[0] in tables],
+        )
+
 
 def options_of(
-    declared: Any, path: tuple[str, ...] = (), panel: str | None = None, *, leave: Iterable[str] = (), prefix: str = ""
+    declared: Any,
+    path: tuple[str, ...] = (),
+    panel: str | None = None,
+    *,
+    leave: Iterable[str] = (),
+    only: Iterable[str] = (),
+    prefix: str = "",
 ) -> tuple[Option, ...]:
     """One option for every parameter of ``declared``, a function, a dataclass or a table, that fills the key below ``path``.
 
-    It is called as its declaration says, or else after the parameter with ``prefix``; those to ``leave`` have none.
+    It is called as its declaration says, or else after the parameter with ``prefix``; those to ``leave`` have none, or all
+    but ``only`` some.
     """
-    left = set(leave)
-    found = [item for item in declarations(declared) if item.name not in left]
+    left, kept = set(leave), set(only)
+    found = [item for item in declarations(declared) if item.name not in left and (not kept or item.name in kept)]
     return tuple(
         Option(
-            item.option or f"--{prefix}{item.name.replace('_', '-')}", (*path, item.name), item, panel, item.required
+            item.option or f"--{prefix}{item.name.replace('_', '-')}",
+            (*path, item.name),
+            item,
+            panel,
+            item.required,
         )
         for item in found
     )
@@ -110,9 +145,67 @@ def declarations(declared: Any) -> tuple[Parameter, ...]:
     fields = getattr(declared, "model_fields", None)
     if fields is None:
         return parameters(declared)
-    from ..core.settings import declared as parameter_of
-
     return tuple(parameter_of(name, field) for name, field in fields.items())
+
+
+def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
+    """Options for the settings of the parts with these ``names``; of all parts if none is named.
+
+    Those of the parts of this package that are not ``basic`` are advanced.
+    """
+    found: list[Option] = []
+    for part in parts():
+        if part.settings is not None and (not names or part.name in names):
+            own = part in BUILT_IN
+            prefix = "" if own else f"{part.name.replace('_', '-')}-"
+            made = options_of(part.settings, (part.table,), panel=part.title, prefix=prefix)
+            found += sorted_out(made, basic) if own and basic else made
+    return tuple(found)
+
+
+def sorted_out(options: Iterable[Option], basic: Iterable[str]) -> list[Option]:
+    """``options``, those that are not ``basic`` marked as advanced in a panel that says so."""
+    wanted = set(basic)
+    return [
+        option if option.name in wanted else replace(option, panel=f"{ADVANCED}{option.panel}") for option in options
+    ]
+
+
+def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = ()) -> dict[str, Any]:
+    """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are there in any case.
+
+    Friction alone asks for the stresses that it causes.
+
+    Raises
+    ------
+    InputError
+        If a table is asked for that no part has.
+    """
+    known = [part.table for part in parts() if part.settings is not None]
+    told = {name: values for name, values in given.table().items() if name in known}
+    made = dict(table)
+    for name, values in told.items():
+        before = made.get(name)
+        made[name] = {**(before if isinstance(before, dict) else {}), **values}
+    for name in asked:
+        if name not in known:
+            raise InputError(f"--with must be one of {', '.join(known)}, but is {name!r}.")
+        made.setdefault(name, {})
+    if "friction" in told and "film" not in made:
+        made.setdefault("stress", {})
+    return made
+
+
+def part_names(given: Given, *, everything: bool) -> dict[str, str]:
+    """What the user calls the keys of the parts: those that are ``given``, or with ``everything`` all of them."""
+    known = {part.table for part in parts() if part.settings is not None}
+    names = {
+        ".".join(option.path): option.name
+        for option in given.options
+        if option.path[0] in known and (everything or option.path in given.values)
+    }
+    tables = {name.partition(".")[0] for name in names}
+    return {**{name: f"the {name.replace('_', ' ')}" for name in tables}, **names}
 
 
 def offers(make: Callable[[], Sequence[Option]]) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -125,37 +218,62 @@ def offers(make: Callable[[], Sequence[Option]]) -> Callable[[Callable[..., None
     return decorated
 
 
-class Lazy(TyperCommand):
-    """A command of which the options are made when somebody asks for them."""
-
-    def get_params(self, ctx: Any) -> Any:
-        """Parameters of the command; the first call makes them."""
-        command = getattr(self.callback, "lazy", None)
-        if command is not None:
-            made = built(command, command.__dict__["offered"](), str(self.name))
-            self.params, self.callback = made.params, made.callback
-        return super().get_params(ctx)
+ADVANCED = "Advanced: "
+"""Beginning of the title of a panel that only ``--help-all`` shows."""
 
 
-def late(command: Callable[..., None]) -> Callable[..., None]:
-    """What typer is shown of a command before its options are made: its name and its words."""
+class Command(TyperCommand):
+    """A command whose page leaves the advanced options to ``--help-all``."""
 
-    @functools.wraps(command)
-    def nothing() -> None:  # replaced by the command itself before it runs
-        raise NotImplementedError
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the page; the advanced options only if they are asked for."""
+        whole = ctx.meta.get(WHOLE, False)
+        params, epilog = self.params, self.epilog
+        basic = [p for p in params if not str(getattr(p, "rich_help_panel", "")).startswith(ADVANCED)]
+        if len(basic) < len(params) and not whole:
+            self.params = basic
+            self.epilog = f"{len(params) - len(basic)} further options: {ctx.command_path} --help-all"
+        try:
+            super().format_help(ctx, formatter)
+        finally:
+            self.params, self.epilog = params, epilog
 
-    nothing.__dict__.update(lazy=command, __signature__=inspect.Signature(), __annotations__={})
-    return nothing
+
+WHOLE = "asperity.whole page"
 
 
-def built(command: Callable[..., None], options: Sequence[Option], name: str) -> Any:
-    """Command of typer that calls ``command`` with what is given by the ``options``.
+def _whole_page(ctx: typer.Context, wanted: bool) -> None:
+    if wanted:
+        ctx.meta[WHOLE] = True
+        typer.echo(ctx.get_help())
+        raise typer.Exit
+
+
+class Listing(TyperGroup):
+    """Group of commands that are made when they are asked for; its page lists them with one line each."""
+
+    lines: ClassVar[Callable[[], Mapping[str, str]]]
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names of the commands."""
+        return list(type(self).lines())
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write name and line of each command."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(type(self).lines().items()))
+
+
+def built(command: Callable[..., None], name: str, options: Sequence[Option] | None = None) -> Any:
+    """Command of typer that calls ``command`` with what is given by the ``options``, by default those it offers.
 
     Raises
     ------
     ValueError
         If two options have the same name.
     """
+    if options is None:
+        options = command.__dict__.get("offered", tuple)()
     own = inspect.signature(command, eval_str=True).parameters
     by_word: dict[str, Option] = {}
     for option in options:
@@ -166,10 +284,12 @@ def built(command: Callable[..., None], options: Sequence[Option], name: str) ->
                 f"{option.name} of `{name}` is the option of {'.'.join(option.path)} and of {where}: rename one"
             )
 
-    def run(**values: Any) -> None:
+    def run(*, quiet: bool, **values: Any) -> None:
+        values.pop("help_all", None)
         found = {option.path: values.pop(word) for word, option in by_word.items()}
-        told = {path: value for path, value in found.items() if value is not None and value != []}
-        command(**values, given=Given(told, options))
+        told = {path: str(v) if isinstance(v, Path) else v for path, v in found.items() if v is not None and v != []}
+        with silence() if quiet else nullcontext():
+            command(**values, **({"given": Given(told, options)} if "given" in own else {}))
 
     shown: list[inspect.Parameter] = []
     for key, item in own.items():
@@ -177,13 +297,21 @@ def built(command: Callable[..., None], options: Sequence[Option], name: str) ->
             shown += [option.shown() for option in options]
         else:
             shown.append(item.replace(kind=inspect.Parameter.KEYWORD_ONLY))
+    shown.append(_flag("quiet", "--quiet", "-q", help="Print errors and warnings only, no answers and no progress."))
+    if any((option.panel or "").startswith(ADVANCED) for option in options):
+        shown.append(_flag("help_all", "--help-all", help="Show all options.", is_eager=True, callback=_whole_page))
     run.__dict__["__signature__"] = inspect.Signature(shown)
     run.__annotations__ = {item.name: item.annotation for item in shown}
     run.__doc__ = inspect.cleandoc(command.__doc__ or "")
     app = typer.Typer(add_completion=False)
-    app.command(name)(run)
+    app.command(name, cls=Command)(run)
     app.callback()(lambda: None)
     return typer.main.get_group(app).commands[name]
+
+
+def _flag(name: str, *names: str, **more: Any) -> inspect.Parameter:
+    annotation: Any = Annotated[bool, typer.Option(*names, **more)]
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=annotation)
 
 
 def explained(item: Parameter) -> str:
@@ -199,7 +327,3 @@ def explained(item: Parameter) -> str:
         return f"{text}."
     told = units.show(default, item.unit) if isinstance(default, float) else default
     return f"{text}. Default: {told}."
-
-
-def _metavar(item: Parameter) -> str | None:
-    return None if isinstance(item.values, Flag) else item.values.metavar

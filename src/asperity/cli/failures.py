@@ -8,6 +8,8 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
+from ..core.errors import AsperityError, ConvergenceError
+
 OK = 0
 NOT_CONVERGED = 1
 BAD_INPUT = 2
@@ -42,8 +44,6 @@ class Reporting(TyperGroup):
 
 def diagnosis(error: Exception) -> tuple[int, str]:
     """Exit code and sentence for ``error``."""
-    from ..core.errors import AsperityError, ConvergenceError
-
     if isinstance(error, ConvergenceError):
         return NOT_CONVERGED, str(error)
     if isinstance(error, AsperityError):
@@ -58,7 +58,7 @@ def diagnosis(error: Exception) -> tuple[int, str]:
 
 
 def _say(sentence: str, *, traceback: bool = False) -> None:
-    from .show import error_console
+    from .show import error_console  # brings rich
 
     console = error_console()
     if traceback:

@@ -2,41 +2,53 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 
+from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter, parameters, taken_apart
+from ..core.settings import validated
+from ..core.units import parse, show
 from ..core.values import Choice, Number
-from .declared import Given, Option, built, options_of
-
-if TYPE_CHECKING:
-    from ..surfaces.surface import Surface
+from ..io.atomic import require_new_files
+from ..io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
+from ..io.surface_files import require_ending, save_endless, save_gaussian, save_surface
+from ..io.words import surface_text
+from ..plots.contact import save_surface_plot
+from ..run.build import build_generated, build_part, table_grid
+from ..surfaces.characterise.heights import height_parameters
+from ..surfaces.characterise.slopes import rms_slope
+from ..surfaces.generate import endless
+from ..surfaces.generate.gaussian import Spectrum
+from ..surfaces.generate.non_gaussian import Marginal
+from ..surfaces.surface import Surface
+from .declared import Given, Listing, Option, built, options_of
+from .options import steps
+from .show import console, interruptible, print_files, say, shown, stage, table
 
 STREAMED = ("digital_filter", "rough")
 """Kinds that can be written piece by piece."""
 
 
-class Kinds(TyperGroup):
-    """Subcommands that are made when they are asked for: what they follow from is slow to import."""
+class Kinds(Listing):
+    """Subcommands that are made when they are asked for."""
 
-    def list_commands(self, ctx: Any) -> list[str]:
-        """Names of all kinds."""
-        from ..io.schemas.surfaces import SURFACES
-
-        return list(SURFACES)
+    @staticmethod
+    def lines() -> Mapping[str, str]:
+        """Names of all kinds and what they are."""
+        return {kind: inspect.cleandoc(made.__doc__ or "").partition("\n")[0] for kind, made in SURFACE_TABLES.items()}
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Subcommand of one kind, with dashes or underscores; None if there is none of the name."""
-        from ..io.schemas.surfaces import SURFACES
-
         kind = cmd_name.replace("-", "_")
-        return _command(kind) if kind in SURFACES else None
+        return _command(kind) if kind in SURFACE_TABLES else None
 
 
-app = typer.Typer(name="generate", cls=Kinds, no_args_is_help=True, add_completion=False)
+app = typer.Typer(name="generate", cls=Kinds, no_args_is_help=True, add_completion=False, rich_markup_mode=None)
 
 
 @app.callback()
@@ -52,7 +64,6 @@ def generate() -> None:
 
 def _command(kind: str) -> Any:
     """The subcommand of ``kind``."""
-    from ..io.schemas.surfaces import SURFACE_TABLES
 
     def run(
         given: Given,
@@ -65,15 +76,11 @@ def _command(kind: str) -> Any:
         _run(kind, given, (out, plot, force))
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
-    return built(run, options(kind), kind)
+    return built(run, kind, options(kind))
 
 
 def options(kind: str) -> list[Option]:
     """All options of a kind, those of its own first."""
-    from ..io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface
-    from ..surfaces.generate.gaussian import Spectrum
-    from ..surfaces.generate.non_gaussian import Marginal
-
     model = SURFACE_TABLES[kind]
     types = {Spectrum: SPECTRUM_TABLES, Marginal: HEIGHTS_TABLES}
     made = {item.name: (item, types.get(taken_apart(item.annotation)[0])) for item in parameters(model.makes)}
@@ -89,15 +96,13 @@ def options(kind: str) -> list[Option]:
 
 def _part_options(item: Parameter, tables: Any) -> list[Option]:
     """Options of a table within the table, of whatever kind it may be; its kinds share options of the same name."""
-    from ..io.schemas.surfaces import FileSurface
-
     kinds = Choice({kind: kind for kind in tables})
     told = Parameter("kind", str, kinds, REQUIRED, f"kind of the {item.help}")
     found = {"--" + item.name: Option("--" + item.name, (item.name, "kind"), told, required=True)}
-    for table in tables.values():
+    for kind in tables.values():
         prefix = "" if item.name in ("spectrum", "heights") else f"{item.name}-"
-        offered = [*options_of(table, (item.name,), leave=("kind", "surface"), prefix=prefix)]
-        if "surface" in table.model_fields:
+        offered = [*options_of(kind, (item.name,), leave=("kind", "surface"), prefix=prefix)]
+        if "surface" in kind.model_fields:
             file = {"path": "file", **{key: f"file-{key}" for key in ("channel", "size", "height_unit")}}
             for option in options_of(FileSurface, (item.name, "surface")):
                 if (key := option.path[-1]) in file:
@@ -110,13 +115,6 @@ def _part_options(item: Parameter, tables: Any) -> list[Option]:
 
 
 def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None:
-    from ..core.errors import InputError
-    from ..core.settings import validated
-    from ..io.atomic import require_new_files
-    from ..io.schemas.surfaces import SURFACE_TABLES
-    from ..io.surface_files import require_ending, save_surface
-    from .preparing import PreparationOptions, steps
-    from .show import print_files
 
     out, plot, force = files
     if plot is not None and plot.suffix.lower() != ".png":
@@ -128,7 +126,7 @@ def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None
     memory = asked.pop("memory", None)
     for part in asked.values():
         if isinstance(part, dict) and "surface" in part:
-            part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(PreparationOptions())}
+            part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
     table = validated(SURFACE_TABLES[kind], asked, "command line", given.names)
     if memory is not None:
         _stream(table, out, memory, force)
@@ -136,15 +134,13 @@ def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None
     else:
         surface = _generated(table)
         save_surface(surface, out, overwrite=force)
-        _picture(surface, plot, force)
+        if plot is not None:
+            save_surface_plot(surface, plot, overwrite=force)
         _print(surface)
     print_files(written)
 
 
 def _generated(table: Any) -> Surface:
-    from ..run.build import build_generated
-    from .interrupt import interruptible
-    from .progress import shown
 
     if table.kind != "rank_ordered":
         return build_generated(table, Path())
@@ -154,13 +150,6 @@ def _generated(table: Any) -> Surface:
 
 def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
-    from ..core.units import parse
-    from ..io.surface_files import save_endless, save_gaussian
-    from ..run.build import build_part, table_grid
-    from ..surfaces.generate import endless
-    from .progress import stage
-    from .show import say
-
     _require_streamable(table)
     grid = table_grid(table)
     spectrum = build_part(table.spectrum, Path())
@@ -178,7 +167,6 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
 
 
 def _require_streamable(table: Any) -> None:
-    from ..core.errors import InputError
 
     if table.kind == "digital_filter" and table.periodic:
         raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
@@ -189,19 +177,7 @@ def _require_streamable(table: Any) -> None:
         )
 
 
-def _picture(surface: Surface, plot: Path | None, force: bool) -> None:
-    if plot is not None:
-        from ..plots.contact import save_surface_plot
-
-        save_surface_plot(surface, plot, overwrite=force)
-
-
 def _print(surface: Surface) -> None:
-    from ..core.units import show
-    from ..io.words import surface_text
-    from ..surfaces.characterise.heights import height_parameters
-    from ..surfaces.characterise.slopes import rms_slope
-    from .show import console, say, table
 
     found = height_parameters(surface)
     rows = [

@@ -1,83 +1,92 @@
-"""The command ``info``: what is in a file."""
+"""The command ``info``: what is in files with heights."""
 
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from .options import ReadingOptions
-
-if TYPE_CHECKING:
-    from ..surfaces.characterise.summary import Characterisation
-    from ..surfaces.formats import ChannelInfo
-    from ..surfaces.surface import Surface
+from ..core.errors import InputError
+from ..core.units import parse, percent, show
+from ..io.atomic import require_new_file
+from ..io.records import roughness_record
+from ..io.words import surface_text
+from ..plots.contact import save_surface_plot
+from ..plots.surface import save_roughness_plots
+from ..report.roughness import quantity_rows, write_roughness_report
+from ..surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
+from ..surfaces.characterise.slopes import rms_slope
+from ..surfaces.characterise.summary import Characterisation, characterise
+from ..surfaces.formats import ChannelInfo, chosen
+from ..surfaces.read import channels
+from ..surfaces.surface import Surface
+from .declared import Given, offers
+from .options import levelled_as, read_surface, reading_options
+from .show import console, print_files, say, table
 
 
 @dataclass(frozen=True)
-class AnswerOptions:
-    """What is told of a file, and where it is written."""
+class Asked:
+    """Files that are asked for."""
 
-    full: Annotated[bool, typer.Option("--full", help="All roughness quantities, not only the first four.")] = False
+    report: Path | None
+    plot: Path | None
+    plots: Path | None
+    force: bool
+
+
+@offers(reading_options)
+def info(
+    given: Given,
+    file: Annotated[Path, typer.Argument(help="File with heights.")],
+    full: Annotated[bool, typer.Option("--full", help="All roughness quantities, not only the first four.")] = False,
     level: Annotated[
         str,
         typer.Option(
             "--level",
             help="Removed before: mean, plane, quadratic or a polynomial of the degree given; by default the mean of a periodic surface, the plane of any other.",
+            metavar="WORD",
         ),
-    ] = "auto"
+    ] = "auto",
     tip_radius: Annotated[
         str | None,
         typer.Option("--tip-radius", help="Radius of the tip: shorter waves are not fitted.", metavar="LENGTH"),
-    ] = None
-    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False
-    report: Annotated[Path | None, typer.Option("--report", help="Write a page on the roughness, HTML.")] = None
-    plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None
-    plots: Annotated[Path | None, typer.Option("--plots", help="Write all pictures into this folder.")] = None
-    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False
-
-
-def info(
-    file: Annotated[Path, typer.Argument(help="File with heights.")], reading: ReadingOptions, answer: AnswerOptions
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
+    report: Annotated[Path | None, typer.Option("--report", help="Write a page on the roughness, HTML.")] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
+    plots: Annotated[Path | None, typer.Option("--plots", help="Write all pictures into this folder.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
-    """Say what is in a file: channels, size, pixel, units, missing points, roughness.
+    """Tell what is in a file: channels, size, pixel, units, missing points, roughness.
 
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, if not told otherwise.
     """
-    import json
-
-    from ..core.units import parse
-    from ..surfaces.characterise.summary import characterise
-    from ..surfaces.formats import chosen
-    from ..surfaces.prepare.level import levelled
-    from ..surfaces.read import channels
-    from .options import level_of, read_surface
-    from .show import console
-
-    _check(answer)
-    radius = None if answer.tip_radius is None else parse(answer.tip_radius, "length", "--tip-radius")
-    surface = read_surface(file, reading)
-    level = level_of(surface, answer.level)
-    found, flat = channels(file), levelled(surface, int(level) if level.isdigit() else level)
-    whole = characterise(flat, tip_radius=radius) if answer.full or answer.report or answer.plots else None
-    shown = whole if answer.full else None
-    if answer.as_json:
-        record = _record(file, found, surface, flat, shown) | {"levelled": level}
+    asked = Asked(report, plot, plots, force)
+    _check(asked)
+    radius = None if tip_radius is None else parse(tip_radius, "length", "--tip-radius")
+    surface = read_surface(file, given)
+    found, (flat, removed) = channels(file), levelled_as(surface, level)
+    whole = characterise(flat, tip_radius=radius) if full or report or plots else None
+    shown = whole if full else None
+    if as_json:
+        record = _record(file, found, surface, flat, shown) | {"levelled": removed}
         console().out(json.dumps(record, indent=2), highlight=False)
     else:
-        _print(file, found, chosen(found, reading.channel, file).index, surface)
-        _print_roughness(flat, shown, level)
-    _write(answer, level, flat, whole)
+        _print(file, found, chosen(found, given.get("surface", "channel"), file).index, surface)
+        _print_roughness(flat, shown, removed)
+    written = _written(asked, flat, whole)
+    if written and not as_json:
+        say(f"Pictures and pages show the heights after {_levelling(removed)}.", "dim")
+        print_files(written)
 
 
-def _check(answer: AnswerOptions) -> None:
+def _check(answer: Asked) -> None:
     """Refuse what cannot be written before anything is computed."""
-    from ..core.errors import InputError
-    from ..io.atomic import require_new_file
-
     for name, path, suffix, example in (
         ("--plot", answer.plot, ".png", "heights.png"),
         ("--report", answer.report, ".html", "roughness.html"),
@@ -90,35 +99,22 @@ def _check(answer: AnswerOptions) -> None:
         require_new_file(path, overwrite=answer.force)
 
 
-def _write(answer: AnswerOptions, level: str, flat: Surface, found: Characterisation | None) -> None:
-    from .show import print_files, say
-
+def _written(answer: Asked, flat: Surface, found: Characterisation | None) -> list[Path]:
+    """The files that are asked for, written."""
     written: list[Path] = []
     if answer.plot is not None:
-        from ..plots.contact import save_surface_plot
-
         save_surface_plot(flat, answer.plot, overwrite=answer.force)
         written.append(answer.plot)
     if found is not None and answer.plots is not None:
-        from ..plots.surface import save_roughness_plots
-
         written += save_roughness_plots(found, answer.plots, overwrite=answer.force)
     if found is not None and answer.report is not None:
-        from ..report.roughness import write_roughness_report
-
         write_roughness_report(found, answer.report, overwrite=answer.force)
         written.append(answer.report)
-    if written and not answer.as_json:
-        say(f"Pictures and pages show the heights after {_levelling(level)}.", "dim")
-        print_files(written)
+    return written
 
 
 def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
     """Value, unit and label by key of the roughness of a levelled surface."""
-    from ..core.errors import InputError
-    from ..surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
-    from ..surfaces.characterise.slopes import rms_slope
-
     try:
         slope = rms_slope(flat)
     except InputError:  # no two neighbouring valid points
@@ -134,9 +130,6 @@ def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
 def _record(
     file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: Surface, whole: Characterisation | None
 ) -> dict[str, Any]:
-    from dataclasses import asdict
-
-    from ..io.records import roughness_record
 
     roughness = {key: value if value == value else None for key, (value, _, _) in _roughness(flat).items()}
     return {
@@ -154,9 +147,6 @@ def _record(
 
 
 def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface) -> None:
-    from ..core.units import percent, show
-    from ..io.words import surface_text
-    from .show import console, table
 
     rows = [
         (
@@ -176,15 +166,12 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
 
 
 def _print_roughness(flat: Surface, whole: Characterisation | None, level: str) -> None:
-    from ..core.units import show
-    from .show import console, say, table
 
     out = console()
     if whole is None:
         values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
         out.print(table(f"Roughness after {_levelling(level)}", values))
         return
-    from ..report.roughness import quantity_rows
 
     say(f"Roughness after {_levelling(level)}", "bold")
     for heading, rows in quantity_rows(whole):

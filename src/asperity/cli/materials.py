@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-if TYPE_CHECKING:
-    from ..solids.library import LiquidRecord, MaterialRecord
+from ..core.units import show
+from ..solids import library
+from ..solids.library import LiquidRecord, MaterialRecord
+from .show import console, say, table
 
 
 @dataclass(frozen=True)
@@ -24,8 +27,6 @@ class _Listing:
 
     def text(self, record: MaterialRecord | LiquidRecord, key: str) -> str:
         """Value of ``key`` with its unit; a star behind an assumed one, a dash where it is not known."""
-        from ..core.units import show
-
         if key not in record.values:
             return "–"
         item, unit = record.values[key], {name: unit for name, _, unit in self.columns}[key]
@@ -64,11 +65,8 @@ def materials(
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, pressures in Pa.")] = False,
 ) -> None:
     """List the named materials with their values and sources."""
-    from ..solids.library import material
-    from ..solids.library import materials as library
-
-    wanted = None if name is None else material(name, library=file).name
-    _print(MATERIALS, library(file), wanted, as_json=as_json)
+    wanted = None if name is None else library.material(name, library=file).name
+    _print(MATERIALS, library.materials(file), wanted, as_json=as_json)
 
 
 def liquids(
@@ -77,21 +75,14 @@ def liquids(
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, in SI units.")] = False,
 ) -> None:
     """List the named liquids for films between surfaces, with their values and sources."""
-    from ..solids.library import liquid
-    from ..solids.library import liquids as library
-
-    wanted = None if name is None else liquid(name, library=file).name
-    _print(LIQUIDS, library(file), wanted, as_json=as_json)
+    wanted = None if name is None else library.liquid(name, library=file).name
+    _print(LIQUIDS, library.liquids(file), wanted, as_json=as_json)
 
 
 def _print(
     listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord], wanted: str | None, *, as_json: bool
 ) -> None:
     """Print all ``records``, or with every source the one that is ``wanted``."""
-    import json
-
-    from .show import console
-
     if wanted is not None:
         records = [record for record in records if record.name == wanted]
     if as_json:
@@ -108,7 +99,6 @@ def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
 
 
 def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord]) -> None:
-    from .show import console, say, table
 
     rows = [
         (record.name, *(listing.text(record, key) for key, _, _ in listing.columns), ", ".join(record.aliases))
@@ -116,13 +106,16 @@ def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecor
     ]
     headings = (NAMES[listing.command], *(heading for _, heading, _ in listing.columns), "also called")
     console().print(table(f"{listing.title} (* assumed)", rows, headings))
-    for source in dict.fromkeys(item.source for record in records for item in record.values.values()):
-        say(f"  source: {source}", "dim")
+    sources = [
+        (record.name if number == 0 else "", source)
+        for record in records
+        for number, source in enumerate(dict.fromkeys(item.source for item in record.values.values()))
+    ]
+    console().print(table("Sources", sources, (NAMES[listing.command], "source")))
     say(f"`asperity {listing.command} NAME` shows the source of every value.")
 
 
 def _print_one(listing: _Listing, record: MaterialRecord | LiquidRecord) -> None:
-    from .show import console, say, table
 
     rows = [(key.replace("_", " "), listing.text(record, key), item.source) for key, item in record.values.items()]
     console().print(table(record.name, rows, ("quantity", "value", "source")))

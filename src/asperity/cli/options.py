@@ -1,221 +1,401 @@
-"""The options of the commands, in groups that commands share."""
+"""Options of the core of a problem document, and the document that they fill; messages name the option that was given."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Protocol
+from types import MappingProxyType
+from typing import Any
 
-from typer import Argument, Option
+from ..core import require, units
+from ..core.errors import InputError, UnitError
+from ..core.parameters import Parameter, parameters
+from ..core.settings import validated
+from ..core.values import Flag, Text, Values
+from ..io.schemas.bodies import SYMBOLS, BodyTable, body_from_text
+from ..io.schemas.problem import (
+    EFFECTIVE,
+    FROM_BODY,
+    NONE,
+    BoundaryTable,
+    ControlTable,
+    HardnessTable,
+    PathTable,
+    ProblemDocument,
+    SolverTable,
+)
+from ..io.schemas.surfaces import STEPS, AnySurface, FileSurface, Place
+from ..run.build import build_surface
+from ..surfaces.prepare.level import levelled
+from ..surfaces.surface import Surface
+from .declared import FILE, Given, Option, declarations, options_of
 
-if TYPE_CHECKING:
-    from ..surfaces.surface import Surface
+READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
+COUNTER, LOAD, SOLVER, OUTPUT = "Counter surface", "Load: one of", "Solver", "Output"
 
-
-READING, BODIES = "Reading the file", "Bodies and interface"
-LOAD, SOLVER, OUTPUT = "Load: one of", "Solver", "Output"
-
-
-@dataclass(frozen=True)
-class SourceOptions:
-    """Where the problem comes from: a file with heights and options, or a document."""
-
-    file: Annotated[Path | None, Argument(help="File with the heights of the rough surface.")] = None
-    from_: Annotated[
-        Path | None,
-        Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
-    ] = None
-
-
-@dataclass(frozen=True)
-class ReadingOptions:
-    """What a file with heights does not say itself."""
-
-    channel: Annotated[str | None, option("--channel", "Name or number of the channel.", READING)] = None
-    size: Annotated[
-        str | None, option("--size", 'Physical size, such as "20 um x 10 um".', READING, "LENGTH [x LENGTH]")
-    ] = None
-    height_unit: Annotated[str | None, option("--height-unit", "Unit of the heights: nm, um, …", READING, "UNIT")] = (
-        None
-    )
-    z_scale: Annotated[
-        str | None, option("--z-scale", "Height of the full grey scale of a picture.", READING, "LENGTH")
-    ] = None
-    lateral_unit: Annotated[
-        str | None, option("--lateral-unit", "Unit of x and y in a list of points x y z.", READING, "UNIT")
-    ] = None
+BASIC = (
+    *("--from", "--size", "--height-unit", "--level", "--periodise", "--body", "--counter", "--hardness", "--boundary"),
+    *("--pressure", "--load", "--approach", "--mean-gap", "--path", "--friction", "--liquid", "--humidity", "--film"),
+    *("--section", "--depths", "--threads"),
+)
+"""Options of `contact` that its page shows first."""
 
 
-@dataclass(frozen=True)
-class BodyOptions:
-    """Bodies, counter surface, boundary and interface law."""
+def reading_options() -> tuple[Option, ...]:
+    """Options of what a file with heights does not state itself."""
+    return options_of(FileSurface, ("surface",), READING, leave=("kind", "path", *AnySurface.model_fields))
 
-    body: Annotated[
-        str | None,
-        option(
-            "--body",
-            'Material name, "E=140GPa,nu=0.25,H=15GPa", or layers from the surface down on a base: '
-            '"DLC:5nm/Cr:2nm/steel"; ~ behind a thickness: slips on what is below.',
-            BODIES,
-            "BODY",
+
+def _option(
+    name: str, path: tuple[str, ...], text: str, panel: str, metavar: str, values: Values | None = None
+) -> Option:
+    """Option of the command line alone, for what the document says in several keys."""
+    return Option(name, path, Parameter(path[-1], str, values or Text(), None, text), panel, metavar=metavar)
+
+
+def _step_option(name: str, step: str, key: str, what: str) -> Option:
+    """Option for the parameter ``key`` of a preparation step; without a value of its own there is no such step."""
+    item = next(item for item in parameters(STEPS[step]) if item.name == key)
+    usual = f", such as {item.default:g}" if isinstance(item.default, float) else ""
+    words = "" if not item.words or isinstance(item.values, Flag) else f"; {', '.join(item.words)}"
+    text = f"{what}: {item.help}{words}{usual}" if what else item.help
+    default = None if not isinstance(item.default, bool) else item.default
+    plain = replace(item, help=text, default=default, values=item.values if not item.words else Text())
+    return Option(name, ("prepare", step, key), plain, PREPARATION, metavar="WORD" if item.words else None)
+
+
+def preparation_options() -> tuple[Option, ...]:
+    """Options of the steps between the file and the contact, in their order; they apply to a counter surface too."""
+    make, step = _option, _step_option
+    return (
+        make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
+        step("--despike", "despike", "threshold", "mask spikes"),
+        step("--line-correct", "line_correct", "axis", "remove offsets between scan lines"),
+        make(
+            "--level",
+            ("prepare", "level", "form"),
+            "remove mean, plane (default), quadratic or a polynomial of the degree given; or none",
+            PREPARATION,
+            "WORD",
         ),
-    ] = None
-    counter: Annotated[
-        str | None,
+        step("--robust-level", "level", "robust", "level without outliers"),
+        step("--fill", "fill", "method", "fill missing points (harmonic by default) or none"),
+        step("--tip-radius", "tip_limit", "radius", "remove waves that a tip may have shaped"),
+        step("--short-cutoff", "filter", "short", "filter, such as 0.8um"),
+        step("--long-cutoff", "filter", "long", "filter, such as 80um"),
+        step("--filter", "filter", "kind", "filter for the cut-offs, the sharp one after --periodise"),
+        step("--resample", "resample", "points", "resample"),
+        step("--taper", "taper", "width", "taper"),
+        make(
+            "--periodise",
+            ("prepare", "periodise", "on"),
+            "remove the jumps between opposite borders",
+            PREPARATION,
+            "",
+            Flag(),
+        ),
+        make(
+            "--line",
+            ("prepare", "slice", "at"),
+            "one line of the map, for --boundary line: y=middle; x=3um. Loads per metre",
+            PREPARATION,
+            "AXIS=PLACE",
+        ),
+    )
+
+
+def body_options() -> tuple[Option, ...]:
+    """Options of bodies, counter surface, boundary and law."""
+    both = {item.name: item for item in declarations(ProblemDocument)}
+    counter = ("counter_surface",)
+    return (
+        Option("--body", ("body",), replace(both["body"], default=None), BODIES, metavar="BODY"),
         Option(
             "--counter",
-            "--counter-body",
-            help="Counter body, in the same way; rigid by default.",
-            rich_help_panel=BODIES,
+            ("counter_body",),
+            replace(both["counter_body"], default=None),
+            BODIES,
+            others=("--counter-body",),
             metavar="BODY",
         ),
-    ] = None
-    materials_file: Annotated[Path | None, option("--materials-file", "Your own materials, a TOML file.", BODIES)] = (
-        None
-    )
-    counter_surface: Annotated[
-        Path | None, option("--counter-surface", "File with the surface of the counter body; flat by default.", BODIES)
-    ] = None
-    mirror: Annotated[
-        str | None,
-        option("--mirror", "How the counter surface is turned over: x (default), y or none.", BODIES),
-    ] = None
-    shift: Annotated[
-        str | None,
-        option("--shift", "Place of the counter surface's middle from that of the surface.", BODIES, "LENGTH,LENGTH"),
-    ] = None
-    rotate: Annotated[
-        str | None, option("--rotate", "Angle from +x towards +y of the counter surface: 30deg.", BODIES, "ANGLE")
-    ] = None
-    common_grid: Annotated[
-        bool,
-        option("--common-grid", "Bring both surfaces on one grid; so do --shift and --rotate.", BODIES),
-    ] = False
-    hardness: Annotated[
-        str | None,
-        option(
-            "--hardness",
-            'Limit of the pressure, "body" for the lower known hardness of the materials at the surfaces, or "effective" for '
-            "that of the softer body with its layers, by depth.",
-            BODIES,
-            "PRESSURE",
+        *(replace(o, required=False) for o in options_of(HardnessTable, ("law",), BODIES, leave=("kind",))),
+        *options_of(BoundaryTable, ("boundary",), BODIES),
+        *(
+            replace(option, metavar=FILE)
+            for option in options_of(BodyTable, ("bodies",), BODIES, only=("materials_file",))
         ),
-    ] = None
-    boundary: Annotated[
-        str | None,
-        option("--boundary", "periodic (default), free, or line (plane strain; see --line).", BODIES),
-    ] = None
-
-
-@dataclass(frozen=True)
-class SolveOptions:
-    """What is prescribed, and how the problem is solved."""
-
-    pressure: Annotated[str | None, option("--pressure", "Mean pressure: 50kPa.", LOAD, "PRESSURE")] = None
-    load: Annotated[str | None, option("--load", "Normal force: 1mN.", LOAD, "FORCE")] = None
-    approach: Annotated[str | None, option("--approach", "Approach from first touch: 3nm.", LOAD, "LENGTH")] = None
-    mean_gap: Annotated[str | None, option("--mean-gap", "Mean gap of the deformed surfaces.", LOAD, "LENGTH")] = None
-    path: Annotated[
-        str | None,
-        option(
-            "--path", "Load path through turning points: 50MPa,0,80MPa (or forces, or approaches).", LOAD, "VALUE,…"
+        _option(
+            "--counter-surface",
+            (*counter, "path"),
+            "file with the surface of the counter body; flat by default",
+            COUNTER,
+            FILE,
         ),
-    ] = None
-    path_steps: Annotated[
-        int | None, option("--path-steps", "Steps from one turning point to the next; 10 by default.", LOAD)
-    ] = None
-    solver: Annotated[
-        str | None, option("--solver", "Name of the method; chosen for the problem by default.", SOLVER)
-    ] = None
-    tolerance: Annotated[float | None, option("--tolerance", "Relative error at which to stop.", SOLVER)] = None
-    max_iterations: Annotated[int | None, option("--max-iterations", "Iterations after which to give up.", SOLVER)] = (
-        None
-    )
-    precision: Annotated[
-        str | None, option("--precision", "Arithmetic of active_set: mixed (default), double or single.", SOLVER)
-    ] = None
-    threads: Annotated[int | None, option("--threads", "Threads of the transforms; all cores by default.", SOLVER)] = (
-        None
+        *options_of(AnySurface, counter, COUNTER, only=("mirror",)),
+        *options_of(Place, (*counter, "place"), COUNTER, leave=("pixel",)),
+        _option(
+            "--common-grid",
+            (*counter, "common"),
+            "bring both surfaces on one grid; so do --shift and --rotate",
+            COUNTER,
+            "",
+            Flag(),
+        ),
     )
 
 
-@dataclass(frozen=True)
-class OutputOptions:
-    """Where the whole run, or a part of it, is written."""
-
-    out: Annotated[
-        Path | None, option("--out", "Folder for report, result, scalars, plots and document.", OUTPUT, "DIR")
-    ] = None
-    force: Annotated[bool, option("--force", "Replace files that exist.", OUTPUT)] = False
-    plastic_load: Annotated[
-        bool,
-        option(
-            "--plastic-load",
-            "Search the load at which 2 % of the real area is at the hardness (some 15 solves).",
-            OUTPUT,
+def load_options() -> tuple[Option, ...]:
+    """Options of the load, of which one is given."""
+    return (
+        *(
+            replace(option, metavar="VALUE,…") if option.name == "--path" else option
+            for option in options_of(ControlTable, ("control",), LOAD)
         ),
-    ] = False
-    with_: Annotated[
-        list[str] | None,
-        option(
-            "--with", "Compute this part with its defaults: stress, plastic_load, … May be repeated.", OUTPUT, "PART"
-        ),
-    ] = None
-    save_document: Annotated[
-        Path | None, option("--save-document", "Write the problem as a TOML or JSON document.", OUTPUT)
-    ] = None
-    csv: Annotated[Path | None, option("--csv", "Write the scalars as a CSV file.", OUTPUT)] = None
-    vtk: Annotated[Path | None, option("--vtk", "Write the fields as a VTK image file (.vti).", OUTPUT)] = None
-    stress_vtk: Annotated[
-        Path | None, option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).", OUTPUT)
-    ] = None
-    stress_nc: Annotated[
-        Path | None, option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).", OUTPUT)
-    ] = None
-
-    @property
-    def wants_stress(self) -> bool:
-        """Whether a file is asked for that holds stresses."""
-        return self.stress_vtk is not None or self.stress_nc is not None
-
-
-class PanelOption(Protocol):
-    """Makes the options of one panel."""
-
-    def __call__(self, name: str, text: str, metavar: str | None = None) -> Any:
-        """Option ``name`` with the ``text`` of its help."""
-
-
-def option(name: str, text: str, panel: str, metavar: str | None = None) -> Any:
-    """Option ``name`` with the ``text`` of its help, under the heading ``panel``."""
-    return Option(name, help=text, rich_help_panel=panel, metavar=metavar)
-
-
-def options_of(panel: str) -> PanelOption:
-    """What makes the options under the heading ``panel``."""
-
-    def panel_option(name: str, text: str, metavar: str | None = None) -> Any:
-        return option(name, text, panel, metavar)
-
-    return panel_option
-
-
-def read_surface(file: Path, reading: ReadingOptions) -> Surface:
-    """Surface in ``file``; units are those that the options give."""
-    from ..core.units import parse
-    from ..core.values import Lengths
-    from ..surfaces.read import read
-
-    return read(
-        file,
-        channel=reading.channel,
-        size=None if reading.size is None else Lengths().read(reading.size, "--size"),
-        height_unit=reading.height_unit,
-        z_scale=None if reading.z_scale is None else parse(reading.z_scale, "length", "--z-scale"),
-        lateral_unit=reading.lateral_unit,
+        *options_of(PathTable, ("path",), LOAD, only=("steps",)),
     )
 
 
-def level_of(surface: Surface, level: str) -> str:
-    """What ``level`` removes from ``surface``: left to itself, the mean of a periodic one and the plane of any other."""
-    return level if level != "auto" else "mean" if surface.periodic else "plane"
+def solver_options() -> tuple[Option, ...]:
+    """Options of the method."""
+    return options_of(SolverTable, ("solver",), SOLVER)
+
+
+def document_options() -> tuple[Option, ...]:
+    """Options of everything in the core of a document."""
+    return (*load_options(), *body_options(), *reading_options(), *preparation_options(), *solver_options())
+
+
+def read_surface(file: Path, given: Given) -> Surface:
+    """Surface in ``file`` as the reading options that are ``given`` ask."""
+    table = {"kind": "file", "path": str(file), **given.under("surface").table()}
+    names = {option.path[-1]: option.name for option in reading_options()}
+    return build_surface(validated(FileSurface, table, "command line", names), Path())
+
+
+def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
+    """``surface`` after levelling and what was removed: left to itself (auto) the mean of a periodic one, else the plane."""
+    found = level if level != "auto" else "mean" if surface.periodic else "plane"
+    return levelled(surface, int(found) if found.isdigit() else found), found
+
+
+CORE = ("surface", "counter_surface", "prepare")
+"""Tables that say which surfaces there are; a document that is given has its own."""
+
+WORDS_OF_HARDNESS = MappingProxyType({"body": FROM_BODY, FROM_BODY: FROM_BODY, EFFECTIVE: EFFECTIVE})
+"""Words for a hardness on the command line, and in the document."""
+
+
+def composed(file: Path, given: Given) -> dict[str, Any]:
+    """Document without load and solver for the surface in ``file``."""
+    if given.get("body") is None:
+        raise InputError("--body must be given, such as --body DLC; the command `asperity materials` lists the names.")
+    told = given.table()
+    surface = {"kind": "file", **told.get("surface", {}), "prepare": steps(given)}
+    table: dict[str, Any] = {"version": 2, "surface": {**surface, "path": str(file)}}
+    counter = told.get("counter_surface", {})
+    if "path" in counter:
+        table["counter_surface"] = {**surface, "path": counter["path"], "mirror": counter.get("mirror", "x")} | _place(
+            counter
+        )
+    elif counter:
+        option = next(
+            option.name
+            for option in given.options
+            if option.path in given.values and option.path[0] == "counter_surface"
+        )
+        raise InputError(f"{option} must be given together with --counter-surface only, but is given without.")
+    return table
+
+
+def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dict[str, Any]:
+    """``table`` with the bodies, boundary, law, load and solver settings that are given; materials files start at ``base``."""
+    told, result = given.table(), dict(table)
+    file = given.get("bodies", "materials_file")
+    for key, option in (("body", "--body"), ("counter_body", "--counter")):
+        if key in told:
+            result[key] = body_table(told[key], option, None if file is None else base / file)
+    if "boundary" in told:
+        result["boundary"] = told["boundary"]
+    if "law" in told:
+        hardness = told["law"]["hardness"]
+        result["law"] = {"kind": "hardness", "hardness": WORDS_OF_HARDNESS.get(hardness.strip().casefold(), hardness)}
+    result["control"] = _control(table, given)
+    before = table.get("solver", {})
+    if "solver" in told and isinstance(before, dict):
+        result["solver"] = {**before, **told["solver"]}
+    return result
+
+
+def _control(table: Mapping[str, Any], given: Given) -> Any:
+    """The load that options give, or that of ``table``."""
+    told, steps = given.under("control").table(), given.get("path", "steps")
+    if len(told) > 1 or (not told and "control" not in table):
+        options = {option.path[1]: option.name for option in load_options() if option.path[0] == "control"}
+        raise InputError(
+            f"load must be given by exactly one of {', '.join(options.values())}, "
+            f"but is given by {' and '.join(options[key] for key in told) or 'none'}."
+        )
+    if "path" in told:
+        told["path"] = path_table(told["path"])
+    control = told or table["control"]
+    if steps is None:
+        return control
+    if not isinstance(control, dict) or not isinstance(control.get("path"), dict):
+        raise InputError("--path-steps must be given together with a load path (--path) only, but is given without.")
+    return {**control, "path": {**control["path"], "steps": steps}}
+
+
+def path_table(text: str) -> dict[str, Any]:
+    """Table of the load path in ``text``: the unit of its first value other than zero says what is prescribed."""
+    points = [part.strip() for part in text.split(",")]
+    loads = [point for point in points if point != NONE]
+    for key, kind in {"mean_pressure": "pressure", "force": "force", "approach": "length"}.items():
+        try:
+            units.parse(loads[0] if loads else "", kind, "")
+        except UnitError:
+            continue
+        return {key: points}
+    raise InputError(
+        '--path must be pressures, forces or lengths with units, separated by commas, such as "50MPa,0,80MPa", '
+        f"but is {text!r}."
+    )
+
+
+def body_table(text: str, option: str, materials_file: Path | None) -> dict[str, Any]:
+    """Body from its one line of text (see ``io.schemas.bodies``); named materials are looked up in the file."""
+    try:
+        table = body_from_text(text)
+    except InputError as error:
+        raise InputError(f"{option}{error}") from None
+    named = "layers" in table or "material" in table
+    return {**table, "materials_file": str(materials_file)} if named and materials_file is not None else table
+
+
+def names_in(table: Mapping[str, Any], given: Given) -> dict[str, str]:
+    """What the user calls the keys of the document ``table`` that was composed of what is ``given``."""
+    names = {**given.names, "control.path.steps": "--path-steps", "counter_surface.path": "--counter-surface"}
+    names |= {f"counter_surface.{option.path[-1]}": option.name for option in reading_options()}
+    return names | _body_names(table) | _path_names(table) | step_names(table["surface"]["prepare"])
+
+
+def _path_names(table: Mapping[str, Any]) -> dict[str, str]:
+    """What the user calls the turning points of the load path in ``table``."""
+    path = table["control"].get("path", {})
+    names = {f"control.path.{key}": "--path" for key in path if key != "steps"}
+    return names | {
+        f"control.path.{key}[{number}]": f"turning point {number} of --path"
+        for key, points in path.items()
+        if isinstance(points, list)
+        for number in range(1, len(points) + 1)
+    }
+
+
+def _body_names(table: Mapping[str, Any]) -> dict[str, str]:
+    """What the user calls the keys of the bodies in ``table``: the symbol, the part and the option."""
+    names: dict[str, str] = {}
+    words = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"))
+    for key, option in (("body", "--body"), ("counter_body", "--counter")):
+        body = table.get(key)
+        layers = body.get("layers", ()) if isinstance(body, dict) else ()
+        parts = {key: option, f"{key}.base": f"the base of {option}"}
+        parts |= {f"{key}.layers[{n}]": f"layer {n} of {option}" for n in range(1, len(layers) + 1)}
+        for part, name in parts.items():
+            names[part] = name
+            names |= {f"{part}.{k}": f"{symbol} of {name}" for symbol, k in words}
+    return names
+
+
+def _place(counter: Mapping[str, Any]) -> dict[str, Any]:
+    """Where the counter surface lies, if anything is said of it."""
+    if "place" not in counter and "common" not in counter:
+        return {}
+    place = dict(counter.get("place", {}))
+    if "shift" in place:
+        place["shift"] = [part.strip() for part in place["shift"].split(",")]
+        if len(place["shift"]) != 2:
+            raise InputError(f'--shift must be two lengths, such as "1um,0um", but is {counter["place"]["shift"]!r}.')
+    return {"place": place}
+
+
+def steps(given: Given) -> list[dict[str, Any]]:
+    """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so that it comes after that.
+
+    Every surface is levelled and filled unless that is turned off.
+    """
+    told: dict[str, Any] = {"level": {}, "fill": {}, **given.under("prepare").table()}
+    sieve = told.get("filter", {})
+    if sieve and not {"short", "long"} & sieve.keys():
+        raise InputError(
+            f"--filter {sieve['kind']} must be given together with --short-cutoff or --long-cutoff, but is alone."
+        )
+    order = list(dict.fromkeys(option.path[1] for option in preparation_options()))
+    if sieve.get("kind") == "sharp":
+        order.remove("filter")
+        order.insert(order.index("periodise") + 1, "filter")
+    made: dict[str, dict[str, Any] | None] = {
+        **told,
+        "level": _level(told["level"]),
+        "fill": {"method": "harmonic", **told["fill"]},
+        **({"crop": _crop(told["crop"]["range"])} if "crop" in told else {}),
+        **({"periodise": {}} if "periodise" in told else {}),
+        **({"slice": _line(told["slice"]["at"])} if "slice" in told else {}),
+    }
+    require.one_of(str(made["fill"]["method"]), (*_words("fill", "method"), "none"), "--fill")  # type: ignore[index]
+    if sieve:
+        made["filter"] = {"kind": "gaussian", **sieve}
+        require.one_of(str(made["filter"]["kind"]), _words("filter", "kind"), "--filter")  # type: ignore[index]
+    if made["fill"] == {"method": "none"}:
+        made["fill"] = None
+    return [{"step": step, **values} for step in order if (values := made.get(step)) is not None]
+
+
+def _words(step: str, key: str) -> Iterable[str]:
+    """Words that a parameter of a step may be."""
+    return next(item.words for item in parameters(STEPS[step]) if item.name == key)
+
+
+_OPTIONS_OF_STEPS = MappingProxyType(
+    {("tip_limit", "step"): "--tip-radius", ("level", "degree"): "--level", ("level", "step"): "--level"}
+)
+
+
+def step_names(steps: Iterable[Mapping[str, Any]]) -> dict[str, str]:
+    """What the user calls the keys of the preparation ``steps``: the option that made the step."""
+    options = {option.path[1:]: option.name for option in preparation_options()} | dict(_OPTIONS_OF_STEPS)
+    whole = {step: name for (step, _), name in options.items()} | {"crop": "--crop"}
+    return {
+        f"{table}.prepare[{number}].{key}": f"{key} of --crop"
+        if step["step"] == "crop"
+        else options.get((str(step["step"]), key), whole[str(step["step"])])
+        for table in ("surface", "counter_surface")
+        for number, step in enumerate(steps, start=1)
+        for key in step
+    }
+
+
+def _level(told: Mapping[str, Any]) -> dict[str, Any] | None:
+    form = told.get("form", "plane")
+    robust = {"robust": True} if told.get("robust") else {}
+    if form.isdigit():
+        return {"degree": int(form), **robust}
+    require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")
+    return None if form == "none" else {"form": form, **robust}
+
+
+def _crop(text: str) -> dict[str, list[str]]:
+    """Ranges of ``"X0:X1,Y0:Y1"``; an empty part keeps the full side."""
+    parts = [part.strip() for part in text.split(",")]
+    ends = [[end.strip() for end in part.split(":")] for part in parts]
+    halved = all(len(pair) == 2 for part, pair in zip(parts, ends, strict=True) if part)
+    if len(parts) != 2 or not any(parts) or not halved:
+        raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
+    return {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
+
+
+def _line(text: str) -> dict[str, str]:
+    """Position of ``"y=middle"``."""
+    axis, equals, position = (part.strip() for part in text.partition("="))
+    if axis not in ("x", "y") or not equals or not position:
+        raise InputError(f'--line must be a position such as "y=middle" or "x=3um", but is {text!r}.')
+    return {axis: position}

@@ -8,6 +8,22 @@ from typing import Annotated
 
 import typer
 
+from ..core import require
+from ..core.citations import cite as references
+from ..core.errors import InputError
+from ..io.atomic import require_new_files
+from ..io.export import export_csv, export_vtk
+from ..io.results import contact_of, document_in, load
+from ..parts.stress import Stress
+from ..plots.contact import figures_of
+from ..plots.picture import save_pictures
+from ..report import write_report
+from ..run.build import build
+from ..run.document import load_document, loads
+from ..run.stored import load_outcome
+from ..stress.survey import Planned
+from .show import print_files, say
+
 Result = Annotated[Path, typer.Argument(help="Result file of `asperity contact --out`.", metavar="RESULT.nc")]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 
@@ -26,12 +42,6 @@ def plot(
     force: Force = False,
 ) -> None:
     """Draw the figures of a result as PNG files."""
-    from ..core import require
-    from ..plots.contact import figures_of
-    from ..plots.picture import save_pictures
-    from ..run.stored import load_outcome
-    from .show import print_files
-
     outcome = load_outcome(file)
     found = figures_of(outcome.path or outcome.result)
     if kind not in found:
@@ -51,11 +61,6 @@ def report(
 
     Example: asperity report run/result.nc --out again.html
     """
-    from ..io.results import document_in
-    from ..report import write_report
-    from ..run.stored import load_outcome
-    from .show import print_files
-
     outcome = load_outcome(file)
     title = str(outcome.stored.get("report_title", ""))
     write_report(outcome, out, document=document_in(file), title=title, overwrite=force)
@@ -69,12 +74,6 @@ def export(
     force: Force = False,
 ) -> None:
     """Write a result for other programs."""
-    from ..core.errors import InputError
-    from ..io.atomic import require_new_files
-    from ..io.export import export_csv, export_vtk
-    from ..run.stored import load_outcome
-    from .show import print_files
-
     wanted = [path for path in (csv, vtk) if path is not None]
     if not wanted:
         raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
@@ -92,14 +91,6 @@ def cite(
     file: Annotated[Path, typer.Argument(help="Result file (.nc) or problem document (.toml, .json).")],
 ) -> None:
     """Print the papers behind the numbers of a result or a problem."""
-    from ..core.citations import cite as references
-    from ..io.results import contact_of, document_in, load
-    from ..parts.stress import Stress
-    from ..run.build import build
-    from ..run.document import load_document, loads
-    from ..stress.survey import Planned
-    from .show import say
-
     if file.suffix.lower() in (".toml", ".json"):
         say(references(build(load_document(file), file.parent)))
         return

@@ -1,16 +1,30 @@
-"""What the commands print."""
+"""What the commands print: answers, progress, and Ctrl-C while they work."""
 
 from __future__ import annotations
 
+import io
+import math
+import os
+import signal
 import sys
-from collections.abc import Iterable
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from rich import box
+from rich.console import Console
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
+from rich.table import Table
+from rich.text import Text
+
+from ..core.progress import NoProgress, Progress
+from ..core.system import compiling
+from ..core.units import show
 
 if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.table import Table
-
     from ..contact.result import ContactResult
     from ..core.status import Advice
     from ..run.execute import Outcome
@@ -20,32 +34,49 @@ WIDTH = 120
 """Width of tables that are not printed on a terminal."""
 
 
+class Answers(Console):
+    """Console that falls silent when its reader has gone, as in ``asperity materials | head``."""
+
+    def on_broken_pipe(self) -> None:
+        """Drop the rest of the text; the exit code stays that of the work and not that of the reader."""
+        self.quiet = True
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
+class Nowhere(io.StringIO):
+    """Output that is dropped."""
+
+    def write(self, text: str) -> int:
+        """Drop ``text``."""
+        return len(text)
+
+
+def silence() -> Any:
+    """Context in which answers and progress are dropped; warnings go to stderr, as errors do."""
+    return redirect_stdout(Nowhere())
+
+
 def console() -> Console:
     """Console for answers; lines that go to a file or another program are not broken at 80 characters."""
-    from .answers import Answers
-
     watched = sys.stdout is not None and sys.stdout.isatty()  # None: closed before the start
     return Answers(width=None if watched else WIDTH)
 
 
 def error_console() -> Console:
     """Console for errors and progress."""
-    from rich.console import Console
-
     return Console(stderr=True)
 
 
-def say(text: str, style: str = "") -> None:
-    """Print ``text`` as it is, whatever brackets it holds and however long it is."""
-    console().print(text, style=style, markup=False, highlight=False, soft_wrap=True)
+def say(text: str, style: str = "", *, warning: bool = False) -> None:
+    """Print ``text`` as it is, whatever brackets it holds and however long it is; a ``warning`` also where answers are dropped."""
+    out = error_console() if warning and isinstance(sys.stdout, Nowhere) else console()
+    out.print(text, style=style, markup=False, highlight=False, soft_wrap=True)
 
 
 def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...] = ()) -> Table:
     """Table of text; without ``headings`` the first column names what the others say."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
     made = Table(
         title=Text(title), title_justify="left", title_style="bold", box=box.SIMPLE, show_header=bool(headings)
     )
@@ -59,7 +90,6 @@ def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...]
 
 def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
     """The scalars of ``result`` and the checks that bound its error."""
-    from ..core.units import show
     from ..io.words import CERTIFICATE, result_rows
 
     checks = result.certificate
@@ -74,7 +104,6 @@ def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
 
 def print_problem(outcome: Outcome, title: str) -> None:
     """Print what was solved, and what was done to the surface."""
-    from ..core.units import show
     from ..io.words import problem_rows
 
     control, problem = outcome.solved.control, outcome.solved.problem
@@ -88,9 +117,9 @@ def print_result(outcome: Outcome) -> None:
     """Print scalars and status of ``outcome``, with the words and findings of its parts."""
     console().print(table("Result", scalar_rows(outcome.result)))
     print_words(outcome)
-    say(outcome.status.message, "green" if outcome.converged else "bold red")
+    say(outcome.status.message, "green" if outcome.converged else "bold red", warning=not outcome.converged)
     if outcome.status.remedy:
-        say(outcome.status.remedy, "red")
+        say(outcome.status.remedy, "red", warning=True)
     print_advice(outcome.findings)
 
 
@@ -117,11 +146,103 @@ def _once(cells: tuple[tuple[str, ...], ...]) -> list[tuple[str, ...]]:
 def print_advice(findings: Iterable[Advice]) -> None:
     """Print one line for each finding."""
     for finding in findings:
-        style = "yellow" if finding.level == "warning" else "cyan"
-        say(f"{finding.level} ({finding.criterion}): {finding.message}", style)
+        warns = finding.level == "warning"
+        text = f"{finding.level} ({finding.criterion}): {finding.message}"
+        say(text, "yellow" if warns else "cyan", warning=warns)
 
 
 def print_files(paths: Iterable[Path]) -> None:
     """Print where things were written."""
     for path in paths:
         say(f"wrote {path}")
+
+
+def watching() -> bool:
+    """Whether somebody watches the progress on stderr."""
+    return sys.stderr is not None and sys.stderr.isatty() and not isinstance(sys.stdout, Nowhere)
+
+
+@contextmanager
+def shown(text: str) -> Iterator[Progress]:
+    """Progress on a bar with ``text``, silent when stderr is not a terminal."""
+    if not watching():
+        yield NoProgress()
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[state]}"), TimeElapsedColumn())
+    with Bar(*columns, console=error_console(), transient=True) as bar:
+        yield OnBar(bar, text)
+
+
+@contextmanager
+def stage(text: str) -> Iterator[Progress]:
+    """Progress of a stage of a run on a bar with ``text``, which Ctrl-C stops."""
+    with shown(text) as bar, interruptible(bar) as progress:
+        yield progress
+
+
+class OnBar:
+    """Progress of the error from its first value to the tolerance, on a logarithmic scale.
+
+    Without a tolerance the error is the share of the work that is left.
+    """
+
+    def __init__(self, bar: Bar, text: str) -> None:
+        self._bar = bar
+        self._task = bar.add_task(text, total=1.0, state="")
+        self._largest = 0.0
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        """Move the bar; it never moves back unless the error exceeds all earlier ones."""
+        if tolerance == 0.0:
+            self._bar.update(self._task, completed=1.0 - error, state=f"step {iteration}")
+            return
+        self._largest = max(self._largest, error)
+        share = done(error, self._largest, tolerance)
+        self._bar.update(self._task, completed=share, state=f"iteration {iteration}, error {error:.1e}")
+
+
+def done(error: float, largest: float, tolerance: float) -> float:
+    """Share of the way from the ``largest`` error to the ``tolerance``, between 0 and 1."""
+    if error <= tolerance:
+        return 1.0
+    if not tolerance > 0.0 or not tolerance < largest < math.inf or not error < math.inf:
+        return 0.0
+    return min(1.0, max(0.0, math.log(largest / error) / math.log(largest / tolerance)))
+
+
+@contextmanager
+def interruptible(progress: Progress) -> Iterator[Progress]:
+    """``progress`` that raises KeyboardInterrupt if Ctrl-C came since the start.
+
+    An exception raised by a signal inside a compiler's or the interpreter's own callback is printed and dropped by
+    Python, or crashes the compiler; the first solve of a new installation compiles for seconds, and would go on for good.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield progress
+        return
+    guarded = _Guarded(progress)
+    before, report = signal.signal(signal.SIGINT, guarded.interrupt), sys.unraisablehook
+    sys.unraisablehook = lambda lost: None if lost.exc_type is KeyboardInterrupt else report(lost)  # not lost: kept
+    try:
+        yield guarded
+    finally:
+        signal.signal(signal.SIGINT, before)
+        sys.unraisablehook = report
+
+
+class _Guarded:
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._wanted = False
+
+    def interrupt(self, number: int, frame: Any) -> None:
+        """Handle the signal: remember it, and raise as Python does, unless inside the compiler."""
+        self._wanted = True
+        if not compiling():
+            raise KeyboardInterrupt
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        """Stop if asked to, else report."""
+        if self._wanted:
+            raise KeyboardInterrupt
+        self._progress.update(iteration, error, tolerance)

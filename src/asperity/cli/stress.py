@@ -3,53 +3,34 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Any
 
 import typer
 
-from .asked import part_names, part_options, with_parts
-from .declared import Given, offers
-from .options import OUTPUT, options_of
+from ..contact.advice import advise, review
+from ..core.errors import InputError
+from ..core.settings import validated
+from ..io.results import contact_of, document_in, load
+from ..io.schemas.problem import SolverTable
+from ..parts.stress import Stress, stress_request
+from ..run.document import ProblemDocument, checked_parts, loads, relocated
+from ..run.execute import analysed
+from ..stress.survey import StressRequest
+from .contact import STRESS_NAMES, Force, Out, file_options, files_in, output_folder, write_parts, write_volume
+from .declared import Given, Option, offers, part_names, part_options, with_parts
+from .failures import NOT_CONVERGED, OK
+from .options import solver_options
 from .results import Result
-
-if TYPE_CHECKING:
-    from ..run.document import ProblemDocument
-    from ..run.execute import Outcome
-    from ..stress.survey import StressRequest
-
-_option = options_of(OUTPUT)
+from .show import print_advice, print_files, print_problem, print_words, stage
 
 
-@dataclass(frozen=True)
-class StressOutput:
-    """Where the stresses are written."""
-
-    out: Annotated[Path | None, _option("--out", "Folder for report, tables, fields and plots.", "DIR")] = None
-    force: Annotated[bool, _option("--force", "Replace files that exist.")] = False
-    stress_vtk: Annotated[
-        Path | None, _option("--stress-vtk", "Write the stresses in the volume as a VTK file (.vtr).")
-    ] = None
-    stress_nc: Annotated[
-        Path | None, _option("--stress-nc", "Write the stresses in the volume as a NetCDF file (.nc).")
-    ] = None
-
-    @property
-    def files(self) -> list[Path]:
-        """Single files that are asked for."""
-        return [path for path in (self.stress_vtk, self.stress_nc) if path is not None]
+def _options() -> list[Option]:
+    threads = [option for option in solver_options() if option.name == "--threads"]
+    return [*part_options("friction", "stress"), *threads, *file_options("stress_vtk", "stress_nc")]
 
 
-@offers(lambda: part_options("friction", "stress"))
-def stress(
-    file: Result,
-    given: Given,
-    output: StressOutput,
-    threads: Annotated[
-        int | None, typer.Option("--threads", help="Threads of the transforms; all cores by default.")
-    ] = None,
-) -> None:
+@offers(_options)
+def stress(file: Result, given: Given, out: Out = None, force: Force = False) -> None:
     """Compute the stresses in a saved contact, without solving it again.
 
     What the result's own problem document asks for is computed, with the options in place of its parts; without either, the
@@ -59,28 +40,19 @@ def stress(
 
     Exit code 1 if the saved contact has not converged; the others as for `contact`.
     """
-    from ..contact.advice import advise, review
-    from ..io.atomic import require_new_files
-    from ..io.results import contact_of, document_in, load
-    from ..parts.stress import Stress
-    from ..run.document import relocated
-    from ..run.execute import analysed
-    from .failures import NOT_CONVERGED, OK
-    from .perform import output_folder, write_volume
-    from .progress import stage
-    from .show import print_advice, print_files, print_problem, print_words
-
-    require_new_files(output.files, overwrite=output.force)
-    result, written = contact_of(load(file)), output.files
-    request, document = _asked(document_in(file), given)
+    files = files_in(given, force=force)
+    written = [*files.values()]
+    result = contact_of(load(file))
+    request, document, threads = _asked(document_in(file), given)
     Stress().check(request, result.problem)
-    with output_folder(output.out, force=output.force) as folder:
+    with output_folder(out, force=force) as folder:
         asks = {"stress": request, "yielding": True}
         outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)
-        if folder is not None and output.out is not None:
-            moved = document and relocated(document, file.parent, output.out)
-            written = [*(output.out / name for name in _write_folder(outcome, moved, folder)), *written]
-    write_volume(outcome, output.stress_nc, output.stress_vtk, force=output.force)
+        if folder is not None and out is not None:
+            write_parts(outcome, folder, document and relocated(document, file.parent, out))
+            names = ["report.html", "result.nc", "plots", *STRESS_NAMES, *(["problem.toml"] if document else [])]
+            written = [*(out / name for name in names), *written]
+    write_volume(outcome, files, force=force)
     print_problem(outcome, f"Stresses in {file}")
     print_words(outcome)
     print_advice((*advise(result.problem, result.control), *review(result), *outcome.findings))
@@ -88,11 +60,8 @@ def stress(
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 
 
-def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocument | None]:
-    """What is asked for, and the document in the result, whose ``text`` is given, with that in it."""
-    from ..parts.stress import stress_request
-    from ..run.document import checked_parts, loads
-
+def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocument | None, int | None]:
+    """What is asked for, the document in the result, whose ``text`` is given, with that in it, and the threads."""
     document = None if text is None else loads(text)
     before: Any = None if document is None or getattr(document, "stress") is None else document  # noqa: B009
     tables = ("friction", "stress")
@@ -106,13 +75,12 @@ def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocume
     request = stress_request(checked.stress, checked.friction)
     _require_same_coupling(request, None if before is None else stress_request(before.stress, before.friction))
     asked = {name: getattr(checked, name) for name in tables}
-    return request, None if document is None else document.model_copy(update=asked)
+    threads = validated(SolverTable, given.under("solver").table(), "command line", {"threads": "--threads"}).threads
+    return request, None if document is None else document.model_copy(update=asked), threads
 
 
 def _require_same_coupling(request: StressRequest, before: StressRequest | None) -> None:
     """Refuse a coupling that the saved pressure does not have."""
-    from ..core.errors import InputError
-
     had = None if before is None or not before.coupled else (before.friction, before.direction)
     if request.coupled and had != (request.friction, request.direction):
         holds = (
@@ -124,17 +92,3 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
             f"--coupled needs the pressure under the friction asked for, but that of the result was solved {holds}. "
             "Solve again: asperity contact --from problem.toml --coupled with that friction."
         )
-
-
-def _write_folder(outcome: Outcome, document: ProblemDocument | None, folder: Path) -> list[str]:
-    """Write everything into ``folder``; return the names."""
-    from ..run.document import dumps, save_document
-    from .perform import STRESS_NAMES, write_parts
-
-    names = ["report.html", "result.nc", "plots", *STRESS_NAMES]
-    if document is not None:
-        save_document(document, folder / "problem.toml")
-        names.append("problem.toml")
-    text, title = (None, "") if document is None else (dumps(document), document.title)
-    write_parts(outcome, folder, text, title)
-    return names

@@ -3,46 +3,71 @@
 from __future__ import annotations
 
 import inspect
+import json
+import math
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
+import numpy as np
 import typer
-from typer.core import TyperGroup
+from rich.table import Table
 
+from ..contact.roughness import roughness_of
+from ..core.arrays import RealArray
+from ..core.citations import reference
 from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter, parameters
-from ..core.values import Number, Text, Whole
-from .declared import Given, Option, built, options_of
-from .options import BODIES, READING, ReadingOptions
-
-if TYPE_CHECKING:
-    from ..core.arrays import RealArray
-    from ..theories.protocol import Described
+from ..core.units import show
+from ..core.values import Flag, Number, Text, Values, Whole
+from ..io.atomic import require_new_files
+from ..io.records import answer_record, catalogue_record, save_table
+from ..plots.comparison import save_answer_plot
+from ..run.build import body_of_text
+from ..solids.elastic import Rigid
+from ..solids.layers import contact_modulus, weaker_strength
+from ..surfaces.prepare.fill import filled
+from ..theories.ask import Evaluation, evaluate, numbers_of, ways_of
+from ..theories.catalogue import FAMILIES, THEORIES
+from ..theories.catalogue import theory as theory_of
+from ..theories.protocol import Described, Limit
+from .declared import FILE, Given, Listing, Option, built, options_of
+from .options import READING, body_options, levelled_as, read_surface, reading_options
+from .show import console, print_files, say, table
 
 INPUTS, ASKED, ANSWER = "What it is made from", "What it is asked", "Answer"
 
 OF_BODIES = ("E_star", "hardness", "yield_stress", "nu")
 """Parameters that follow from named bodies."""
 
-BODY_OPTIONS = (
-    Option(
-        "--body",
-        ("body",),
-        Parameter("body", str, Text(), None, 'material, or "E=140GPa,nu=0.25,H=15GPa"'),
-        BODIES,
-    ),
-    Option(
-        "--counter",
-        ("counter",),
-        Parameter("counter", str, Text(), None, "counter body, in the same way; rigid by default"),
-        BODIES,
-    ),
+POINTS = 11
+"""Points of a range."""
+
+
+def _own(name: str, values: Values, default: Any, text: str, panel: str, metavar: str | None = None) -> Option:
+    return Option(f"--{name}", ("answer", name), Parameter(name, str, values, default, text), panel, metavar=metavar)
+
+
+ANSWERS = (
+    _own("points", Whole(1), POINTS, "points of a range", ASKED),
+    _own("linear", Flag(), False, "even steps instead of even ratios", ASKED),
+    _own("json", Flag(), False, "print as JSON, all values in SI", ANSWER),
+    _own("csv", Text(), None, "write the columns as a CSV file, in SI", ANSWER, FILE),
+    _own("plot", Text(), None, "draw the columns over the range, PNG", ANSWER, FILE),
+    _own("force", Flag(), False, "replace files that exist", ANSWER),
 )
+"""Options of every theory."""
 
 _LEVELS = "removed before: mean, plane, quadratic or a degree; the mean of a periodic surface, else the plane"
 SURFACE_OPTIONS = (
-    Option("--surface", ("surface",), Parameter("surface", str, Text(), None, "measure them on this file"), READING),
+    Option(
+        "--surface",
+        ("file",),
+        Parameter("surface", str, Text(), None, "measure them on this file"),
+        READING,
+        metavar=FILE,
+    ),
     Option("--level", ("level",), Parameter("level", str, Text(), None, _LEVELS), READING),
     Option(
         "--bins",
@@ -53,14 +78,13 @@ SURFACE_OPTIONS = (
 )
 
 
-class Theories(TyperGroup):
+class Theories(Listing):
     """Subcommands that are built when they are asked for."""
 
-    def list_commands(self, ctx: Any) -> list[str]:
-        """Names of all theories."""
-        from ..theories.catalogue import THEORIES
-
-        return list(THEORIES)
+    @staticmethod
+    def lines() -> Mapping[str, str]:
+        """Names and titles of all theories."""
+        return {name: kind.title for name, kind in THEORIES.items()}
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Subcommand of one theory, with dashes or underscores.
@@ -70,96 +94,84 @@ class Theories(TyperGroup):
         InputError
             If there is no such theory.
         """
-        from ..theories.catalogue import theory
-
-        return _command(theory(cmd_name.replace("_", "-")))
+        return _command(theory_of(cmd_name.replace("_", "-")))
 
 
-app = typer.Typer(name="theory", cls=Theories, invoke_without_command=True, add_completion=False)
+app = typer.Typer(name="theory", cls=Theories, invoke_without_command=True, add_completion=False, rich_markup_mode=None)
 
 
 @app.callback()
 def theory(
     context: typer.Context,
-    listed: Annotated[bool, typer.Option("--list", help="Show all theories with their inputs and sources.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="The list as JSON.")] = False,
+    listed: Annotated[bool, typer.Option("--list", help="Show all theories in one table.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="The list as JSON, with all parameters and sources.")] = False,
 ) -> None:
     """Evaluate a theory, from numbers or for a measured surface.
 
     Examples: asperity theory --list; asperity theory hertz --E-star 115GPa --radius 5mm --load 1N..100N;
-    asperity theory bush-gibson-thomas --surface scan.di --body DLC --pressure 1MPa..100MPa
+    asperity theory bush-gibson-thomas --surface scan.di --body DLC --pressure 1MPa..100MPa --plot curve.png
 
-    asperity theory NAME --help lists the options of a theory.
+    asperity theory NAME --help tells the options, results and sources of a theory.
     """
     if context.invoked_subcommand is None:
         if not listed:
             raise InputError("NAME of a theory or --list must be given, but neither is.")
-        from .theory_show import print_list
-
         print_list(as_json=as_json)
 
 
 def _command(kind: type[Described]) -> Any:
     """The subcommand of ``kind``."""
 
-    def run(
-        given: Given,
-        points: Annotated[int, typer.Option("--points", help="Points of a range.", rich_help_panel=ASKED)] = 11,
-        linear: Annotated[
-            bool, typer.Option("--linear", help="Even steps instead of even ratios.", rich_help_panel=ASKED)
-        ] = False,
-        as_json: Annotated[
-            bool, typer.Option("--json", help="Print as JSON, all values in SI.", rich_help_panel=ANSWER)
-        ] = False,
-        csv: Annotated[
-            Path | None, typer.Option("--csv", help="Write the columns as a CSV file, in SI.", rich_help_panel=ANSWER)
-        ] = None,
-        force: Annotated[
-            bool, typer.Option("--force", help="Replace a file that exists.", rich_help_panel=ANSWER)
-        ] = False,
-    ) -> None:
-        from ..io.atomic import require_new_file
-        from ..io.records import save_table
-        from ..theories.ask import evaluate
-        from .show import print_files
-        from .theory_show import print_answer
-
-        if csv is not None:
-            require_new_file(csv, overwrite=force)
+    def run(given: Given) -> None:
+        told = given.under("answer").table()
+        csv, plot = (Path(told[key]) if key in told else None for key in ("csv", "plot"))
+        force, points = bool(told.get("force")), Whole(1).read(told.get("points", POINTS), "--points")
+        if plot is not None and plot.suffix.lower() != ".png":
+            raise InputError(f"--plot must be the name of a PNG file, such as curve.png, but is {str(plot)!r}.")
+        written = [path for path in (csv, plot) if path is not None]
+        require_new_files(written, overwrite=force)
         arguments = _arguments(kind)
         asked = {
-            name: read_range(arguments[name], text, points=points, linear=linear)
+            name: read_range(arguments[name], text, points=points, linear=bool(told.get("linear")))
             for name, text in given.under("asked").table().items()
         }
         found = evaluate(_made(kind, given), **asked)
         if csv is not None:
             save_table(found, csv, overwrite=force)
-        print_answer(found, as_json=as_json)
-        if csv is not None and not as_json:
-            print_files([csv])
+        if plot is not None:
+            save_answer_plot(found, plot, overwrite=force)
+        print_answer(found, as_json=bool(told.get("json")))
+        if not told.get("json"):
+            print_files(written)
 
     first = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
-    run.__doc__ = f"{kind.title}. {first}".replace("``", "")
-    return built(run, _options(kind), kind.name)
+    run.__doc__ = "\n\n".join([f"{kind.title}. {first}".replace("``", ""), *_details(kind)])
+    return built(run, kind.name, _options(kind))
+
+
+def _details(kind: type[Described]) -> list[str]:
+    """What the page of a theory tells beside its options: what it is asked along, what it answers, and its sources."""
+    ways = [f"{way.axis.name}{f' in {way.axis.unit}' if way.axis.unit else ''}" for way in ways_of(kind)]
+    numbers = [column.name.rpartition(".")[2] for column in numbers_of(kind)]
+    asked = [f"Asked along {' or '.join(ways)}."] if ways else []
+    told = [f"Tells {', '.join(numbers)}."] if numbers else []
+    return [*asked, *told, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
 
 
 def _options(kind: type[Described]) -> list[Option]:
     """Options of a theory: what it is made from, what it is asked, and where its parameters may come from instead."""
-    from ..io.schemas.surfaces import AnySurface, FileSurface
-
     made = [replace(option, required=False) for option in options_of(kind, ("made",), INPUTS)]
     asked = [
-        Option(_option(item), ("asked", name), replace(item, default=None) if item.required else item, ASKED)
+        Option(option_of(item), ("asked", name), replace(item, default=None) if item.required else item, ASKED)
         for name, item in _arguments(kind).items()
     ]
     measured = _measured(kind)
     if measured is not None:
-        leave = ("kind", "path", *AnySurface.model_fields)
         asked += [o for o in SURFACE_OPTIONS if o.name != "--bins" or "bins" in inspect.signature(measured).parameters]
-        asked += options_of(FileSurface, ("reading",), READING, leave=leave)
+        asked += reading_options()
     if any(item.name in OF_BODIES for item in parameters(kind)):
-        asked += BODY_OPTIONS
-    return made + asked
+        asked += [option for option in body_options() if option.name in ("--body", "--counter")]
+    return [*made, *asked, *ANSWERS]
 
 
 def _made(kind: type[Described], given: Given) -> Described:
@@ -174,20 +186,19 @@ def _made(kind: type[Described], given: Given) -> Described:
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
     told = given.table()
     if "body" in told:
-        values = _of_bodies(kind, values, told["body"], told.get("counter"))
-    elif "counter" in told:
+        values = _of_bodies(kind, values, told["body"], told.get("counter_body"))
+    elif "counter_body" in told:
         raise InputError("--counter must be given together with --body, but is given alone.")
-    if "surface" in told:
+    if "file" in told:
         if "bins" in told:
             values["bins"] = Whole(1).read(told["bins"], "--bins")
-        reading = ReadingOptions(**told.get("reading", {}))
-        return _of_surface(kind, values, Path(told["surface"]), reading, told.get("level", "auto"))
-    if "reading" in told or "bins" in told:
+        return _of_surface(kind, values, given)
+    if "surface" in told or "bins" in told:
         raise InputError("options for reading must be given together with --surface, but are given alone.")
     missing = [item for item in parameters(kind) if item.required and item.name not in values]
     if missing:
         needed = ", ".join(
-            f"{_option(item)} ({item.help}{f', in {item.unit}' if item.unit else ''})" for item in missing
+            f"{option_of(item)} ({item.help}{f', in {item.unit}' if item.unit else ''})" for item in missing
         )
         measured = any(not item.of for item in missing) and _measured(kind) is not None
         also = " Or measure the surface's numbers with --surface FILE." if measured else ""
@@ -203,34 +214,25 @@ def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter
     InputError
         If a body is not understood, or its strength is needed and not known.
     """
-    from ..run.build import body_of_text
-    from ..solids.elastic import Rigid
-    from ..solids.layers import contact_modulus, weaker_strength
 
     first = body_of_text(body, "--body")
     second = Rigid() if counter is None else body_of_text(counter, "--counter")
     known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
     for item in parameters(kind):
         if item.name in ("hardness", "yield_stress") and item.required and item.name not in (values | known):
-            raise InputError(f"{_option(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
+            raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
     names = {item.name for item in parameters(kind)}
     return {name: value for name, value in known.items() if name in names} | values
 
 
-def _of_surface(
-    kind: type[Described], values: dict[str, Any], file: Path, reading: ReadingOptions, level: str
-) -> Described:
-    """The theory ``kind`` of the surface in ``file``, filled and levelled.
+def _of_surface(kind: type[Described], values: dict[str, Any], given: Given) -> Described:
+    """The theory ``kind`` of the surface in the file that is given, filled and levelled.
 
     Raises
     ------
     InputError
         If a number that is measured is also given, or another is missing.
     """
-    from ..contact.roughness import roughness_of
-    from ..surfaces.prepare.fill import filled
-    from ..surfaces.prepare.level import levelled
-    from .options import level_of, read_surface
 
     method: Any = _measured(kind)
     taken = {item.name: item for item in list(inspect.signature(method).parameters.values())[1:]}
@@ -242,19 +244,15 @@ def _of_surface(
     if needed:
         options = ", ".join("--" + name.replace("_", "-") for name in needed)
         raise InputError(f"{kind.name} of a surface must also be given {options}, but is not; --body names a material.")
-    surface = read_surface(file, reading)
-    found = level_of(surface, level)
-    whole = filled(surface) if surface.n_missing else surface
-    flat = levelled(whole, int(found) if found.isdigit() else found)
+    surface = read_surface(Path(given.get("file")), given)
+    flat, _ = levelled_as(filled(surface) if surface.n_missing else surface, given.get("level") or "auto")
     theory: Described = method(roughness_of(flat), **values)
     return theory
 
 
 def _read(item: Parameter, texts: dict[str, Any]) -> Any:
     """Value of a parameter from its text; numbers as floats, several as an array."""
-    import numpy as np
-
-    values, option = item.values, _option(item)
+    values, option = item.values, option_of(item)
     if item.unit == "m^(1-n)":  # of a profile B r^n
         exponent = 1.0 - float(Number().read(texts["exponent"], "--exponent")) if "exponent" in texts else 0.0
         values = Number(f"m^({exponent:g})" if exponent else "", above=0.0)
@@ -264,9 +262,7 @@ def _read(item: Parameter, texts: dict[str, Any]) -> Any:
 
 def read_range(item: Parameter, text: str, *, points: int, linear: bool) -> RealArray:
     """Numbers of an argument: one, several with commas between, or ``points`` from one to another with ``..`` between."""
-    import numpy as np
-
-    option = _option(item)
+    option = option_of(item)
     ends = text.split("..")
     if len(ends) == 1:
         return np.array([item.values.read(part, option) for part in text.split(",")], dtype=float)
@@ -282,8 +278,6 @@ def read_range(item: Parameter, text: str, *, points: int, linear: bool) -> Real
 
 def _arguments(kind: type[Described]) -> dict[str, Parameter]:
     """Everything by which ``kind`` can be asked, by name."""
-    from ..theories.ask import ways_of
-
     return {item.name: item for way in ways_of(kind) for item in (way.axis, *way.given)}
 
 
@@ -292,5 +286,123 @@ def _measured(kind: type[Described]) -> Any:
     return getattr(kind, "from_roughness", getattr(kind, "of_roughness", None))
 
 
-def _option(item: Parameter) -> str:
+def option_of(item: Parameter) -> str:
+    """What the command line calls the parameter ``item``."""
     return "--" + item.name.replace("_", "-")
+
+
+LEFT = "!"
+"""Mark of a row beyond a limit."""
+
+
+def print_list(*, as_json: bool) -> None:
+    """Print all theories with their inputs and sources."""
+    if as_json:
+        records = [catalogue_record(kind) for kind in THEORIES.values()]
+        console().out(json.dumps(records, indent=2), highlight=False)
+        return
+    rows: list[tuple[str, ...]] = []
+    for family, kinds in FAMILIES.items():
+        for number, kind in enumerate(kinds):
+            measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
+            rows.append((family if number == 0 else "", f"{kind.name}{' *' if measured else ''}", kind.title))
+    console().print(table("Theories", rows, ("family", "name", "theory")))
+    say(
+        "* also from a surface, with --surface FILE. `asperity theory NAME --help` tells inputs, results and sources of one."
+    )
+
+
+def print_answer(found: Evaluation, *, as_json: bool) -> None:
+    """Print the results of a theory, its limits of validity and its sources."""
+    if as_json:
+        console().out(json.dumps(answer_record(found), indent=2), highlight=False)
+        return
+    theory = found.theory
+    rows = [(item.help, _input_text(item, getattr(theory, item.name))) for item in parameters(type(theory))]
+    _print_table(theory.title, table("", rows))
+    if found.numbers:
+        numbers = [(column.meaning, show(value, column.unit)) for column, value in found.numbers]
+        _print_table("Numbers", table("", numbers))
+    if found.columns:
+        _print_columns(found)
+    for limit in found.limits:
+        _print_limit(limit)
+    for key in theory.citation_keys:
+        say(f"  source: {reference(key)}", "dim")
+
+
+def _print_columns(found: Evaluation) -> None:
+    """The curve; rows beyond a limit are marked and red."""
+    size = found.columns[0][1].size
+    left = np.zeros(size, dtype=bool)
+    for limit in found.limits:
+        left |= ~np.broadcast_to(limit.holds, size)
+    names = [_heading(column.name) for column, _ in found.columns]
+    if size == 1:  # one point is read downwards
+        point = [
+            (name, show(float(values[0]) + 0.0, column.unit), column.meaning)
+            for name, (column, values) in zip(names, found.columns, strict=True)
+        ]
+        _print_table("Answer", table("", point))
+        return
+    rows = [
+        (LEFT if left[n] else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
+        for n in range(size)
+    ]
+    made = table("", rows, ("", *names))
+    for row, beyond in zip(made.rows, left, strict=True):
+        row.style = "red" if beyond else None
+    _print_table("Answer", made)
+
+
+def _heading(name: str) -> str:
+    """Heading of the column ``name``: stress.xx is σ xx."""
+    return name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
+
+
+def _print_table(title: str, made: Table) -> None:
+    """Print a table below its ``title``, however narrow it is."""
+    made.title = None
+    say(title, "bold")
+    console().print(made)
+
+
+def _print_limit(limit: Limit) -> None:
+    bounds = _bounds(limit.low, limit.high)
+    values = _extent(limit.value)
+    source = f"[{limit.citation}]"
+    if limit.holds.all():
+        say(f"valid: {limit.criterion} {values}, must be {bounds} {source}", "green")
+        return
+    how_often = (
+        "everywhere" if not limit.holds.any() else f"at {int((~limit.holds).sum())} of {limit.holds.size} points"
+    )
+    say(f"{LEFT} left {how_often}: {limit.criterion} {values}, must be {bounds}. {limit.message} {source}", "red")
+
+
+def _bounds(low: float, high: float) -> str:
+    if math.isinf(low):
+        return f"at most {high:.4g}"
+    return f"at least {low:.4g}" if math.isinf(high) else f"from {low:.4g} to {high:.4g}"
+
+
+def _extent(values: RealArray) -> str:
+    """Smallest to largest of ``values``, or the only one."""
+    known = values[~np.isnan(values)]
+    if known.size == 0:
+        return "is not defined"
+    first, last = f"{known.min():.4g}", f"{known.max():.4g}"
+    return f"is {first}" if first == last else f"goes from {first} to {last}"
+
+
+def _input_text(item: Parameter, value: Any) -> str:
+    for word, choice in item.words.items():
+        if choice == value:
+            return word
+    if item.many:
+        return f"{np.size(value)} values"
+    if value is None:
+        return "not given"
+    if isinstance(value, int | float):
+        return show(float(value), item.unit if item.unit != "m^(1-n)" else "")
+    return str(getattr(value, "name", value))

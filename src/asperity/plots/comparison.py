@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..io.atomic import atomic_file
+from ..theories.ask import Evaluation
 from .picture import BLACK, BLUE, CURVE_SIZE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, Figure, png, save_pictures, scale
 
 if TYPE_CHECKING:
@@ -181,3 +184,45 @@ def _pressure(data: xarray.Dataset) -> RealArray:
 
 def _values(variable: xarray.DataArray) -> RealArray:
     return np.asarray(variable.values, dtype=float)
+
+
+def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) -> None:
+    """Draw every column of the answer ``found`` of a theory against the first and write it to ``path``; faint beyond its limits.
+
+    Raises
+    ------
+    InputError
+        If the answer holds fewer than two points.
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    if not found.columns or found.columns[0][1].size < 2:
+        raise InputError("--plot must be given together with a range, such as --load 1N..100N, but there is one point.")
+    (axis, x), *columns = found.columns
+    valid = np.all([np.broadcast_to(limit.holds, x.shape) for limit in found.limits], axis=0) | np.zeros(x.size, bool)
+    across = scale(x, axis.unit)
+    logarithmic = "log" if x.min() > 0.0 and x.max() > 20.0 * x.min() else "linear"
+
+    def draw(first: Axes) -> Axes:
+        figure: Any = first.figure
+        first.remove()
+        places = figure.subplots(-(-len(columns) // 2), min(2, len(columns)), squeeze=False)
+        for ax, (column, y) in zip(places.flat, columns, strict=False):
+            up = scale(y, column.unit)
+            ax.plot(across(x), up(y), color=BLUE, alpha=FAINT)
+            ax.plot(across(x), np.where(valid, up(y), np.nan), color=BLUE)
+            rising = logarithmic == "log" and np.nanmin(y) > 0.0
+            ax.set(xscale=logarithmic, yscale="log" if rising else "linear")
+            ax.set_title(column.name.replace("_", " ") + (f", {up.symbol}" if up.symbol else ""))
+        for ax in places.flat[len(columns) :]:
+            ax.set_axis_off()
+        for ax in places[-1]:
+            ax.set_xlabel(f"{axis.meaning}{f', {across.symbol}' if across.symbol else ''}")
+        figure.suptitle(found.theory.title)
+        figure.tight_layout()
+        return first
+
+    rows = -(-len(columns) // 2)
+    picture = png(draw, (7.0, 0.6 + 2.1 * rows))
+    with atomic_file(path, overwrite=overwrite) as file:
+        file.write_bytes(picture)

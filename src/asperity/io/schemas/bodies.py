@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
 from ...core.errors import InputError
-from ...core.settings import Settings
+from ...core.settings import Settings, setting
 from ...core.values import Count, Length, NonEmpty, NonNegativeLength, PoissonRatio, Positive, Pressure
 
 CONSTANTS = ("youngs_modulus", "poisson_ratio")
@@ -139,7 +139,7 @@ class BodyTable(BaseTable):
     the named materials of all its parts; a relative path starts at the folder of the document.
     """
 
-    materials_file: NonEmpty | None = None
+    materials_file: NonEmpty | None = setting(None, help="your own materials, a TOML file")
     layers: Annotated[tuple[AnyLayer, ...], BeforeValidator(_layers)] = ()
     base: BaseTable | None = None
 

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from ...contact.solvers.by_name import SOLVERS
 from ...core.errors import InputError
-from ...core.settings import Settings
+from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Force, Fraction, Length, Number, Pressure
 from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
@@ -47,8 +47,12 @@ class BoundaryTable(Settings):
     ``datum`` is the distance at which displacements of a line contact are called zero, by default the length of the grid.
     """
 
-    kind: Literal["periodic", "free", "line"] = "periodic"
-    datum: Length | None = None
+    kind: Literal["periodic", "free", "line"] = setting(
+        "periodic",
+        option="--boundary",
+        help="what lies outside the map, a line being in plane strain with loads per metre (see --line)",
+    )
+    datum: Length | None = setting(None, help="distance at which displacements of a line contact are called zero")
 
     @model_validator(mode="after")
     def _datum(self) -> BoundaryTable:
@@ -67,7 +71,10 @@ class HardnessTable(Settings):
     """Pressure limited by a hardness, given or taken from the softer body."""
 
     kind: Literal["hardness"]
-    hardness: PressureOrBody
+    hardness: PressureOrBody = setting(
+        help='limit of the pressure, "body" for the lower known hardness of the materials at the surfaces, or "effective" '
+        "for that of the softer body with its layers, by depth"
+    )
 
 
 LawTable: TypeAlias = Annotated[HardWallTable | HardnessTable, Field(discriminator="kind")]
@@ -84,7 +91,7 @@ class PathTable(Settings):
     force: tuple[PathForce, ...] | None = None
     approach: tuple[PathLength, ...] | None = None
     mean_gap: tuple[PathLength, ...] | None = None
-    steps: Count = STEPS
+    steps: Count = setting(STEPS, option="--path-steps", help="steps from one turning point to the next")
 
     @model_validator(mode="after")
     def _exactly_one(self) -> PathTable:
@@ -95,11 +102,13 @@ class PathTable(Settings):
 class ControlTable(Settings):
     """What is prescribed: exactly one of these."""
 
-    mean_pressure: Pressure | None = None
-    force: Force | None = None
-    approach: Length | None = None
-    mean_gap: Length | None = None
-    path: PathTable | None = None
+    mean_pressure: Pressure | None = setting(None, option="--pressure", help="mean pressure: 50kPa")
+    force: Force | None = setting(None, option="--load", help="normal force: 1mN")
+    approach: Length | None = setting(None, help="approach from first touch: 3nm")
+    mean_gap: Length | None = setting(None, help="mean gap of the deformed surfaces")
+    path: PathTable | None = setting(
+        None, help="load path through turning points: 50MPa,0,80MPa (or forces, or approaches)"
+    )
 
     @model_validator(mode="after")
     def _exactly_one(self) -> ControlTable:
@@ -120,11 +129,13 @@ def _require_one(table: Settings, keys: tuple[str, ...]) -> None:
 class SolverTable(Settings):
     """How the problem is solved; what is left out is chosen by the package."""
 
-    method: Method | None = None
-    tolerance: Fraction | None = None
-    max_iterations: Count | None = None
-    precision: Literal["mixed", "double", "single"] | None = None
-    threads: Count | None = None
+    method: Method | None = setting(None, option="--solver", help="method; chosen for the problem by default")
+    tolerance: Fraction | None = setting(None, help="relative error at which to stop")
+    max_iterations: Count | None = setting(None, help="iterations after which to give up")
+    precision: Literal["mixed", "double", "single"] | None = setting(
+        None, help="arithmetic of active_set; mixed by default"
+    )
+    threads: Count | None = setting(None, help="threads of the transforms; ASPERITY_THREADS or all cores by default")
 
 
 class ProblemDocument(Settings):
@@ -134,8 +145,13 @@ class ProblemDocument(Settings):
     title: str = ""
     surface: SurfaceTable
     counter_surface: SurfaceTable | None = None
-    body: BodyTable
-    counter_body: BodyTable = BodyTable(rigid=True)
+    body: BodyTable = setting(
+        help='material name, "E=140GPa,nu=0.25,H=15GPa", or layers from the surface down on a base: '
+        '"DLC:5nm/Cr:2nm/steel"; ~ behind a thickness: slips on what is below'
+    )
+    counter_body: BodyTable = setting(
+        BodyTable(rigid=True), option="--counter", help="counter body, in the same way; rigid by default"
+    )
     boundary: BoundaryTable = BoundaryTable()
     law: LawTable = HardWallTable(kind="hard_wall")
     control: ControlTable

@@ -159,8 +159,12 @@ class Place(Settings):
     Both surfaces are resampled on one grid that covers their overlap, with the finer pixel or the given one.
     """
 
-    shift: tuple[SignedLength, SignedLength] | None = None
-    angle: Angle | None = None
+    shift: tuple[SignedLength, SignedLength] | None = setting(
+        None, help="place of the counter surface's middle from that of the surface: 1um,0um"
+    )
+    angle: Angle | None = setting(
+        None, option="--rotate", help="angle of the counter surface from +x towards +y: 30deg"
+    )
     pixel: tuple[Length, Length] | None = None
 
 
@@ -172,7 +176,9 @@ class AnySurface(Settings):
     """
 
     prepare: tuple[Step, ...] = ()
-    mirror: Literal["x", "y", "none"] | None = None
+    mirror: Literal["x", "y", "none"] | None = setting(
+        None, help="how the counter surface is turned over; x for a file named on the command line"
+    )
     place: Place | None = None
 
 
