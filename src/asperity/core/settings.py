@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 
 from .errors import InputError
 from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart, values_of
-from .values import Choice, Flag, Number, Several, Values, Whole
+from .values import Choice, Flag, Number, Several, Values, Whole, WrittenPair
 
 T = TypeVar("T", bound="Settings")
 
@@ -171,8 +171,8 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
 
 
 def _plain(value: Any) -> Any:
-    """``value`` without the texts of its numbers."""
-    if isinstance(value, tuple):
+    """``value`` without the texts of its numbers; a size keeps its own, which tells one length from two."""
+    if isinstance(value, tuple) and not isinstance(value, WrittenPair):
         return tuple(_plain(item) for item in value)
     return float(value) if isinstance(value, float) else value
 
