@@ -40,10 +40,13 @@ LAWS = {
 
 @pytest.fixture(scope="module")
 def surface() -> asp.Surface:
-    spectrum = asp.generate.SelfAffine(
+    return asp.generate.gaussian(asp.Grid((32, 24), (25 * NM, 25 * NM)), surface_spectrum(), seed=5)
+
+
+def surface_spectrum() -> asp.generate.SelfAffine:
+    return asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(2.0 * NM), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=100 * NM
     )
-    return asp.generate.gaussian(asp.Grid((32, 24), (25 * NM, 25 * NM)), spectrum, seed=5)
 
 
 def problem(surface: asp.Surface, law: str = "elastic", **physics) -> asp.ContactProblem:
@@ -265,6 +268,20 @@ def test_a_position_at_the_hardness_is_answered_or_refused():
     for gap in (0.2, 0.02, 1e-3):
         found = asp.solve(posed, asp.MeanGap(gap), on_failure="return")
         assert found.mean_gap == pytest.approx(gap, rel=1e-4) or "No load reaches" in found.status.message
+
+
+def test_a_hard_film_near_full_contact_is_brought_to_its_position(surface):
+    """Beyond the largest load that the softening surface bears, too: the position is searched for at every state of the film."""
+    rougher = asp.generate.gaussian(asp.Grid((48, 48), (25 * NM, 25 * NM)), surface_spectrum(), seed=5)
+    posed, loads = problem(rougher, "hard film"), []
+    for approach in (6.0 * NM, 6.5 * NM, 7.0 * NM):
+        found = asp.solve(posed, asp.Approach(approach))
+        assert found.approach == pytest.approx(approach, rel=1e-6)
+        assert found.certificate.rounds <= 50
+        loads.append(found.mean_pressure)
+    assert loads[2] < loads[1] > loads[0]
+    loaded = asp.solve(posed, asp.MeanPressure(loads[0]))
+    assert loaded.approach == pytest.approx(6.0 * NM, rel=1e-3)
 
 
 def test_uncoupled_friction_and_equal_bodies_cost_nothing(surface):

@@ -266,7 +266,7 @@ def assemble(
     np.maximum(gap, 0.0, out=gap)
     displacement = u if lift is None else u + lift
     contact = p > 0.0
-    capped = contact & (p >= found.qp.cap)
+    capped = contact & (p >= found.cap)
     pixels = int(np.count_nonzero(contact))
     area = measure.corrected_area(contact, grid, wraps=wraps)
     spots = measure.contact_spots(contact, wraps=wraps) * grid.pixel_area
@@ -291,7 +291,7 @@ def assemble(
         mean_gap=float(gap.mean()),
         elastic_energy=0.5 * float(np.multiply(p, displacement, dtype=np.float64).sum()) * grid.pixel_area,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
-        normal_stiffness=normal_stiffness(found.qp.operator, p, found.qp.cap) if measured else np.nan,
+        normal_stiffness=normal_stiffness(found.qp.operator, p, found.cap) if measured else np.nan,
         n_spots=int(spots.size),
         spot_areas=spots,
         mean_spot_area=float(spots.mean()) if spots.size else 0.0,

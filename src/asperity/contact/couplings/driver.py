@@ -40,6 +40,12 @@ _FARTHEST = 2.0
 
 _SLOWEST = 0.99
 
+_TIGHTER = 0.03
+"""Factor to the error of the next solve for every round without progress: contacts of thin films differ by little energy."""
+
+_INNER = 0.01
+"""Miss of a position over the residual of the others at which, when nested, these move again."""
+
 _JOINT_PATIENCE = 12
 """Rounds without progress after which a position is searched for around the other couplings instead of together with them."""
 
@@ -171,14 +177,14 @@ class _Iteration:
             position = Position(alone, elastic, solver.tolerance)
             self.couplings[position.name], self.exchanges[position.name] = position, position.begin(posed, {})
         self.active = [name for name, coupling in self.couplings.items() if coupling.feedback]
-        needed = min(exchange.accuracy for exchange in self.exchanges.values())
-        self.loosest, self.finest = min(_LOOSEST, needed), min(solver.tolerance, _FINER * needed)
+        self._need()
         self.pressures = [p for p in (posed.earlier, posed.start) if p is not None and p.any()]
         self.residuals: dict[str, list[float]] = {name: [] for name in self.active}
-        self.mixing, self.searching, self.directions = Mixing(), Mixing(), dict[str, float]()
+        self.mixing, self.directions = Mixing(), dict[str, float]()
         self.told = _Told(progress, self.finest, lone=not self.active)
         self.last: Contact | None = None
         self.memories, self.nested = memories, False
+        self.indentation: RealArray | float = 0.0
 
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
@@ -190,7 +196,8 @@ class _Iteration:
             if not contact.solution.status.converged:
                 return self._ended(contact, count, contact.solution.status)
             moves = self._reply(contact)
-            concerned = [name for name in self.active if moves or name != Position.name]
+            self._need()
+            concerned = [name for name in self.active if not self.nested or (name == Position.name) == moves]
             worst = max((self._ratio(name) for name in concerned), default=0.0)
             self.told.round(worst)
             if worst <= 1.0:
@@ -199,59 +206,84 @@ class _Iteration:
                 tolerance = self.finest
                 continue
             if self.nested and moves:
-                lowest = np.inf
-            if worst < _PROGRESS * lowest or self._goes_on():
+                progressed += 1  # a search along one bracket, which comes to an end
+                if self.exchanges[Position.name].stuck:
+                    break
+            elif worst < _PROGRESS * lowest or self._goes_on():
                 lowest, progressed = min(worst, lowest), count
-            elif count - progressed >= self.rounds.patience or any(self.exchanges[name].stuck for name in self.active):
+            elif count - progressed >= self.rounds.patience or any(self.exchanges[name].stuck for name in concerned):
                 break
-            elif count - progressed >= _JOINT_PATIENCE and not self.nested and Position.name in self.active:
-                lowest, progressed, moves = np.inf, count, False
+            elif count - progressed >= _JOINT_PATIENCE and not self.nested and self._joint:
+                lowest, progressed, moves = np.inf, count, True
                 self._nest()
-            tolerance = self._next_tolerance(worst, concerned)
+            tolerance = max(self.finest, self._next_tolerance(worst, concerned) * _TIGHTER ** (count - progressed))
             self._advance(moves)
         return self._ended(contact, count, self._given_up(count))
 
     def _reply(self, contact: Contact) -> bool:
-        """Replies of all couplings to ``contact``; whether the position may move, which when nested waits for the others."""
+        """Replies of the couplings to ``contact``; whether the position moves, for which when nested all others wait."""
+        exchanges, moves = self.exchanges, Position.name in self.couplings
+        if moves:
+            exchanges[Position.name] = self.couplings[Position.name].reply(exchanges[Position.name], contact)
+            if self.nested:
+                others = max(self.exchanges[name].residual for name in self.active if name != Position.name)
+                moves = exchanges[Position.name].residual > max(exchanges[Position.name].tolerance, _INNER * others)
+        waiting = [] if not self.nested or not moves else [name for name in self.couplings if name != Position.name]
         for name, coupling in self.couplings.items():
-            if name != Position.name:
-                self.exchanges[name] = coupling.reply(self.exchanges[name], contact)
-        moves = not (self.nested and any(self._ratio(name) > 1.0 for name in self.active if name != Position.name))
-        if moves and Position.name in self.couplings:
-            position = self.couplings[Position.name]
-            self.exchanges[Position.name] = position.reply(self.exchanges[Position.name], contact)
-        for name in self.active:
-            exchange, found = self.exchanges[name], self.residuals[name]
+            if name != Position.name and name not in waiting:
+                exchanges[name] = coupling.reply(exchanges[name], contact)
+        for name in (name for name in self.active if name not in waiting):
+            exchange, found = exchanges[name], self.residuals[name]
             if exchange.smooth or not exchange.settled or (found and found[-1] > exchange.tolerance):
                 found.append(exchange.residual)
         return moves
 
+    def _need(self) -> None:
+        """The largest and the smallest error of the normal solves that the couplings allow."""
+        needed = min(exchange.accuracy for exchange in self.exchanges.values())
+        final = min(exchange.final for exchange in self.exchanges.values())
+        self.loosest, self.finest = min(_LOOSEST, needed), min(self.solver.tolerance, _FINER * needed, final)
+
+    @property
+    def _joint(self) -> bool:
+        """Whether the position is one of several unknowns."""
+        return Position.name in self.active and len(self.active) > 1
+
     def _nest(self) -> None:
-        """From now on settle all others at every load that is tried for the position, whose bracket then holds.
+        """From now on search for the position anew whenever the others have moved.
 
         Joint rounds take a third of the solves, but near full contact of yielding surfaces they may not come to rest.
+        What is not smooth starts again from the interface before the step, to which loads on the way may have been too large.
         """
         position = self.couplings[Position.name]
         assert isinstance(position, Position)
-        nested = replace(position, alone=True)
-        self.couplings[Position.name], self.nested = nested, True
-        self.exchanges[Position.name] = nested.without_bracket(self.exchanges[Position.name])
+        self.couplings[Position.name], self.nested = replace(position, alone=True, nested=True), True
+        self._forget_bracket()
         self.mixing.forget()
+        for name, exchange in self.exchanges.items():
+            if not exchange.smooth:
+                self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
+
+    def _forget_bracket(self) -> None:
+        position = self.couplings[Position.name]
+        assert isinstance(position, Position)
+        self.exchanges[Position.name] = position.without_bracket(self.exchanges[Position.name])
 
     def _posed(self) -> ContactQP:
         """Discrete problem with the shares of all couplings; those that cannot bear the load are asked for more."""
         while True:
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
-            profile = self.posed.profile
+            profile, self.indentation = self.posed.profile, sum(share.indentation for share in shares)
             cap: float | RealArray = np.inf
+            for lift in (*(share.lift for share in shares), self.indentation):
+                if isinstance(lift, np.ndarray):
+                    profile = profile - lift
             for share in shares:
-                if isinstance(share.lift, np.ndarray):
-                    profile = profile - share.lift
                 unlimited = isinstance(cap, float) and cap == np.inf
                 cap = share.cap if unlimited else np.minimum(cap, share.cap)
             qp = ContactQP(self.posed.operator, profile, cap, FixedOffset(0.0), self.posed.height_scale)
             constraint = self._constraint(qp, sum(share.load for share in shares))
-            if not isinstance(constraint, FixedMean) or constraint.mean_pressure <= float(np.mean(cap)):
+            if isinstance(constraint, FixedOffset) or constraint.mean_pressure <= float(np.mean(cap)):
                 return replace(qp, constraint=constraint)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))
 
@@ -280,7 +312,8 @@ class _Iteration:
             rescued = self.couplings[name].rescued(self.exchanges[name], mean)
             if rescued is not None:
                 self.exchanges[name] = rescued
-                self._begin_anew(falls=name == Position.name)
+                if name == Position.name and not self.nested and self._joint:
+                    self._nest()
                 return
         error = NoSolutionError(
             f"mean pressure must be at most the mean hardness {bearable:.6g} Pa (force: hardness times nominal area), "
@@ -300,7 +333,7 @@ class _Iteration:
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))
         else:
             solution = run(_to(self.solver, tolerance), qp, self._start(qp), self.told)
-        contact = Contact(self.posed, qp, solution).with_work_of(self.last)
+        contact = Contact(self.posed, qp, solution, self.indentation).with_work_of(self.last)
         if contact.pressure.any():
             self.pressures = [*self.pressures[-1:], contact.pressure]
         self.last = contact
@@ -362,32 +395,24 @@ class _Iteration:
     def _advance(self, moves: bool) -> None:
         """Next unknowns: targets, extrapolated together where they are smooth; settled ones that are not stay.
 
-        When nested either the position ``moves`` or all others do.
+        When nested either the position ``moves``, along its secant, or all others do.
         """
         active = [name for name in self.active if not self.nested or (name == Position.name) == moves]
-        smooth = [name for name in active if self.exchanges[name].smooth]
+        smooth = [name for name in active if self.exchanges[name].smooth and not (self.nested and moves)]
         moved = {name: self.exchanges[name].target for name in active}
         if smooth:
             at = tuple(self.exchanges[name].x for name in smooth)
             move = tuple(self.exchanges[name].target - x for name, x in zip(smooth, at, strict=True))
             scales = tuple(self.exchanges[name].scale for name in smooth)
-            mixing = self.searching if self.nested and moves else self.mixing
-            if mixing.places and len(mixing.places[-1]) != len(smooth):
-                mixing.forget()  # one of them has turned out not to be smooth
-            moved |= dict(zip(smooth, mixing.ahead(at, move, scales), strict=True))
+            if self.mixing.places and len(self.mixing.places[-1]) != len(smooth):
+                self.mixing.forget()  # one of them has turned out not to be smooth
+            moved |= dict(zip(smooth, self.mixing.ahead(at, move, scales), strict=True))
+        if self.nested and not moves:
+            self._forget_bracket()
         for name, x in moved.items():
             exchange = self.exchanges[name]
             if exchange.smooth or not exchange.settled:
                 self.exchanges[name] = replace(exchange, x=np.clip(x, exchange.lowest, exchange.highest))
-                if name == Position.name and self.nested:
-                    self.mixing.forget()
-                    self._begin_anew(falls=bool(self.exchanges[name].x < exchange.x))
-
-    def _begin_anew(self, *, falls: bool) -> None:
-        """Where the load ``falls``, unknowns that are not smooth start again from the interface before the step: a growing load leads to them."""
-        for name, exchange in self.exchanges.items():
-            if falls and not exchange.smooth:
-                self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
 
     def _converged(self, contact: Contact, count: int) -> Status:
         if not self.active:

@@ -7,10 +7,14 @@ any size ends in agreement, and steps are needed only for loads that go up and d
 With a constant hardness this takes one round. A hardness that changes with depth is itself the unknown; it starts at the
 indentation so far. Where the solid softens with depth (hard film), limits fall and the indentation grows from round to
 round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. What the error of
-a normal solve breaks on the way stays broken, so all of them are solved to the full tolerance. Where the solid
-hardens there is only one answer, and plain rounds would overshoot: there every pixel springs back by its own compliance as
-its limit rises, and the limits are extrapolated with the other smooth unknowns (rounds at a film of 0.01 to 0.5 times
-the rms height under 0.2 E*: 84, 27, 11 with the depth as unknown and Newton's step for the pixel; 39, 16, 10 so).
+a normal solve breaks on the way stays broken, so all of them are solved to the full tolerance.
+
+Where the solid hardens (soft film) there is only one answer. A pixel whose limit rises springs back by its own compliance c,
+along the line p + w/c = y, which crosses the curve p = H(w) once: the place y of that crossing is the unknown, extrapolated
+with the other smooth ones. Where the curve is flat (slope below 1/c) the limit H(w) is posed and the depth follows; where it is steep,
+as that of a film far thinner than the indentation, the depth w is posed and the pressure follows. Either way an error
+of what is posed shrinks. 24 random soft films of 1e-4 to 3 times the rms height (24 x 20): all settle in 3 to 17 rounds, 205 in all
+and 2804 FFT pairs; with limits everywhere 12 of them did not settle (791 rounds, 5578 pairs).
 """
 
 from __future__ import annotations
@@ -28,7 +32,25 @@ from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 TOLERANCE = 1e-5
 """Relative difference of the limit used and the limit at the indentation reached; the law itself is good to per cents."""
 
-_HALVINGS = 40
+_HALVINGS = 60
+
+_STEEP = 1.0
+"""Slope of H(w) over 1/c, the stiffness of a pixel, above which the depth is prescribed and the pressure follows."""
+
+_STEP = 1e-3
+"""Relative change of a depth over which the slope of the limit is taken."""
+
+_ROUNDING = 1e-12
+
+_RESOLVED = 1e-10
+"""Depth over the rms height below which differences do not count: the limit of the thinnest films changes within them."""
+
+_CHANGING = 0.1
+"""Change of the limit over its tolerance down to which it matters."""
+
+_FINAL = 1e-11
+"""Error of the last normal solve where depths are prescribed: of the pressures there, which go with its root, it is 3e-6."""
+
 _MORE_DEPTHS = tuple(10.0**power for power in range(-12, 7))
 
 
@@ -37,7 +59,7 @@ def added_indentation(contact: Contact) -> RealArray:
     if contact.qp.elastic:
         return np.zeros_like(contact.qp.profile)
     p = contact.pressure
-    return np.where((p > 0.0) & (p >= contact.qp.cap), np.maximum(contact.overlap, 0.0), 0.0)
+    return np.where((p > 0.0) & (p >= contact.cap), np.maximum(contact.overlap, 0.0), 0.0)
 
 
 def _before(posed: Posed, memory: Memory) -> RealArray:
@@ -55,11 +77,14 @@ def _after(law: InterfaceLaw, note: _Note, contact: Contact) -> Memory:
 
 @dataclass(frozen=True)
 class _Note:
-    """Indentation before the step (nx, ny) in m, its memory, and the last limits (nx, ny) in Pa that bore the load."""
+    """Indentation before the step (nx, ny) in m, its memory, the last unknown (nx, ny) in Pa whose limits bore the load, and whether
+    some did not: then depths are prescribed everywhere, for where all points yield limits alone do not determine the contact.
+    """
 
     before: RealArray
     memory: Memory
     bearing: RealArray | None = None
+    weak: bool = False
 
 
 @dataclass(frozen=True)
@@ -87,78 +112,108 @@ class ConstantHardness(Coupling):
 
 @dataclass(frozen=True)
 class DepthHardness(Coupling):
-    """Limit of the pressure that follows the indentation reached; the unknown is that limit (nx, ny) in Pa."""
+    """Limit of the pressure that follows the indentation reached.
+
+    The unknown (nx, ny) in Pa is the place H(w) + w/c where the solid hardens, else the limit itself. ``own_compliance`` c is the
+    displacement (m) of a pixel by one Pa on it alone, ``deepest`` (m) where the limit no longer changes.
+    """
 
     law: LimitByDepth
     own_compliance: float = field(repr=False)
+    deepest: float = field(repr=False)
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "hardness"
     feedback: ClassVar[bool] = True
     remedy: ClassVar[str] = (
-        "Take smaller steps of load or a finer grid; a soft layer more than a hundred times thinner than the indentation can be "
-        "left out, the hardness being that of what lies below."
+        "Take smaller steps of load or a finer grid; a layer that is a billion times thinner than the roughness can be left out."
     )
 
     @classmethod
     def prepared(cls, law: LimitByDepth, operator: Operator, tolerance: float) -> Self:
-        """Coupling on the grid of ``operator``, whose displacement (m) of a pixel by one Pa on it alone it needs."""
+        """Coupling on the grid of ``operator``."""
         unit = np.zeros(operator.grid.shape)
         unit[0, 0] = 1.0
-        return cls(law, float(operator.apply(unit)[0, 0]), tolerance)
+        depths = np.array([_MORE_DEPTHS])
+        limits = np.asarray(law.cap_at(depths))
+        changing = np.flatnonzero(np.abs(limits - limits[0, -1]) > _CHANGING * tolerance * limits[0, -1])
+        deepest = float(depths[0, min(changing[-1] + 1, depths.size - 1)]) if changing.size else 0.0
+        return cls(law, float(operator.apply(unit)[0, 0]), deepest, tolerance)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The limit at the indentation so far."""
         before = _before(posed, memory)
-        cap = np.asarray(self.law.cap_at(before))
-        return Exchange(cap, cap, np.inf, self.tolerance, exact=True, note=_Note(before, memory))
+        x = self._place(before)
+        note = _Note(before, memory)
+        return Exchange(x, x, np.inf, self.tolerance, exact=True, lowest=x, note=note)
 
     def share(self, exchange: Exchange) -> Share:
-        """The limit, and the indentation before the step as a lift."""
-        return Share(lift=exchange.note.before, cap=exchange.x)
+        """The limit, or the indentation that goes with it where the limit is steep; the indentation before the step as a lift."""
+        before = exchange.note.before
+        if not exchange.smooth:
+            return Share(lift=before, cap=exchange.x)
+        depth = self._depth(before, exchange.x)
+        limit, deeper = (self.law.cap_at(at) for at in (depth, depth * (1.0 + _STEP)))
+        slope = self.own_compliance * (deeper - limit) / (_STEP * np.maximum(depth, np.finfo(float).tiny))
+        steep = (exchange.x > exchange.lowest * (1.0 + _ROUNDING)) & ((slope > _STEEP) | exchange.note.weak)
+        most = self.law.cap_at(np.maximum(before, self.deepest))
+        return Share(lift=before, cap=np.where(steep, most, limit), indentation=np.where(steep, depth - before, 0.0))
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The limit at the depth reached; where the solid hardens, at the one that a pixel on its own would reach."""
-        before, x = exchange.note.before, exchange.x
+        before = exchange.note.before
         reached = before + added_indentation(contact)
         limit, virgin = np.asarray(self.law.cap_at(reached)), self.law.cap_at(before)
         smooth = exchange.smooth and not bool(np.any(limit < virgin))
+        place, highest = contact.pressure + reached / self.own_compliance, self._place(np.maximum(before, self.deepest))
         return replace(
             exchange,
-            target=self._sprung_back(before, reached, x) if smooth else limit,
-            residual=_disagreement(contact, limit),
+            target=np.clip(place, exchange.lowest, highest) if smooth else limit,
+            final=_FINAL if np.any(contact.indentation) else np.inf,
+            residual=self._disagreement(exchange.note, contact, reached),
             smooth=smooth,
             exact=not smooth,
-            scale=float(np.linalg.norm(x)),
-            lowest=virgin if smooth else 0.0,
-            note=replace(exchange.note, bearing=x),
+            scale=float(np.linalg.norm(exchange.x)),
+            lowest=exchange.lowest if smooth else 0.0,
+            note=replace(exchange.note, bearing=exchange.x),
         )
 
-    def _sprung_back(self, before: RealArray, reached: RealArray, cap: RealArray) -> RealArray:
-        """Limit H(w) (nx, ny) in Pa of a pixel that reached a depth (m) with ``cap`` and springs back while its limit rises.
+    def _place(self, depth: RealArray) -> RealArray:
+        """y (nx, ny) in Pa of a depth (nx, ny) in m."""
+        return np.asarray(self.law.cap_at(depth) + depth / self.own_compliance)
 
-        Its depth w solves w + c (H(w) - cap) = reached. By bisection: the limit of a soft film is flat, steep and flat again,
-        which leads Newton's method astray.
+    def _depth(self, before: RealArray, place: RealArray) -> RealArray:
+        """Depth w (nx, ny) in m, at least ``before``, of a ``place`` y = H(w) + w/c in Pa.
+
+        By bisection: the limit of a soft film is flat, steep and flat again, which leads Newton's method astray.
         """
-        moved = reached > before
-        low, wanted, start = before[moved], reached[moved], cap[moved]
-        high = wanted + self.own_compliance * start
+        wanted = self.own_compliance * place
+        low, high = before, np.maximum(before, wanted - self.own_compliance * self.law.cap_at(before))
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            below = middle + self.own_compliance * (self.law.cap_at(middle) - start) < wanted
+            below = middle + self.own_compliance * self.law.cap_at(middle) < wanted
             low, high = np.where(below, middle, low), np.where(below, high, middle)
-        found = np.array(self.law.cap_at(reached))
-        found[moved] = self.law.cap_at(0.5 * (low + high))
-        return found
+        return np.where(low > before, 0.5 * (low + high), before)
+
+    def _disagreement(self, note: _Note, contact: Contact, reached: RealArray) -> float:
+        """Largest relative excess of the pressure over the limit, or at yielding points difference from it either way."""
+        p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
+        limits = np.array([self.law.cap_at(np.maximum(reached + by, note.before)) for by in (-resolved, 0.0, resolved)])
+        nearest = np.clip(p, limits.min(axis=0), limits.max(axis=0))
+        limit = np.where(reached > note.before, nearest, limits[1])
+        off = np.where(p >= contact.cap, np.abs(p - limit), p - limit) / limit
+        return max(float(off.max()), 0.0)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way to limits that bear ``mean``: the last that did, or those at the first depth that is the same more everywhere."""
-        note, bearing = exchange.note, exchange.note.bearing
-        if bearing is None or not np.mean(bearing) >= mean:
-            caps = (np.asarray(self.law.cap_at(note.before + more)) for more in _MORE_DEPTHS)
-            bearing = next((cap for cap in caps if np.mean(cap) >= mean), None)
-        if bearing is None:
-            return None
-        return replace(exchange, x=0.5 * (exchange.x + bearing), note=replace(note, bearing=bearing))
+        note, bearing, smooth = exchange.note, exchange.note.bearing, exchange.smooth
+        last = self.law.cap_at(self._depth(note.before, bearing)) if smooth and bearing is not None else bearing
+        if last is None or not np.mean(last) >= mean:
+            depths = (note.before + more for more in _MORE_DEPTHS)
+            depth = next((depth for depth in depths if np.mean(self.law.cap_at(depth)) >= mean), None)
+            if depth is None:
+                return None
+            bearing = self._place(depth) if smooth else np.asarray(self.law.cap_at(depth))
+        return replace(exchange, x=0.5 * (exchange.x + bearing), note=replace(note, bearing=bearing, weak=True))
 
     def settled(self, exchange: Exchange) -> str:
         """That the limit is."""
@@ -171,10 +226,3 @@ class DepthHardness(Coupling):
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""
         return _after(self.law, exchange.note, contact), None
-
-
-def _disagreement(contact: Contact, limit: float | RealArray) -> float:
-    """Largest relative excess of the pressure over the ``limit``, or at yielding points difference from it either way."""
-    p = contact.pressure
-    off = np.where(p >= contact.qp.cap, np.abs(p - limit), p - limit) / limit
-    return max(float(off.max()), 0.0)

@@ -35,7 +35,10 @@ _CLOSED = 1e-12
 
 @dataclass(frozen=True)
 class _Note:
-    """Mean gap at first touch, closeness wanted from there and what its error is relative to (m); bracket of the logarithm of the load, and the last misses (m)."""
+    """Mean gap at first touch, closeness wanted from there and what its error is relative to (m); bracket of the logarithm of the load, and the last misses (m).
+
+    ``last``: logarithm of the load and closeness (m) of the last solve, ``slope`` of the former with the latter between the last two.
+    """
 
     touch: float
     wanted: float
@@ -43,6 +46,8 @@ class _Note:
     low: float = -np.inf
     high: float = np.inf
     misses: tuple[float, ...] = ()
+    last: tuple[float, float] | None = None
+    slope: float | None = None
 
 
 @dataclass(frozen=True)
@@ -51,12 +56,13 @@ class Position(Coupling):
 
     ``alone`` says that no other coupling has feedback: then every load tried lies on one side of the one looked for, and
     the bracket holds. ``elastic`` that none limits the pressure: beyond full contact a periodic half-space would carry any
-    pressure, for its mean gap cannot be negative. ``tolerance`` is that of the normal solves.
+    pressure, for its mean gap cannot be negative. ``tolerance`` is that of the normal solves. ``nested``: all others wait until the position is reached.
     """
 
     alone: bool
     elastic: bool
     tolerance: float
+    nested: bool = False
     name: ClassVar[str] = "position"
     feedback: ClassVar[bool] = True
     remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
@@ -110,7 +116,12 @@ class Position(Coupling):
         high = x if miss > noise else note.high
         note = replace(note, low=low, high=high, misses=(*note.misses[-2:], abs(miss)))
         allowed = TARGET_ERROR * note.size + _HEIGHT_ERROR * min(posed.height_scale, _LARGEST_SHARE * note.size)
+        if note.last is not None and note.last[1] != closeness:
+            note = replace(note, slope=(x - note.last[0]) / (closeness - note.last[1]))
+        note = replace(note, last=(x, closeness))
         step = self._step(note, closeness, posed.height_scale)
+        if self.nested and note.slope is not None and note.slope > 0.0:
+            step = note.slope * (note.wanted - closeness)
         if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
             miss = 0.0  # a load that far away cannot be told apart by the normal solve
         lowest, highest = x - _FARTHEST, x + _FARTHEST
@@ -138,8 +149,8 @@ class Position(Coupling):
 
     def without_bracket(self, exchange: Exchange) -> Exchange:
         """The same without what was learnt from loads at which other couplings had not settled."""
-        note = replace(exchange.note, low=-np.inf, high=np.inf, misses=())
-        return replace(exchange, residual=np.inf, note=note)
+        note = replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None)
+        return replace(exchange, note=note)
 
     def settled(self, exchange: Exchange) -> str:
         """That it is reached."""

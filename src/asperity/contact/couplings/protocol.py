@@ -66,11 +66,18 @@ class Posed:
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """Normal contact of one round, solved."""
+    """Normal contact of one round, solved; ``indentation`` (nx, ny) in m is the ``Share.indentation`` that it was posed with."""
 
     posed: Posed
     qp: ContactQP
     solution: Solution
+    indentation: RealArray | float = 0.0
+
+    @cached_property
+    def cap(self) -> float | RealArray:
+        """Largest pressure (Pa) at the indentation reached: where that was posed, the pressure found."""
+        yields = (np.asarray(self.indentation) > 0.0) & self.touching
+        return np.where(yields, self.pressure, self.qp.cap) if yields.any() else self.qp.cap
 
     @property
     def pressure(self) -> RealArray:
@@ -85,13 +92,13 @@ class Contact:
 
     @cached_property
     def overlap(self) -> RealArray:
-        """Overlap (nx, ny) in m of the deformed bodies, negative where they are apart."""
-        return self.level - (self.solution.state.deflection - self.qp.profile)
+        """Overlap (nx, ny) in m of the deformed bodies without the indentation of this step, negative where they are apart."""
+        return self.level - (self.solution.state.deflection - self.qp.profile) + self.indentation
 
     @property
     def gap(self) -> RealArray:
-        """Gap (nx, ny) in m of the deformed bodies, >= 0."""
-        return np.maximum(-self.overlap, 0.0)
+        """Gap (nx, ny) in m of the deformed bodies, >= 0; zero where they overlap."""
+        return np.maximum(self.solution.state.deflection - self.qp.profile - self.level, 0.0)
 
     @property
     def touching(self) -> BoolArray:
@@ -119,15 +126,17 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class Share:
-    """What one coupling adds to the normal problem gap = offset + K p + lift - h >= 0, 0 <= p <= cap.
+    """What one coupling adds to the normal problem gap = offset + K p + lift + indentation - h >= 0, 0 <= p <= cap.
 
-    Shares combine: loads (N) and lifts (m) add, the smallest cap (Pa) holds at every point. At a prescribed position the
-    loads are passive: they change what holds the bodies there, not the contact.
+    Shares combine: loads (N), lifts and indentations (m) add, the smallest cap (Pa) holds at every point. At a prescribed position
+    the loads are passive: they change what holds the bodies there, not the contact. An indentation is a lift at points that
+    yield in this step: their pressure is then what the limit must be.
     """
 
     load: float = 0.0
     lift: RealArray | float = 0.0
     cap: RealArray | float = np.inf
+    indentation: RealArray | float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +161,8 @@ class Exchange:
         Bounds of the unknown.
     accuracy
         Largest error of the normal solve at which the reply still means something.
+    final
+        Largest error of the last normal solve.
     exact
         Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
     stuck
@@ -169,6 +180,7 @@ class Exchange:
     lowest: RealArray | float = -np.inf
     highest: RealArray | float = np.inf
     accuracy: float = np.inf
+    final: float = np.inf
     exact: bool = False
     stuck: bool = False
     note: Any = None
