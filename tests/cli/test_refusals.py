@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
 
+from asperity.core.units import prefixed
+
 
 def refused(run: Runner, *arguments: object) -> str:
     result = run(*arguments)
@@ -72,3 +74,19 @@ def test_two_outputs_of_one_name(run: Runner, matrix: Path, tmp_path: Path) -> N
 
 def test_result_that_is_a_folder(run: Runner, tmp_path: Path) -> None:
     assert "is a folder or device; give the .nc file in it" in refused(run, "cite", tmp_path)
+
+
+def test_messages_name_what_to_do(run: Runner, matrix: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A surface is no result; memory is compared before it is taken; long numbers have prefixes."""
+    assert "asperity info" in refused(run, "plot", matrix)
+    monkeypatch.setattr("asperity.surfaces.prepare.extent.free_memory", lambda: 2.0**30)
+    text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--resample", "100000")
+    assert "100000 x 100000 points need 223.5 GiB and 1.0 GiB are free" in text
+    text = refused(run, "contact", matrix, *SCALE, *BODY, "--pressure", "15GPa", "--hardness", "body")
+    assert "mean hardness 5 GPa (force: hardness times nominal area), but is 15 GPa" in text
+
+
+def test_prefixes_in_messages() -> None:
+    assert prefixed("is 1.5e+10 Pa, 8e-06 m, 0 m, 5 m and 20000 N") == "is 15 GPa, 8 µm, 0 m, 5 m and 20 kN"
+    kept = "'1e-9 m' or 1e-12 m^4, 3e+4 Pa/m"
+    assert prefixed(kept) == kept

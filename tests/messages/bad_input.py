@@ -70,6 +70,8 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--crop", "0:1,"),
     (*BODY, *LOAD, "--crop", "0um:99um,"),
     (*BODY, *LOAD, "--resample", "many"),
+    (*BODY, *LOAD, "--humidity", "60"),
+    (*BODY, "--pressure", "50mpa"),
     (*BODY, *LOAD, "--taper", "0.9"),
     (*BODY, *LOAD, "--mirror", "x"),
     (*BODY, *LOAD, "--materials-file", "none.toml", "--body", "DLC"),
@@ -106,6 +108,10 @@ def _problem(**keys: object) -> asp.ContactProblem:
     return asp.ContactProblem(**arguments)  # type: ignore[arg-type]
 
 
+def _solved() -> asp.ContactResult:
+    return asp.solve(_problem(), asp.MeanPressure(0.1))
+
+
 def _holed() -> asp.Surface:
     heights = rough((6, 6)).heights.copy()
     heights[2, 3] = np.nan
@@ -115,6 +121,11 @@ def _holed() -> asp.Surface:
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
+    "Coulomb('0.3')": lambda: asp.Coulomb("0.3"),  # type: ignore[arg-type]
+    "stress(result, 5e-9)": lambda: asp.stress(_solved(), 5e-9),  # type: ignore[arg-type]
+    "stress(problem, [0.0])": lambda: asp.stress(_problem(), [0.0]),  # type: ignore[arg-type]
+    "stress(..., friction='0.3')": lambda: asp.stress(_solved(), [0.0], friction="0.3"),  # type: ignore[arg-type]
+    "generate.gaussian((256, 256), ...)": lambda: asp.generate.gaussian((256, 256), None, seed=1),  # type: ignore[arg-type]
     "Force(-1.0)": lambda: asp.Force(-1.0),
     "Approach(nan)": lambda: asp.Approach(np.nan),
     "MeanGap(inf)": lambda: asp.MeanGap(np.inf),

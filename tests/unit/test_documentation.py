@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
 import math
 import re
 import shlex
@@ -24,8 +26,37 @@ ROOT = Path(__file__).parents[2]
 GUIDES = sorted((ROOT / "docs").rglob("*.md"))
 
 
+READ = 'scan = asp.periodised(asp.levelled(asp.filled(asp.read("scan.di"))))  # the map to press\n'
+"""Line of a guide that reads the file of the reader; the tests have a scan in its place."""
+
+
 def blocks(path: Path, language: str) -> list[str]:
-    return re.findall(rf"^[ ]*```{language}\n(.*?)^[ ]*```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    text = path.read_text(encoding="utf-8").replace(READ, "")
+    return re.findall(rf"^[ ]*```{language}\n(.*?)^[ ]*```", text, re.DOTALL | re.MULTILINE)
+
+
+def test_guides_run_as_pasted():
+    """Every name is imported or made on the page itself, before it is used."""
+    lost = {}
+    for page in [ROOT / "README.md", *GUIDES]:
+        made = set(dir(builtins)) | ({"scan"} if READ in page.read_text(encoding="utf-8") else set())
+        for code in blocks(page, "python"):
+            nodes = list(ast.walk(ast.parse(code)))
+            names = [node for node in nodes if isinstance(node, ast.Name)]
+            made |= {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+            made |= {
+                n.asname or n.name
+                for node in nodes
+                if isinstance(node, ast.Import | ast.ImportFrom)
+                for n in node.names
+            }
+            made |= {
+                node.name for node in nodes if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.ExceptHandler)
+            }
+            made |= {node.arg for node in nodes if isinstance(node, ast.arg)}
+            if unknown := {node.id for node in names} - made:
+                lost.setdefault(page.name, set()).update(unknown)
+    assert lost == {}
 
 
 @pytest.fixture
@@ -48,7 +79,7 @@ def test_the_example_of_the_readme(scan, tmp_path, monkeypatch, capsys):
 def test_the_examples_of_loading_and_unloading(scan, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     first, second, *rest = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
-    names = {"scan": scan, "asp": asp, "np": np}
+    names = {"scan": scan}
     exec(compile(first, "first block", "exec"), names)  # noqa: S102 - running the page is the test
     # each of the two solves is uncertain in energy by its field error times load times rms height, some times over
     again, rms = names["again"], scan.heights.std()
@@ -71,7 +102,7 @@ def test_the_examples_of_loading_and_unloading(scan, tmp_path, monkeypatch):
 
 
 def test_the_examples_of_layered_bodies(scan, capsys):
-    names = {"scan": scan, "np": np}
+    names = {"scan": scan}
     for number, code in enumerate(blocks(ROOT / "docs/how-to/layered-bodies.md", "python")):
         exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
     assert names["result"].area_fraction > names["bare"].area_fraction, "DLC is softer than steel here"
@@ -310,7 +341,7 @@ def test_the_studies_of_the_guide(tmp_path, monkeypatch):
     """
     Path("problem.toml").write_text(problem, encoding="utf-8")
     Path("thickness.toml").write_text(sweep, encoding="utf-8")
-    names = {"asp": asp}
+    names = {}
     (code,) = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     assert names["peak"].dims == ("thickness",)

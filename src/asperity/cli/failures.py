@@ -9,6 +9,7 @@ import typer
 from typer.core import TyperGroup
 
 from ..core.errors import AsperityError, ConvergenceError
+from ..core.units import prefixed
 
 OK = 0
 NOT_CONVERGED = 1
@@ -45,9 +46,9 @@ class Reporting(TyperGroup):
 def diagnosis(error: Exception) -> tuple[int, str]:
     """Exit code and sentence for ``error``."""
     if isinstance(error, ConvergenceError):
-        return NOT_CONVERGED, str(error)
+        return NOT_CONVERGED, prefixed(str(error))
     if isinstance(error, AsperityError):
-        return BAD_INPUT, str(error)
+        return BAD_INPUT, prefixed(str(error))
     if isinstance(error, MemoryError):
         return BAD_INPUT, "Not enough memory: crop the surface or resample it to fewer points."
     if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EIO):

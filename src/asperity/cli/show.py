@@ -22,7 +22,7 @@ from rich.text import Text
 
 from ..core.progress import NoProgress, Progress
 from ..core.system import compiling
-from ..core.units import show
+from ..core.units import prefixed, show
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
@@ -147,7 +147,7 @@ def print_advice(findings: Iterable[Advice]) -> None:
     """Print one line for each finding."""
     for finding in findings:
         warns = finding.level == "warning"
-        text = f"{finding.level} ({finding.criterion}): {finding.message}"
+        text = prefixed(f"{finding.level} ({finding.criterion}): {finding.message}")
         say(text, "yellow" if warns else "cyan", warning=warns)
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator
 
 import numpy as np
 
 from ..core.status import Advice
+from ..core.system import free_memory
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
@@ -185,10 +185,7 @@ def _softest_contact_modulus(problem: ContactProblem) -> float:
 def _memory(problem: ContactProblem) -> Iterator[Advice]:
     padding = 1 if all(problem.boundary.wraps) else 4
     needed = 8.0 * FIELDS_OF_A_SOLVE * padding * problem.grid.n_points
-    names = getattr(os, "sysconf_names", {})
-    if "SC_AVPHYS_PAGES" not in names or "SC_PAGE_SIZE" not in names:
-        return
-    available = float(os.sysconf("SC_AVPHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE"))
+    available = free_memory()
     if needed > available:
         yield Advice(
             "warning",

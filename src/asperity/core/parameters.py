@@ -13,11 +13,13 @@ from __future__ import annotations
 
 import functools
 import inspect
+import reprlib
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from types import UnionType
 from typing import Annotated, Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
+from .errors import InputError
 from .values import Choice, Flag, Number, Several, Text, Values, Whole
 
 P = ParamSpec("P")
@@ -144,6 +146,16 @@ def taken_apart(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
             return annotation, marks
 
 
+@functools.cache
+def _objects(function: Any) -> tuple[tuple[str, type], ...]:
+    """Undeclared parameters that take one type of object, with the type."""
+    hints = get_type_hints(function)
+    plain = {"return", *(item.name for item in parameters(function))}
+    return tuple(
+        (n, kind) for n, kind in hints.items() if n not in plain and is_dataclass(kind) and isinstance(kind, type)
+    )
+
+
 class Declared:
     """Base of a frozen dataclass whose parameters are checked against their declarations when it is made."""
 
@@ -168,6 +180,12 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
         bound = signature.bind(*args, **kwargs)
+        for name, kind in _objects(function):
+            if name in bound.arguments and not isinstance(bound.arguments[name], kind):
+                shown = reprlib.repr(bound.arguments[name])
+                raise InputError(
+                    f"{name} of {owner} must be a {kind.__name__}, such as {kind.__name__}(…), but is {shown}."
+                )
         for item in parameters(function):
             if item.name in bound.arguments:
                 bound.arguments[item.name] = item.check(bound.arguments[item.name], owner)

@@ -17,6 +17,8 @@ T = TypeVar("T")
 
 def finite(value: float, what: str, fix: str = "") -> float:
     """Return ``value`` as float if it is a finite real number."""
+    if isinstance(value, str):
+        raise InputError(_sentence(what, "a number", value, "Python takes SI numbers, such as 50e6 for 50 MPa."))
     try:
         number = float(value)
     except (TypeError, ValueError):

@@ -177,8 +177,21 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
     quantity = _registry().Quantity(value, unit)
-    compact = quantity if value == 0.0 else _COMPACT.get(unit, _prefixed)(quantity)
+    compact = quantity if value == 0.0 else _COMPACT.get(unit, _compact)(quantity)
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
+
+
+_PLAIN = re.compile(r"""(?<![\w.'"+-])(\d+(?:\.\d+)?(?:e[+-]\d+)?) (Pa|N|m|J|N/m)\b(?![/*^²³])""")
+
+
+def prefixed(text: str) -> str:
+    """``text`` with its long SI numbers as ``show`` writes them: "1.5e+10 Pa" is "15 GPa"; what is quoted stays."""
+
+    def shown(match: re.Match[str]) -> str:
+        long = "e" in match[1] or not 1e-2 <= float(match[1]) < 1e4
+        return show(float(match[1]), match[2], 6) if long and float(match[1]) else match[0]
+
+    return _PLAIN.sub(shown, text)
 
 
 def percent(share: float, digits: int = 3) -> str:
@@ -186,7 +199,7 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{100.0 * share:.{digits}g} %"
 
 
-def _prefixed(quantity: Any) -> Any:
+def _compact(quantity: Any) -> Any:
     """Quantity with a prefix; what is smaller than the prefixes in use, as rounding is, as a power of ten."""
     return quantity if abs(quantity.magnitude) < _SMALLEST else quantity.to_compact()
 

@@ -112,6 +112,12 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
         raise FileFormatError(f"result file must be a file, but {path} is a folder or device; give the .nc file in it.")
     if not Path(path).is_file():
         raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
+    with Path(path).open("rb") as start:
+        if start.read(8) != b"\x89HDF\r\n\x1a\n":
+            raise FileFormatError(
+                f"result file must be one that asperity has written (result.nc), but {path} is no NetCDF-4 file. "
+                f"What a file with heights holds is shown by: asperity info {path}"
+            )
     try:
         with h5netcdf.File(path, "r", decode_vlen_strings=True) as file:
             tree = _read(file, without)

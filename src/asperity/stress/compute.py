@@ -53,6 +53,10 @@ class Planes(Protocol):
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
     """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
     require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
+    if not hasattr(result, "problem") or not hasattr(result, "pressure"):
+        raise InputError(
+            f"result whose stresses are asked must be that of solve(problem, …), but is of type {type(result).__name__}."
+        )
     if friction is None:
         own = getattr(result.problem, "friction", None)
         friction, direction = (0.0, 0.0) if own is None else (own.coefficient, own.direction)

@@ -103,6 +103,8 @@ def planes(body: object, depths: Iterable[float]) -> tuple[Plane, ...]:
     InputError
         If a depth is negative, no number, or below a rigid base.
     """
+    if not isinstance(depths, Iterable) or isinstance(depths, str):
+        raise InputError(f"depths must be a list of depths in m, such as [0.0, 5e-9], but are {depths!r}.")
     parts = regions(body)
     found: list[Plane] = []
     for value in depths:
