@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from catalogue import feasible_start
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
+from asperity.contact.solve import doubted
 from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 from asperity.core.arrays import RealArray
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
@@ -129,3 +131,62 @@ def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.Boundar
     if boundary == asp.Free():
         assert found.pressure.max() == pytest.approx(8.847 * pressure, rel=1e-3)
     assert found.certificate.duality_gap < 1e-5
+
+
+EXTREME = {
+    "approach": {"control": lambda: asp.Approach(1e300)},
+    "mean gap": {"control": lambda: asp.MeanGap(1e-300)},
+    "force": {"control": lambda: asp.Force(5e-324)},
+    "pressure": {"control": lambda: asp.MeanPressure(1e300)},
+    "wide pixels": {"pixel": 1e160},
+    "narrow pixels": {"pixel": 1e-160},
+    "stiff": {"body": lambda: asp.Elastic(1.7e308, 0.3)},
+    "compliant": {"body": lambda: asp.Elastic(1e-300, 0.3)},
+    "high": {"height": 1e160},
+    "low": {"height": 1e-162},
+    "hard": {"law": lambda: asp.Hardness(1e158)},
+    "hard and low": {"height": 1e-162, "law": lambda: asp.Hardness(1e158)},
+    "soft film": {"body": lambda: asp.Layered([asp.Layer(asp.Elastic(0.1, 0.3), 1e-8)], asp.Elastic(1e11, 0.3))},
+    "stiff film": {"body": lambda: asp.Layered([asp.Layer(asp.Elastic(1e23, 0.3), 1e-8)], asp.Elastic(1e11, 0.3))},
+    "thin film": {"body": lambda: asp.Layered([asp.Layer(asp.Elastic(1e10, 0.5), 1e-15)], asp.RigidBase())},
+}
+SOLVED = ("low", "hard", "hard and low", "soft film")
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+def test_extreme_numbers_are_refused_or_solved(boundary: asp.Boundary) -> None:
+    """What is called converged is finite, in balance and has a small duality gap."""
+    wrong = []
+    for name, case in EXTREME.items():
+        heights = case.get("height", 1e-9) * np.random.default_rng(1).standard_normal((16, 16))
+        surface = asp.Surface(heights, case.get("pixel", 1e-8), periodic=boundary == asp.Periodic())
+        control, body = (
+            case.get("control", lambda: asp.MeanPressure(1e7)),
+            case.get("body", lambda: asp.Elastic(1e11, 0.3)),
+        )
+        try:
+            posed = asp.ContactProblem(surface, body(), boundary=boundary, law=case.get("law", asp.HardWall)())
+            found = asp.solve(posed, control(), on_failure="return")
+        except (asp.InputError, asp.NoSolutionError):
+            if name in SOLVED:
+                wrong.append(f"{name}: refused")
+            continue
+        if name in SOLVED and not found.converged:
+            wrong.append(f"{name}: {found.status.message}")
+        right = found.mean_pressure == pytest.approx(1e7) and found.certificate.duality_gap < 1e-3
+        if found.converged and not right:
+            wrong.append(f"{name}: {found.mean_pressure}, {found.certificate.duality_gap}")
+    assert not wrong, wrong
+
+
+def test_a_large_duality_gap_is_a_warning_or_no_convergence() -> None:
+    problem = asp.ContactProblem(
+        asp.Surface(np.random.default_rng(1).standard_normal((16, 16)), 1.0, periodic=True), asp.Elastic(1.0, 0.3)
+    )
+    loose = asp.solve(problem, asp.MeanPressure(0.1), solver=asp.solvers.ConjugateGradient(tolerance=0.05))
+    assert loose.certificate.duality_gap > 1e-3
+    assert "duality gap" in {finding.criterion for finding in asp.review(loose)}
+    doubtful = replace(loose.certificate, tolerance=1e-7)
+    status = doubted(loose.status, doubtful)
+    assert status.outcome == "stagnated"
+    assert doubted(loose.status, loose.certificate) is loose.status

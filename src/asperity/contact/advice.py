@@ -58,6 +58,9 @@ PIXELS_PER_LAYER = 1.0
 LARGEST_THICKNESS = 0.5
 """Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
 
+LARGEST_DUALITY_GAP = 1e-3
+"""Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
+
 FEWEST_MENISCUS_PIXELS = 5.0
 """Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give 1 %."""
 
@@ -86,6 +89,7 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
     """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, menisci."""
     wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
     return (
+        *_certificate(result),
         *_contact_pixels(result),
         *_nearly_full(result),
         *_room(result),
@@ -192,6 +196,17 @@ def _memory(problem: ContactProblem) -> Iterator[Advice]:
             "memory",
             f"The solve needs about {needed / 2**30:.1f} GiB of memory and {available / 2**30:.1f} GiB are free. "
             "Crop the surface or resample it to fewer points.",
+        )
+
+
+def _certificate(result: ContactResult) -> Iterator[Advice]:
+    gap = result.certificate.duality_gap
+    if not gap <= LARGEST_DUALITY_GAP:
+        yield Advice(
+            "warning",
+            "duality gap",
+            f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most {LARGEST_DUALITY_GAP:g} wanted): pressures "
+            "may be wrong. Use a smaller tolerance or another solver.",
         )
 
 

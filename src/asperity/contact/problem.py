@@ -7,19 +7,28 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..core import require
 from ..core.arrays import RealArray
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
 from ..solids.compliance.halfspace import Compliance, contact_compliance
-from ..solids.elastic import Rigid
-from ..solids.layers import Body, contact_modulus
+from ..solids.elastic import Elastic, Rigid
+from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
 from .laws import Coulomb, HardWall, InterfaceLaw
 from .wetting import LiquidFilm
+
+LEAST_MAGNITUDE, LARGEST_MAGNITUDE = 1e-40, 1e40
+"""Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
+
+
+def require_magnitude(value: float, what: str) -> None:
+    """Refuse a ``value`` out of this range with an InputError that names it as ``what``."""
+    require.within(value, 0.1 * LEAST_MAGNITUDE, LARGEST_MAGNITUDE, what, "Use other units of length and pressure.")
 
 
 @dataclass(frozen=True)
@@ -62,8 +71,8 @@ class ContactProblem(Shown):
     Raises
     ------
     InputError
-        If a surface has missing points, grids differ, both bodies are rigid, a hardness array has another shape, or
-        the grid does not suit the boundary.
+        If a surface has missing points, grids differ, both bodies are rigid, a hardness array has another shape,
+        the grid does not suit the boundary, or a length or modulus is out of the range 1e-41 to 1e40.
     """
 
     surface: Surface
@@ -84,7 +93,14 @@ class ContactProblem(Shown):
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
         _require(self.film, LiquidFilm | None, "film", "LiquidFilm.of(liquid, thickness) or None")
         _require(self.friction, Coulomb | None, "friction", "Coulomb(coefficient) or None")
+        for body in (self.body, self.counter_body):
+            layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
+            for solid in (*layers, body.base if isinstance(body, Layered) else body):
+                if isinstance(solid, Elastic):
+                    require_magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
         contact_modulus(self.body, self.counter_body)
+        for spacing in self.grid.spacing:
+            require_magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
             self.boundary.require_line(self.grid)
         for surface, what in ((self.surface, "surface"), (self.counter_surface, "counter_surface")):
@@ -93,6 +109,8 @@ class ContactProblem(Shown):
                     f"{what} must have no missing points, but {surface.n_missing} are missing. "
                     "Fill them first: filled(surface), or --fill harmonic."
                 )
+            if isinstance(surface, Surface):
+                require_magnitude(LEAST_MAGNITUDE + float(np.ptp(surface.heights)), "range of the heights (m)")
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
         cap = self.law.pressure_cap()

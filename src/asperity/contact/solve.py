@@ -14,7 +14,8 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.progress import Progress
-from .certificate import certify
+from ..core.status import Outcome, Status
+from .certificate import Certificate, certify
 from .control import Approach, Control, MeanGap, Unloaded, mean_pressure
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
@@ -27,7 +28,7 @@ from .couplings.sliding import SlidingCoupling
 from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem
+from .problem import ContactProblem, require_magnitude
 from .result import ContactResult, assemble
 from .solvers.by_name import default_solver
 from .solvers.protocol import Solver
@@ -202,6 +203,10 @@ class Prepared:
             state.require_shape(self.profile.shape)
             dented = self.profile - state.permanent_indentation
             start = state.pressure if state.pressure.any() else None
+        if isinstance(control, Approach | MeanGap):
+            require_magnitude(control.value, f"{control.name} (m)")
+        elif not isinstance(control, Unloaded):
+            require_magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
         scale = _height_scale(self.profile, control, self.operator)
         return settle(
             Posed(self.operator, self.profile, dented, control, scale, start, None if state is None else state.earlier),
@@ -231,7 +236,8 @@ class Prepared:
             wall_time=seconds,
         )
         certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
-        shown = replace(contact, solution=replace(contact.solution, status=settled.status))
+        status = doubted(settled.status, certificate)
+        shown = replace(contact, solution=replace(contact.solution, status=status))
         result = assemble(
             problem,
             shown,
@@ -261,6 +267,21 @@ def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = R
         threads = getattr(operator.engine, "threads", None)
         found.append(SlidingCoupling.prepared(problem, friction, stiffest, tolerance, threads))
     return tuple(found)
+
+
+_LARGEST_GAP = 1e-3
+"""Duality gap of a converged contact at the default tolerance; what it means is an energy that is off by as much."""
+
+_GAPS = 1e3
+"""The same over the tolerance, where that is loose: it bounds the gap to 30 times itself (``solvers.protocol.scaled_error``)."""
+
+
+def doubted(status: Status, certificate: Certificate) -> Status:
+    """``status``, or why a contact that the solver holds for converged is not."""
+    if not status.converged or certificate.duality_gap <= max(_LARGEST_GAP, _GAPS * certificate.tolerance):
+        return status
+    message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
+    return Status(Outcome.STAGNATED, message, "Use a smaller tolerance, and numbers that are not extreme.")
 
 
 def _citations(found: Iterable[Any]) -> set[str]:

@@ -283,8 +283,14 @@ class _Iteration:
                 cap = share.cap if unlimited else np.minimum(cap, share.cap)
             qp = ContactQP(self.posed.operator, profile, cap, FixedOffset(0.0), self.posed.height_scale)
             constraint = self._constraint(qp, sum(share.load for share in shares))
-            if isinstance(constraint, FixedOffset) or constraint.mean_pressure <= float(np.mean(cap)):
+            if isinstance(constraint, FixedOffset):
                 return replace(qp, constraint=constraint)
+            if isinstance(cap, float) and cap >= constraint.mean_pressure * profile.size:
+                cap = (
+                    np.inf
+                )  # no point can bear more than the whole load; a huge limit would drown the error in its rounding
+            if constraint.mean_pressure <= float(np.mean(cap)):
+                return replace(qp, cap=cap, constraint=constraint)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))
 
     def _constraint(self, qp: ContactQP, added: float) -> Constraint:

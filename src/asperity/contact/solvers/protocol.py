@@ -193,11 +193,19 @@ def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress:
         report.update(state.iterations, state.error, solver.tolerance)
         stagnated = state.exhausted or len(errors) - 1 - best_at >= patience
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
-            return Solution(state.finished, _status(solver, state, stagnated), tuple(errors))
+            finished = state.finished
+            if not np.isfinite(finished.pressure.sum()):
+                return Solution(finished, _OVERFLOWN, tuple(errors))
+            return Solution(finished, _status(solver, state, stagnated), tuple(errors))
         state = solver.step(qp, state)
         errors.append(state.error)
         if state.error < _SMALLER * errors[best_at]:
             best_at = len(errors) - 1
+
+
+_OVERFLOWN = Status(
+    Outcome.STAGNATED, "The pressure is not a finite number.", "Check heights, moduli and load for extreme values."
+)
 
 
 def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:

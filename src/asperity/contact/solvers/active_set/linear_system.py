@@ -405,7 +405,7 @@ def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealA
         return math.inf
     unit, _ = free.gather(engine.array(np.ones(shape), scaled.dtype))
     found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=False), unit, _STIFFNESS_STOPPING)
-    if not found.reached:
+    if not found.reached or found.d is None:
         return math.nan
     free.scatter(found.d, scaled.field)
     _, total = free.gather(scaled.field)
