@@ -69,4 +69,4 @@ def test_the_turns_of_a_path():
     assert path.turns == (2, 5, 8)
     assert asp.solve(problem, asp.History([asp.MeanPressure(0.1)])).turns == (0,)
     assert path.start is None
-    np.testing.assert_array_equal(path.force, path.mean_pressure * problem.grid.area)
+    np.testing.assert_allclose(path.force, path.mean_pressure * problem.grid.area, rtol=1e-14)
