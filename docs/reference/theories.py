@@ -7,7 +7,7 @@ from pathlib import Path
 from asperity.core.citations import reference
 from asperity.core.parameters import Parameter, parameters
 from asperity.core.values import Several
-from asperity.theories.ask import numbers_of, ways_of
+from asperity.theories.ask import ways_of
 from asperity.theories.catalogue import FAMILIES
 from asperity.theories.protocol import Described
 
@@ -27,7 +27,8 @@ def page() -> str:
     for family, kinds in FAMILIES.items():
         parts.append(f"## {family}\n")
         parts += [section(kind) for kind in kinds]
-    sources = sorted({key for kinds in FAMILIES.values() for kind in kinds for key in kind.citation_keys})
+    listed = [kind for kinds in FAMILIES.values() for kind in kinds]
+    sources = sorted({key for kind in listed for key in (*kind.citation_keys, *(bound.citation for bound in kind.limits))})
     parts.append("## Sources\n\n" + "\n".join(f"- [{key}] {reference(key)}" for key in sources) + "\n")
     return "\n".join(parts)
 
@@ -47,9 +48,13 @@ def section(kind: type[Described]) -> str:
         beside = f", given {', '.join(given)}" if given else ""
         answers = ", ".join(column.name.replace(".", " ").replace("_", " ") for column in way.columns)
         lines += [f"Asked along `{way.axis.name}` ({way.axis.unit or 'number'}){beside}: {answers}.", ""]
-    if numbers_of(kind):
-        numbers = ", ".join(f"{column.meaning} ({column.unit or 'number'})" for column in numbers_of(kind))
-        lines += [f"Tells without being asked: {numbers}.", ""]
+    if kind.numbers:
+        numbers = ", ".join(
+            f"{column.label} ({'number' if column.unit == '1' else column.unit})" for column in kind.numbers
+        )
+        lines += [f"From the inputs alone: {numbers}.", ""]
+    if kind.limits:
+        lines += ["Holds for:", "", *(f"- {bound.rule}. {bound.message} [{bound.citation}]" for bound in kind.limits), ""]
     lines.append(" ".join(f"[{key}]" for key in kind.citation_keys))
     return "\n".join(lines) + "\n"
 

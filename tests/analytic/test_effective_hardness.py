@@ -79,5 +79,5 @@ def test_values_must_be_positive(values, message):
 
 
 def test_depth_must_not_be_negative():
-    with pytest.raises(InputError, match=r"at least zero, but is -0\.1"):
+    with pytest.raises(InputError, match=r"at least 0, but is -0\.1"):
         EffectiveHardness(2.0, 1.0, 1.0).at([-0.1])

@@ -24,8 +24,8 @@ from asperity.theories.rough.elastic_plastic_laws import (
     JacksonGreenSphere,
     KogutEtsion,
     KogutEtsionSphere,
+    at_first_yield,
 )
-from asperity.theories.rough.elastic_plastic_summits import at_first_yield
 from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
 from asperity.theories.single.hertz import HertzPoint
 from asperity.theories.subsurface.sliding_yield import sphere_yield_onset

@@ -12,8 +12,8 @@ from reference_data import reference
 
 import asperity as asp
 from asperity.core.errors import InputError
+from asperity.theories import KotwalBhushan, PearsonHeights
 from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
-from asperity.theories.rough.kotwal_bhushan import KotwalBhushan, PearsonHeights
 
 QUADRATURE = 5e-12  # of the table: 3e-12 on moments 0 to 4
 

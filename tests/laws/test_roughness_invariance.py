@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity import roughness as r
+from asperity.theories import Persson
 
 GENERAL = {"max_examples": 20}
 SIGNED = ("heights.Ssk",)
@@ -278,3 +279,18 @@ def test_rings_hold_the_same_modes_in_every_unit_of_length(shape, factor):
     rings = [r.radial_spectrum(r.power_spectrum(asp.Surface(heights * k, k * 1e-6))) for k in (1.0, factor)]
     np.testing.assert_array_equal(rings[1].modes, rings[0].modes)
     np.testing.assert_allclose(rings[1].psd, rings[0].psd * factor**4, rtol=1e-12)
+
+
+def test_sectors_and_the_mean_gap_do_not_depend_on_the_unit_of_length():
+    """Modes on the border of two sectors (48 x 64: 1.5 % of the density, 50 x 50: 6 %) and on edges of rings."""
+    for shape in ((48, 64), (50, 50)):
+        heights = np.random.default_rng(5).standard_normal(shape)
+        density, gap = [], []
+        for k in (1.0, 1024.0, 1000.0):
+            surface = asp.Surface(heights * k, k * 1e-1, periodic=True)
+            density.append(r.angular_spectrum(r.power_spectrum(surface)).density)
+            theory = Persson.from_roughness(asp.roughness_of(surface), 1.0)
+            gap.append(theory.at_pressure([1e-2, 1.0]).mean_gap / k)
+        for other in (1, 2):
+            np.testing.assert_allclose(density[other], density[0], rtol=1e-12)
+            np.testing.assert_allclose(gap[other], gap[0], rtol=1e-8)

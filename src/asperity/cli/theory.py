@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -28,7 +27,7 @@ from ..run.build import body_of_text
 from ..solids.elastic import Rigid
 from ..solids.layers import contact_modulus, weaker_strength
 from ..surfaces.prepare.fill import filled
-from ..theories.ask import Evaluation, evaluate, numbers_of, ways_of
+from ..theories.ask import Evaluation, evaluate, ways_of
 from ..theories.catalogue import FAMILIES, THEORIES
 from ..theories.catalogue import theory as theory_of
 from ..theories.protocol import Described, Limit
@@ -150,12 +149,13 @@ def _command(kind: type[Described]) -> Any:
 
 
 def _details(kind: type[Described]) -> list[str]:
-    """What the page of a theory tells beside its options: what it is asked along, what it answers, and its sources."""
+    """The page of a theory beside its options: what it is asked along, what it answers, its limits and its sources."""
     ways = [f"{way.axis.name}{f' in {way.axis.unit}' if way.axis.unit else ''}" for way in ways_of(kind)]
-    numbers = [column.name.rpartition(".")[2] for column in numbers_of(kind)]
+    numbers = [column.name.rpartition(".")[2] for column in kind.numbers]
     asked = [f"Asked along {' or '.join(ways)}."] if ways else []
-    told = [f"Tells {', '.join(numbers)}."] if numbers else []
-    return [*asked, *told, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
+    told = [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
+    holds = [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
+    return [*asked, *told, *holds, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
 
 
 def _options(kind: type[Described]) -> list[Option]:
@@ -308,7 +308,7 @@ def print_list(*, as_json: bool) -> None:
             rows.append((family if number == 0 else "", f"{kind.name}{' *' if measured else ''}", kind.title))
     console().print(table("Theories", rows, ("family", "name", "theory")))
     say(
-        "* also from a surface, with --surface FILE. `asperity theory NAME --help` tells inputs, results and sources of one."
+        "* also from a surface, with --surface FILE. `asperity theory NAME --help` lists inputs, results, limits and sources of one."
     )
 
 
@@ -321,7 +321,7 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
     rows = [(item.help, _input_text(item, getattr(theory, item.name))) for item in parameters(type(theory))]
     _print_table(theory.title, table("", rows))
     if found.numbers:
-        numbers = [(column.meaning, show(value, column.unit)) for column, value in found.numbers]
+        numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]
         _print_table("Numbers", table("", numbers))
     if found.columns:
         _print_columns(found)
@@ -340,7 +340,7 @@ def _print_columns(found: Evaluation) -> None:
     names = [_heading(column.name) for column, _ in found.columns]
     if size == 1:  # one point is read downwards
         point = [
-            (name, show(float(values[0]) + 0.0, column.unit), column.meaning)
+            (name, show(float(values[0]) + 0.0, column.unit), column.label)
             for name, (column, values) in zip(names, found.columns, strict=True)
         ]
         _print_table("Answer", table("", point))
@@ -368,9 +368,7 @@ def _print_table(title: str, made: Table) -> None:
 
 
 def _print_limit(limit: Limit) -> None:
-    bounds = _bounds(limit.low, limit.high)
-    values = _extent(limit.value)
-    source = f"[{limit.citation}]"
+    bounds, values, source = limit.bounds, _extent(limit.value), f"[{limit.citation}]"
     if limit.holds.all():
         say(f"valid: {limit.criterion} {values}, must be {bounds} {source}", "green")
         return
@@ -378,12 +376,6 @@ def _print_limit(limit: Limit) -> None:
         "everywhere" if not limit.holds.any() else f"at {int((~limit.holds).sum())} of {limit.holds.size} points"
     )
     say(f"{LEFT} left {how_often}: {limit.criterion} {values}, must be {bounds}. {limit.message} {source}", "red")
-
-
-def _bounds(low: float, high: float) -> str:
-    if math.isinf(low):
-        return f"at most {high:.4g}"
-    return f"at least {low:.4g}" if math.isinf(high) else f"from {low:.4g} to {high:.4g}"
 
 
 def _extent(values: RealArray) -> str:

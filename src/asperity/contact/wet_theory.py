@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..surfaces.surface import Surface
-from ..theories.rough.kotwal_bhushan import KotwalBhushan
+from ..theories.rough.greenwood_williamson import KotwalBhushan
 from ..theories.statistics.roughness import Roughness
 from ..theories.wet.meniscus import MeniscusGrowth, wetting_factor
 from ..theories.wet.summits import KineticMeniscus, StatisticalMeniscus

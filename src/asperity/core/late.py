@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -39,6 +41,12 @@ class LateNames:
             if hasattr(module, name):
                 return getattr(module, name)
         return import_module(f"{where}.{name}")
+
+
+def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
+    """Names by module that a package gives away, from the lines ``from .module import names`` of its ``stub``."""
+    lines = re.findall(r"^from \.(\S+) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
+    return {module: tuple(re.findall(r"\w+", several or one)) for module, several, one in lines}
 
 
 class Shown:

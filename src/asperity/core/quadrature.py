@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Callable
@@ -11,21 +12,17 @@ import numpy as np
 from .arrays import RealArray
 
 
+@functools.cache
+def _rule(nodes: int) -> tuple[RealArray, RealArray]:
+    return np.polynomial.legendre.leggauss(nodes)
+
+
 def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
-    """Gauss-Legendre nodes and weights on the panels between ``breaks``.
+    """Gauss-Legendre nodes and weights, (…, n · nodes) each, on the panels between ``breaks``, ``nodes`` in each panel.
 
-    Parameters
-    ----------
-    breaks
-        (…, n + 1) ends of the panels, not falling along the last axis; a panel of no width contributes nothing.
-    nodes
-        Nodes in each panel.
-
-    Returns
-    -------
-    (…, n · nodes) nodes and weights.
+    ``breaks`` (…, n + 1) do not fall along the last axis; a panel of no width contributes nothing.
     """
-    x, w = np.polynomial.legendre.leggauss(nodes)
+    x, w = _rule(nodes)
     low, high = breaks[..., :-1, None], breaks[..., 1:, None]
     half = 0.5 * (high - low)
     shape = (*breaks.shape[:-1], -1)

@@ -20,6 +20,8 @@ def finite(value: float, what: str, fix: str = "") -> float:
     if isinstance(value, str):
         raise InputError(_sentence(what, "a number", value, "Python takes SI numbers, such as 50e6 for 50 MPa."))
     try:
+        if isinstance(value, str | bytes | bool | np.bool_):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise InputError(_sentence(what, "a number", value, fix)) from None

@@ -12,8 +12,9 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.citations import reference
 from ..core.parameters import Parameter, parameters
+from ..core.quantity import Quantity
 from ..surfaces.characterise.summary import Characterisation
-from ..theories.ask import Evaluation, numbers_of, ways_of
+from ..theories.ask import Evaluation, ways_of
 from ..theories.protocol import Described
 from .atomic import atomic_file
 
@@ -30,9 +31,9 @@ def answer_record(found: Evaluation) -> dict[str, Any]:
             item.name: {"value": _input(item, getattr(theory, item.name)), "unit": item.unit}
             for item in parameters(type(theory))
         },
-        "numbers": {column.name: {"value": _plain(value), "unit": column.unit} for column, value in found.numbers},
+        "numbers": {column.name: {"value": _plain(value), "unit": _unit(column)} for column, value in found.numbers},
         "columns": {
-            column.name: {"unit": column.unit, "meaning": column.meaning, "values": [_plain(v) for v in values]}
+            column.name: {"unit": _unit(column), "meaning": column.label, "values": [_plain(v) for v in values]}
             for column, values in found.columns
         },
         "limits": [
@@ -42,6 +43,7 @@ def answer_record(found: Evaluation) -> dict[str, Any]:
                 "high": _plain(limit.high),
                 "values": [_plain(v) for v in limit.value],
                 "holds": [bool(v) for v in limit.holds],
+                "of": list(limit.of),
                 "message": limit.message,
                 "source": reference(limit.citation),
             }
@@ -72,7 +74,7 @@ def catalogue_record(kind: type[Described]) -> dict[str, Any]:
             {"along": way.axis.name, "unit": way.axis.unit, "given": [item.name for item in way.given]}
             for way in ways_of(kind)
         ],
-        "numbers": [column.name for column in numbers_of(kind)],
+        "numbers": [column.name for column in kind.numbers],
         "from_surface": hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness"),
         "sources": [reference(key) for key in kind.citation_keys],
     }
@@ -92,13 +94,17 @@ def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) 
         writer = csv.writer(file)
         if not found.columns:
             writer.writerow(("name", "value", "unit", "meaning"))
-            writer.writerows((column.name, value, column.unit, column.meaning) for column, value in found.numbers)
+            writer.writerows((column.name, value, _unit(column), column.label) for column, value in found.numbers)
             return
-        units = [f"{column.name} ({column.unit})" if column.unit else column.name for column, _ in found.columns]
+        units = [f"{column.name} ({column.unit})" if _unit(column) else column.name for column, _ in found.columns]
         writer.writerow((*units, "valid"))
         valid = np.all([np.broadcast_to(limit.holds, found.columns[0][1].shape) for limit in found.limits], axis=0)
         valid = np.broadcast_to(valid, found.columns[0][1].shape)
         writer.writerows(zip(*(values.tolist() for _, values in found.columns), valid.tolist(), strict=True))
+
+
+def _unit(quantity: Quantity) -> str:
+    return "" if quantity.unit == "1" else quantity.unit
 
 
 def _plain(value: float) -> float | None:

@@ -61,6 +61,10 @@ LARGEST_DEVIATION = 1.0
 """Deviation beyond which the axis of deviations ends."""
 
 
+VALID_BY = {"gap": "gap_valid"}
+"""Variable with the loads at which a theory holds, for quantities with another one than the area."""
+
+
 def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
     """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both logarithmic."""
     _draw(data, "area_fraction", ax)
@@ -155,7 +159,10 @@ def _draw(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0, again
     x = _pressure(data) if against is None else against
     for number, theory in enumerate(data["theory"].values):
         row = data.sel(theory=theory)
-        values, valid = _values(row[name]) / unit, np.asarray(row["valid"].values, dtype=bool)
+        values, valid = (
+            _values(row[name]) / unit,
+            np.asarray(row[VALID_BY.get(name, "area_fraction_valid")].values, dtype=bool),
+        )
         if not np.isfinite(values).any():
             continue
         look: dict[str, Any] = {

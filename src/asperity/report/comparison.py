@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from operator import itemgetter
 from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import RealArray
 from ..core.citations import REFERENCES
 from ..core.units import percent, show
 from ..io.atomic import atomic_file
@@ -36,12 +36,18 @@ def comparison_sentence(comparison: Comparison) -> str:
     text += (
         f", beside the boundary-element solution ({comparison.numerical.solver}, {comparison.numerical.seconds:.2g} s)."
     )
-    everywhere = [curve.name for curve in comparison.curves if np.isfinite(comparison.deviation(curve.name)).all()]
-    ranked = [(_root_mean_square(comparison.deviation(name)), name) for name in everywhere]
+    ranked = [
+        (_rms(comparison, curve), curve)
+        for curve in comparison.curves
+        if 2 * np.count_nonzero(curve.valid & np.isfinite(comparison.deviation(curve.name))) >= p.size
+    ]
     if not ranked:
-        return text
-    off, best = min(ranked)
-    return f"{text} Over all loads {best} comes nearest: its area is off by {percent(off, 2)} (rms)."
+        return f"{text} No theory holds at half of the loads."
+    off, best = min(ranked, key=itemgetter(0))
+    return (
+        f"{text} Of the theories that hold at half of the loads or more {best.name} comes nearest where it holds "
+        f"({_range(comparison, best)}): its area is off by {percent(off, 2)} (rms)."
+    )
 
 
 def setup_rows(comparison: Comparison) -> Rows:
@@ -57,10 +63,8 @@ def setup_rows(comparison: Comparison) -> Rows:
         ("Nayak's parameter α", f"{roughness.alpha:.4g}"),
         ("skewness, kurtosis of the heights", f"{roughness.skewness:.3g}, {roughness.kurtosis:.3g}"),
     ]
-    if roughness.moments is not None:
-        steep, gentle = roughness.moments.principal_slopes
-        ratio = steep / gentle if gentle > 0.0 else math.inf
-        rows.append(("ratio of the principal mean square slopes", f"{ratio:.3g}"))
+    if roughness.anisotropy is not None:
+        rows.append(("ratio of the principal mean square slopes", f"{roughness.anisotropy:.3g}"))
     if roughness.summits is not None:
         summits = roughness.summits
         rows.append(("summits", f"{summits.count}, {show(summits.density, '1/m**2', 3)}"))
@@ -71,7 +75,8 @@ def setup_rows(comparison: Comparison) -> Rows:
 def slope_table(comparison: Comparison) -> Table:
     """κ and deviation of the area of every theory at the lowest, a middle and the highest load, and where it holds.
 
-    The last columns are root mean squares over the loads at which the theory holds, the gap in rms heights σ.
+    The last columns are root mean squares over the loads at which the theory holds for the quantity, the gap in rms heights
+    σ, and the loads at which it holds for the area.
     """
     at = sorted({0, comparison.pressures.size // 2, comparison.pressures.size - 1})
     loads = [show(float(comparison.pressures[number]), "Pa", 3) for number in at]
@@ -117,19 +122,19 @@ def _theory_cells(comparison: Comparison, curve: TheoryCurve, at: list[int]) -> 
     deviations = comparison.deviation(curve.name)
     solved = comparison.numerical is not None
     shown = deviations if solved else curve.prediction.area_fraction
-    gap = _rms(comparison.deviation(curve.name, "gap"), curve)
+    gap = _rms(comparison, curve, "gap")
     return (
         curve.name,
         *(_number(kappas[number]) for number in at),
         *(_share(shown[number], signed=solved) for number in at),
-        _share(_rms_where_valid(comparison, curve)),
+        _share(_rms(comparison, curve)),
         NONE if math.isnan(gap) else f"{gap:.2g}",
         _range(comparison, curve),
     )
 
 
 def _range(comparison: Comparison, curve: TheoryCurve) -> str:
-    """At which of the loads all limits of the theory hold."""
+    """At which of the loads all limits of the theory hold that concern the area."""
     inside = np.flatnonzero(curve.valid)
     if inside.size == 0:
         return "nowhere"
@@ -141,16 +146,11 @@ def _range(comparison: Comparison, curve: TheoryCurve) -> str:
     return f"from {low}" if inside[-1] == curve.valid.size - 1 else f"{low} to {high}"
 
 
-def _rms_where_valid(comparison: Comparison, curve: TheoryCurve) -> float:
-    return _rms(comparison.deviation(curve.name), curve)
-
-
-def _rms(deviations: RealArray, curve: TheoryCurve) -> float:
-    return _root_mean_square(deviations[curve.valid & np.isfinite(deviations)])
-
-
-def _root_mean_square(deviations: RealArray) -> float:
-    return float(np.sqrt(np.mean(deviations**2))) if deviations.size else math.nan
+def _rms(comparison: Comparison, curve: TheoryCurve, quantity: str = "area_fraction") -> float:
+    """Root mean square of the deviations of ``quantity`` at the loads where the theory holds for it."""
+    deviations = comparison.deviation(curve.name, quantity)
+    inside = deviations[curve.valid_for[quantity] & np.isfinite(deviations)]
+    return float(np.sqrt(np.mean(inside**2))) if inside.size else math.nan
 
 
 def _number(value: float) -> str:

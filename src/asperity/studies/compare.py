@@ -158,14 +158,13 @@ def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve |
     from ..theories.rough.interacting_crests import InteractingCrests
 
     checked = check(theory, found, context.roughness)
-    valid = np.zeros(loads.size, dtype=bool)
-    valid[: len(found)] = checked.valid
+    beyond = np.zeros(loads.size - len(found), dtype=bool)
     return TheoryCurve(
         name=name,
         title=theory.title,
         family=family(theory),
         prediction=_filled(found, loads),
-        valid=valid,
+        valid_for={name: np.concatenate([holds, beyond]) for name, holds in checked.valid_for.items()},
         notes=(*first_notes, *((reason,) if reason else ()), *checked.notes),
         comparable_gap=not (context.periodic and isinstance(theory, InteractingCrests)),
         citation_keys=tuple(theory.citation_keys),
@@ -217,5 +216,7 @@ def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None
 def _filled(found: Prediction, loads: RealArray) -> Prediction:
     """``found`` at all ``loads``, NaN behind its last one."""
     beyond = np.full(loads.size - len(found), np.nan)
-    values = {name: np.concatenate([getattr(found, name), beyond]) for name, _, _ in QUANTITIES}
+    values = {
+        name: np.concatenate([getattr(found, name), beyond]) for name in (quantity.name for quantity in QUANTITIES)
+    }
     return Prediction(**values | {"pressure": loads})

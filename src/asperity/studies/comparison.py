@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
@@ -33,8 +34,8 @@ class TheoryCurve:
         Name in the comparison, title, and ``elastic``, ``elastic-plastic`` or ``adhesive``.
     prediction
         Its prediction at every load, NaN where it has none.
-    valid
-        (n,) where all its limits hold.
+    valid_for
+        (n,) where the limits hold that concern ``area_fraction``, ``contact_density`` and ``gap``.
     notes
         Where it leaves its limits, and by which numbers.
     comparable_gap
@@ -47,10 +48,15 @@ class TheoryCurve:
     title: str
     family: str
     prediction: Prediction
-    valid: BoolArray
+    valid_for: Mapping[str, BoolArray]
     notes: tuple[str, ...]
     comparable_gap: bool
     citation_keys: tuple[str, ...]
+
+    @property
+    def valid(self) -> BoolArray:
+        """(n,) where all limits hold that concern the area."""
+        return self.valid_for["area_fraction"]
 
     @property
     def gap(self) -> RealArray:
@@ -184,16 +190,18 @@ def _dataset(comparison: Comparison) -> xarray.Dataset:
 
     curves = comparison.curves
     variables: dict[str, Any] = {}
-    for name, unit, meaning in QUANTITIES[1:]:
-        values = [getattr(curve.prediction, name) for curve in curves]
-        variables[name] = _of_theories(comparison, values, unit, meaning)
+    for quantity in QUANTITIES[1:]:
+        values = [getattr(curve.prediction, quantity.name) for curve in curves]
+        variables[quantity.name] = _of_theories(comparison, values, quantity.unit, quantity.label)
     gaps = [curve.gap for curve in curves]
     variables["gap"] = _of_theories(comparison, gaps, "m", "mean gap, or separation where the theory defines no gap")
     for name, meaning in _DERIVED.items():
         values = [getattr(comparison, name)(curve.prediction.area_fraction) for curve in curves]
         variables[name] = _of_theories(comparison, values, "1", meaning)
-    valid = np.array([curve.valid for curve in curves]).reshape(len(curves), comparison.pressures.size)
-    variables["valid"] = (("theory", "pressure"), valid, _labels("1", "whether all limits of the theory hold"))
+    for name in _EXACT:
+        valid = np.array([curve.valid_for[name] for curve in curves]).reshape(len(curves), comparison.pressures.size)
+        label = f"whether all limits of the theory hold that concern {name}"
+        variables[f"{name}_valid"] = (("theory", "pressure"), valid, _labels("1", label))
     if comparison.numerical is not None:
         variables |= _numerical_variables(comparison, comparison.numerical)
     pressures = comparison.pressures
@@ -255,7 +263,7 @@ def _attributes(comparison: Comparison) -> dict[str, Any]:
 
 def _of_theories(comparison: Comparison, rows: list[RealArray], unit: str, label: str) -> Any:
     values = np.array(rows, dtype=float).reshape(len(rows), comparison.pressures.size)
-    return ("theory", "pressure"), values, _labels(unit or "1", label)
+    return ("theory", "pressure"), values, _labels(unit, label)
 
 
 def _labels(unit: str, label: str) -> dict[str, str]:

@@ -31,6 +31,8 @@ COLUMNS = (
     "area_fraction_deviation",
     "contact_density_deviation",
     "gap_deviation (rms heights)",
+    "gap_valid",
+    "contact_density_valid",
 )
 """Head of the table."""
 
@@ -69,15 +71,21 @@ def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
             solved.mean_gap,
             solved.contact_density,
             np.isfinite(solved.mean_gap),
-            nothing,
-            nothing,
-            nothing,
+            *(3 * [nothing]),
+            *(2 * [np.isfinite(solved.mean_gap)]),
         )
         yield from _curve_rows(comparison, NUMERICAL, areas, rest)
     for curve in comparison.curves:
         deviations = [comparison.deviation(curve.name, name) for name in ("area_fraction", "contact_density", "gap")]
         areas = (curve.prediction.area_fraction, nothing)
-        rest = (curve.gap, curve.prediction.contact_density, curve.valid, *deviations)
+        rest = (
+            curve.gap,
+            curve.prediction.contact_density,
+            curve.valid,
+            *deviations,
+            curve.valid_for["gap"],
+            curve.valid_for["contact_density"],
+        )
         yield from _curve_rows(comparison, curve.name, areas, rest)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,52 +15,35 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import AsperityError
 from ..core.units import show
 from ..solids.layers import Layered
-from ..theories.limits import constant_limit
-from ..theories.protocol import Limit, Prediction, SurfaceTheory
+from ..theories.protocol import Limit, Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness
 from .comparison_theories import family
-
-ISOTROPIC = ("mccool", "bush-gibson-thomas", "greenwood-elliptic", "greenwood-tripp", "persson")
-"""Theories of isotropic surfaces that are made from moments or the radial spectrum, blind to direction."""
-
-ANISOTROPY = 2.0
-"""Ratio of the principal mean square slopes up to which mean moments put the area of high summits off by less than 2 %
-(Bush, Gibson & Keogh 1979: 1.3 % at 2, 6 % at 5, 11 % at 10)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """Where all limits of a theory hold, (n,), and one sentence for each that is left somewhere."""
+    """Where the limits of a theory hold that concern a quantity, (n,) each, and one sentence for each that is left somewhere."""
 
-    valid: BoolArray
+    valid_for: Mapping[str, BoolArray]
     notes: tuple[str, ...]
 
 
 def check(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> Checked:
-    """Limits of ``theory`` along its ``prediction``, with the isotropy that it takes for granted."""
+    """Limits of ``theory`` along its ``prediction``, those on what was measured included."""
+    names = {"area_fraction": "area_fraction", "contact_density": "contact_density"}
+    names["gap"] = "mean_gap" if np.isfinite(prediction.mean_gap).any() else "separation"
     try:
-        limits = (*theory.validity(prediction), *_isotropy(theory, prediction, roughness))
+        own = isinstance(theory, Theory)
+        limits = theory.validity(prediction, roughness) if own else theory.validity(prediction)  # type: ignore[call-arg]
     except AsperityError as error:  # a theory that has to solve again for its limits
-        return Checked(np.zeros(len(prediction), dtype=bool), (f"Its limits could not be checked: {error}",))
-    valid: BoolArray = np.ones(len(prediction), dtype=bool)
+        nowhere = np.zeros(len(prediction), dtype=bool)
+        return Checked(dict.fromkeys(names, nowhere), (f"Its limits could not be checked: {error}",))
+    valid = {name: np.ones(len(prediction), dtype=bool) for name in names}
     for limit in limits:
-        valid &= limit.holds
+        for name, quantity in names.items():
+            if limit.concerns(quantity):
+                valid[name] &= limit.holds
     return Checked(valid, tuple(_sentence(limit, prediction.pressure) for limit in limits if not limit.holds.all()))
-
-
-def _isotropy(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> tuple[Limit, ...]:
-    if theory.name not in ISOTROPIC or roughness.moments is None:
-        return ()
-    steep, gentle = roughness.moments.principal_slopes
-    isotropy = constant_limit(
-        "ratio of the principal mean square slopes",
-        steep / gentle if gentle > 0.0 else math.inf,
-        (1.0, ANISOTROPY),
-        prediction=prediction,
-        citation="Bush1979",
-        message="The surface is anisotropic, and the theory uses the mean over all directions only.",
-    )
-    return (isotropy,)
 
 
 def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
@@ -120,7 +104,8 @@ def _sentence(limit: Limit, pressures: RealArray) -> str:
     outside = ~limit.holds
     value = limit.value[outside]
     finite = value[np.isfinite(value)]
-    worst = float(finite[np.argmax(np.abs(finite - _nearest(limit)))]) if finite.size else math.nan
+    end = limit.high if math.isfinite(limit.high) else limit.low  # from which excess is measured
+    worst = float(finite[np.argmax(np.abs(finite - end))]) if finite.size else math.nan
     if outside.all():
         where = "at every load"
     elif outside[-1] and outside[: int(np.argmax(outside))].sum() == 0 and outside[int(np.argmax(outside)) :].all():
@@ -129,17 +114,4 @@ def _sentence(limit: Limit, pressures: RealArray) -> str:
         where = f"below {show(float(pressures[int(np.argmin(outside))]), 'Pa', 3)}"
     else:
         where = f"at {int(outside.sum())} of {outside.size} loads"
-    return f"{limit.criterion} {worst:.3g}, not {_bounds(limit)}, {where}: {limit.message} [{limit.citation}]"
-
-
-def _nearest(limit: Limit) -> float:
-    """A bound from which excess is measured."""
-    return limit.high if math.isfinite(limit.high) else limit.low
-
-
-def _bounds(limit: Limit) -> str:
-    if not math.isfinite(limit.low) or (limit.low == 0.0 and math.isfinite(limit.high)):
-        return f"at most {limit.high:.3g}"
-    if not math.isfinite(limit.high):
-        return f"at least {limit.low:.3g}"
-    return f"{limit.low:.3g} to {limit.high:.3g}"
+    return f"{limit.criterion} {worst:.3g}, not {limit.bounds}, {where}: {limit.message} [{limit.citation}]"

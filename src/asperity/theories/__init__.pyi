@@ -20,22 +20,22 @@ from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,
     ChangEtsionBogySphere,
+    ElasticPlasticSummits,
     JacksonGreen,
     JacksonGreenSphere,
     KogutEtsion,
     KogutEtsionSphere,
 )
-from .rough.elastic_plastic_summits import ElasticPlasticSummits
 from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
 from .rough.greenwood_williamson import (
     FittedGreenwoodWilliamson,
     GreenwoodTripp,
     GreenwoodWilliamson,
+    KotwalBhushan,
     plastic_area_share,
     separation_at_plastic_onset,
 )
 from .rough.interacting_crests import InteractingCrests
-from .rough.kotwal_bhushan import KotwalBhushan, PearsonHeights
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
@@ -58,6 +58,7 @@ from .statistics.heights import (
     GaussianHeights,
     HistogramHeights,
     LaplaceHeights,
+    PearsonHeights,
     TriangularHeights,
     UniformHeights,
 )

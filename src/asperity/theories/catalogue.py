@@ -22,9 +22,13 @@ from .rough.elastic_plastic_laws import (
     KogutEtsionSphere,
 )
 from .rough.elliptic_summits import AnisotropicSummits, BushGibsonThomas, GreenwoodElliptic, McCool
-from .rough.greenwood_williamson import FittedGreenwoodWilliamson, GreenwoodTripp, GreenwoodWilliamson
+from .rough.greenwood_williamson import (
+    FittedGreenwoodWilliamson,
+    GreenwoodTripp,
+    GreenwoodWilliamson,
+    KotwalBhushan,
+)
 from .rough.interacting_crests import InteractingCrests
-from .rough.kotwal_bhushan import KotwalBhushan
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
@@ -135,11 +139,8 @@ def nearest(name: str) -> list[str]:
     found = [
         known
         for known, kind in THEORIES.items()
-        if word and (word in known or squeezed in (_initials(known), kind.__name__.lower()))
+        if word
+        and (word in known or squeezed in ("".join(part[0] for part in known.split("-")), kind.__name__.lower()))
     ]
     found += difflib.get_close_matches(word, THEORIES, n=3, cutoff=0.6)
     return list(dict.fromkeys(found))[:3]
-
-
-def _initials(name: str) -> str:
-    return "".join(part[0] for part in name.split("-"))

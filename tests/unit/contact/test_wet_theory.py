@@ -10,7 +10,7 @@ import pytest
 from contact_cases import wetted
 
 import asperity as asp
-from asperity.theories.rough.kotwal_bhushan import KotwalBhushan
+from asperity.theories.rough.greenwood_williamson import KotwalBhushan
 from asperity.theories.wet.summits import StatisticalMeniscus
 
 NM = 1e-9

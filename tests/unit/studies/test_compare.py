@@ -14,6 +14,7 @@ from contact_cases import TIGHT, elastic
 from scipy.special import erf
 
 import asperity as asp
+from asperity.report.comparison import comparison_sentence
 from asperity.surfaces import generate
 from asperity.theories import Limit, Prediction, Westergaard, theory
 from asperity.theories.protocol import prediction
@@ -178,11 +179,38 @@ def test_an_anisotropic_surface_is_noted_with_its_ratio(film):
     found = asp.compare(stretched, STEEL, 1e7, theories=["persson", "mccool", "discrete-summits"], numerical=False)
     steep, gentle = found.roughness.moments.principal_slopes
     for name in ("persson", "mccool"):
-        assert f"principal mean square slopes {steep / gentle:.3g}, not 1 to 2" in " ".join(found.curve(name).notes)
+        assert f"principal mean square slopes {steep / gentle:.3g}, not from 1 to 2" in " ".join(found.curve(name).notes)
         assert not found.curve(name).valid.any()
     assert "principal" not in " ".join(found.curve("discrete-summits").notes)
     alike = asp.compare(film, STEEL, 1e7, theories=["mccool"], numerical=False).curves[0]
     assert "principal" not in " ".join(alike.notes)
+
+
+def test_limits_belong_to_quantities(compared):
+    """Persson's range of loads is that of the gap, and theories that are far off in the area do not hold for it."""
+    persson = compared.curve("persson")
+    relative = compared.pressures / (compared.E_star * compared.roughness.rms_gradient)
+    np.testing.assert_array_equal(persson.valid_for["gap"], (relative >= 0.01) & (relative <= 0.2))
+    assert persson.valid.all()
+    assert any("for mean gap and stiffness only" in note for note in persson.notes)
+    data = compared.dataset
+    np.testing.assert_array_equal(data["gap_valid"].sel(theory="persson"), persson.valid_for["gap"])
+    np.testing.assert_array_equal(data["area_fraction_valid"].sel(theory="persson"), persson.valid)
+    crowded = compared.curve("bush-gibson-thomas")
+    np.testing.assert_array_equal(crowded.valid_for["gap"], crowded.prediction.area_fraction <= 0.1)
+    onions = compared.curve("onions-archard")  # its ordinates leave out most of the slope
+    assert not onions.valid.any()
+    assert np.abs(compared.deviation("onions-archard")).min() > 1.0
+
+
+def test_the_nearest_theory_is_chosen_where_it_holds(film):
+    loads = np.array([1.0, 2.0, 3.0, 4.0]) * 1e8
+    crowded = Proportional(300.0)  # beyond its limit of 5 % but for the lowest load or none
+    found = asp.compare(film, STEEL, loads, theories=[crowded, "persson"])
+    text = comparison_sentence(found)
+    assert "persson comes nearest where it holds (everywhere)" in text
+    alone = asp.compare(film, STEEL, loads, theories=[crowded])
+    assert "No theory holds at half of the loads." in comparison_sentence(alone)
 
 
 def test_interacting_crests_stop_at_the_number_of_contacts(film):

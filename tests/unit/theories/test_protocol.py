@@ -10,7 +10,7 @@ from asperity.theories.protocol import QUANTITIES, Limit, Prediction, checked, c
 
 
 def test_every_field_of_a_prediction_has_its_unit():
-    assert [name for name, _, _ in QUANTITIES] == list(Prediction.__dataclass_fields__)
+    assert [quantity.name for quantity in QUANTITIES] == list(Prediction.__dataclass_fields__)
 
 
 def test_what_a_theory_does_not_define_is_nan():

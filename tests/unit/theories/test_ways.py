@@ -9,7 +9,7 @@ import asperity as asp
 from asperity.core.citations import reference
 from asperity.core.parameters import parameters
 from asperity.theories import FAMILIES, THEORIES, evaluate, theory
-from asperity.theories.ask import numbers_of, ways_of
+from asperity.theories.ask import ways_of
 from asperity.theories.catalogue import nearest
 
 SUMMITS = {"E_star": 1e11, "density": 1e12, "radius": 1e-6, "height_deviation": 1e-8}
@@ -130,7 +130,7 @@ def test_every_way_of_every_theory_answers(name, way):
     assert len(found.columns) > 1
     for column, numbers in found.columns:
         assert numbers.shape == values.shape
-        assert column.meaning
+        assert column.label
         assert not np.isnan(numbers).all()
     for limit in found.limits:
         assert np.broadcast_to(limit.value, values.shape).shape == values.shape
@@ -140,16 +140,16 @@ def test_every_way_of_every_theory_answers(name, way):
 @pytest.mark.parametrize("name", THEORIES)
 def test_every_theory_can_be_asked_and_cited(name):
     kind = theory(name)
-    assert ways_of(kind) or numbers_of(kind)
+    assert ways_of(kind) or kind.numbers
     names = [item.name for item in parameters(kind)]
     axes = {item.name for way in ways_of(kind) for item in (way.axis, *way.given)}
     assert not axes & set(names), "an option cannot be both"
     model = made(name)
     assert asp.cite(model) == asp.cite(kind)
     assert all(f"[{key}]" in asp.cite(model) for key in kind.citation_keys)
-    if numbers_of(kind):
+    if kind.numbers:
         found = evaluate(model)
-        assert len(found.numbers) == len(numbers_of(kind))
+        assert len(found.numbers) == len(kind.numbers)
         assert all(np.isfinite(value) for _, value in found.numbers)
         assert found.columns == ()
 
@@ -160,7 +160,38 @@ def test_the_families_hold_every_theory_once():
     assert list(EXAMPLES) == list(THEORIES)
 
 
-def test_an_answer_is_what_the_theory_says():
+NO_NUMBERS = (
+    "1MPa",
+    "1",
+    b"1",
+    ["1"],
+    None,
+    True,
+    1j,
+    {},
+    {1.0},
+    object(),
+    [[1.0], [1.0, 2.0]],
+    np.datetime64("2026-01-01"),
+)
+
+
+def test_no_theory_takes_what_is_not_a_number():
+    """Every argument of every way of the catalogue: text, truth values, complex numbers and other things are refused."""
+    taken = []
+    for name, way in WAYS:
+        arguments = {item.name: 1.0 if item.required else item.default for item in (way.axis, *way.given)}
+        for argument in arguments:
+            for wrong in NO_NUMBERS:
+                try:
+                    getattr(made(name), way.method)(**arguments | {argument: wrong})
+                except asp.InputError:
+                    continue
+                taken.append((name, argument, wrong))
+    assert taken == []
+
+
+def test_an_answer_is_that_of_the_theory():
     model = made("hertz")
     found = {column.name: values for column, values in evaluate(model, load=[1e-6, 1e-5]).columns}
     answer = model.at_load([1e-6, 1e-5])

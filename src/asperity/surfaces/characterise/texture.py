@@ -12,6 +12,9 @@ from ...core.arrays import RealArray
 from .correlation import DROP_ISO, Autocovariance
 from .spectrum import PowerSpectrum
 
+_TIE = (
+    1e-9  # a mode on the border of two sectors, or on the Nyquist circle, belongs to the same one whatever the rounding
+)
 _RAY_STEPS = 2  # samples per pixel along a ray
 _BLOCK = 1 << 20  # samples taken at once
 
@@ -88,10 +91,10 @@ def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
     qx, qy = spectrum.grid.wavevector()
     q = spectrum.grid.wavenumber()
     first = 0.0 if spectrum.window == "none" else 2.5 * 2.0 * np.pi / min(spectrum.grid.size)
-    inside = (q > first) & (q <= spectrum.nyquist)
+    inside = (q > first) & (q <= spectrum.nyquist * (1.0 + _TIE))
     count = int(np.clip(np.pi * min(spectrum.grid.shape) / 4.0, 4, 180))
     angle = np.mod(np.arctan2(np.broadcast_to(qy, q.shape)[inside], np.broadcast_to(qx, q.shape)[inside]), np.pi)
-    sector = np.minimum((angle * (count / np.pi) + 0.5).astype(int) % count, count - 1)
+    sector = np.minimum((angle * (count / np.pi) + 0.5 + _TIE).astype(int) % count, count - 1)
     power = np.bincount(sector, spectrum.psd[inside], count)
     modes = np.bincount(sector, minlength=count)
     density = power / np.maximum(modes, 1)

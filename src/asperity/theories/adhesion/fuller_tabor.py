@@ -11,19 +11,21 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
 from ...core.quadrature import gauss
+from ...core.quantity import Quantity
 from ...core.values import Choice, Length, Number
-from ..ask import Column
-from ..limits import area_limit, blunt_summits, constant_limit
 from ..protocol import (
+    BLUNT_SUMMITS,
+    FEW_CONTACTS,
+    Bound,
     HeightDeviation,
-    Limit,
     MeanHeight,
     Modulus,
     Prediction,
     SummitDensity,
     SummitRadius,
+    Theory,
     bisected,
     curve,
     prediction,
@@ -38,7 +40,7 @@ _JUMP_IN = 4.0 ** (2.0 / 3.0)  # a/ac of JKR at zero approach
 
 
 @dataclass(frozen=True)
-class FullerTabor(Declared):
+class FullerTabor(Theory):
     """Summits of one radius and Gaussian heights with JKR's adhesion at each.
 
     In units of the pull-off force P_c, extension δ_c and radius a_c of one summit, with Δ_c = δ_c/σ_s and D the
@@ -64,8 +66,20 @@ class FullerTabor(Declared):
     name: ClassVar[str] = "fuller-tabor"
     title: ClassVar[str] = "Fuller-Tabor"
     citation_keys: ClassVar[tuple[str, ...]] = ("Fuller1975", "Johnson1971")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("theta", "", "adhesion parameter: roughness wins for large values"),
+    limits: ClassVar[tuple[Bound, ...]] = (
+        FEW_CONTACTS,
+        BLUNT_SUMMITS,
+        Bound(
+            "Tabor's parameter of a summit",
+            lambda theory, answer: theory.sphere.tabor,
+            5.0,
+            math.inf,
+            "Tabor1977",
+            "Adhesion reaches beyond the contacts, which JKR leaves out.",
+        ),
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("theta", "1", "adhesion parameter: roughness wins for large values"),
     )
 
     @classmethod
@@ -91,6 +105,11 @@ class FullerTabor(Declared):
     def sphere(self) -> JKR:
         """One summit."""
         return JKR(self.E_star, self.radius, self.work, self.spacing)
+
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/R."""
+        return self.height_deviation / self.radius
 
     @property
     def reach(self) -> float:
@@ -150,18 +169,6 @@ class FullerTabor(Declared):
         x, _, weight = self._summits_at(np.asarray(D, dtype=float))
         load: RealArray = np.sum(weight * load_ratio(x), axis=-1)
         return load
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts on blunt summits, whose adhesion is JKR's."""
-        tabor = constant_limit(
-            "Tabor's parameter of a summit",
-            self.sphere.tabor,
-            (5.0, math.inf),
-            prediction=prediction,
-            citation="Tabor1977",
-            message="Adhesion reaches beyond the contacts, which JKR leaves out.",
-        )
-        return (area_limit(prediction), blunt_summits(prediction, self.summits.roughness_ratio), tabor)
 
     def _summits_at(self, D: RealArray) -> tuple[RealArray, RealArray, RealArray]:
         """Nodes x = a/a_c, their heights s, and weights of the mean over all summits; nothing has to be inverted in x."""

@@ -11,18 +11,17 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.parameters import Declared
+from ...core.quantity import Quantity
 from ...core.values import Length, Number, Pressure
-from ..ask import Column
-from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked
 from ..single.hertz import hertz_profile
 
 # Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975; Tabor 1977).
 
 
 ADHESION = (
-    Column("pull_off", "N", "force that separates the bodies"),
-    Column("tabor", "", "Tabor's parameter: JKR for large, DMT for small values"),
+    Quantity("pull_off", "N", "force that separates the bodies"),
+    Quantity("tabor", "1", "Tabor's parameter: JKR for large, DMT for small values"),
 )
 """Results of adhesive spheres that do not depend on the load."""
 
@@ -38,8 +37,15 @@ def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -
     return float(np.cbrt(radius * (work / E_star) ** 2) / require.positive(spacing, "equilibrium spacing (m)"))
 
 
+_ALLOWED = "Adhesion {}; MaugisDugdale allows for that."
+
+
+def _tabor(theory: JKR | DMT, answer: ContactAnswer) -> float:
+    return theory.tabor
+
+
 @dataclass(frozen=True)
-class JKR(Declared):
+class JKR(Theory):
     """Sphere with adhesion inside of the contact alone: P = Ka³/R - sqrt(6πwKa³), δ = a²/R - sqrt(2πwa/E*), K = 4E*/3.
 
     Loads may be negative down to the pull-off force -1.5πwR; approaches down to -δc (fixed grips).
@@ -58,7 +64,11 @@ class JKR(Declared):
     name: ClassVar[str] = "jkr"
     title: ClassVar[str] = "JKR, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1971", "Tabor1977")
-    numbers: ClassVar[tuple[Column, ...]] = ADHESION
+    limits: ClassVar[tuple[Bound, ...]] = (
+        Bound("Tabor's parameter", _tabor, 5.0, math.inf, "Tabor1977", _ALLOWED.format("reaches beyond the contact")),
+        CONTACT_RADIUS,
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = ADHESION
 
     @property
     def tabor(self) -> float:
@@ -130,12 +140,6 @@ class JKR(Declared):
         profile: RealArray = np.where(np.abs(np.asarray(r)) <= a, inside, 0.0)
         return profile
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Tabor's parameter >= 5 and small slopes."""
-        message = "Adhesion reaches beyond the contact; MaugisDugdale allows for that."
-        tabor = Limit("Tabor's parameter", np.full(answer.load.size, self.tabor), 5.0, math.inf, "Tabor1977", message)
-        return (tabor, small_slope("contact radius over radius of curvature", answer.radius / self.radius))
-
     def _central(self, a: RealArray) -> RealArray:
         with np.errstate(divide="ignore"):
             pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
@@ -171,7 +175,7 @@ def contact_ratio(approach: ArrayLike) -> RealArray:
 
 
 @dataclass(frozen=True)
-class DMT(Declared):
+class DMT(Theory):
     """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3."""
 
     E_star: Modulus
@@ -181,7 +185,13 @@ class DMT(Declared):
     name: ClassVar[str] = "dmt"
     title: ClassVar[str] = "DMT, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Derjaguin1975", "Tabor1977")
-    numbers: ClassVar[tuple[Column, ...]] = ADHESION
+    limits: ClassVar[tuple[Bound, ...]] = (
+        Bound(
+            "Tabor's parameter", _tabor, 0.0, 0.1, "Tabor1977", _ALLOWED.format("deforms the bodies around the contact")
+        ),
+        CONTACT_RADIUS,
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = ADHESION
 
     @property
     def tabor(self) -> float:
@@ -219,12 +229,6 @@ class DMT(Declared):
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa inside of the contact at the distance ``r`` in m (any shape): that of Hertz at P + 2πwR."""
         return hertz_profile(np.asarray(r, dtype=float), self.at_load(load))
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Tabor's parameter <= 0.1 and small slopes."""
-        message = "Adhesion deforms the bodies around the contact; MaugisDugdale allows for that."
-        tabor = Limit("Tabor's parameter", np.full(answer.load.size, self.tabor), 0.0, 0.1, "Tabor1977", message)
-        return (tabor, small_slope("contact radius over radius of curvature", answer.radius / self.radius))
 
 
 # Adhesive sphere between JKR and DMT: constant attraction over a finite range (Maugis 1992).
@@ -297,7 +301,7 @@ def _radius(lam: float, s: RealArray) -> RealArray:
 
 
 @dataclass(frozen=True)
-class MaugisDugdale(Declared):
+class MaugisDugdale(Theory):
     """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts."""
 
     E_star: Modulus
@@ -307,9 +311,10 @@ class MaugisDugdale(Declared):
     name: ClassVar[str] = "maugis-dugdale"
     title: ClassVar[str] = "Maugis-Dugdale, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Maugis1992",)
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("pull_off", "N", "force that separates the bodies"),
-        Column("transition", "", "parameter λ: DMT for small, JKR for large values"),
+    limits: ClassVar[tuple[Bound, ...]] = (CONTACT_RADIUS,)
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("pull_off", "N", "force that separates the bodies"),
+        Quantity("transition", "1", "parameter λ: DMT for small, JKR for large values"),
     )
 
     @property
@@ -359,10 +364,6 @@ class MaugisDugdale(Declared):
             max_pressure=2.0 / np.pi * self.E_star * a / self.radius - pull,
             stiffness=rise * unit_load / unit_approach,
         )
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Small slopes."""
-        return (small_slope("contact radius over radius of curvature", answer.radius / self.radius),)
 
     @property
     def _K(self) -> float:

@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Positive, Pressure
-from ..ask import Column, Way, asked
+from ..ask import Way, asked
+from ..protocol import Theory, checked
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +28,7 @@ class HardnessAnswer:
 
 
 @dataclass(frozen=True)
-class EffectiveHardness(Declared):
+class EffectiveHardness(Theory):
     """Hardness H_e of a film (1) of thickness h on a substrate (2), indented to the depth h_c.
 
     Soft film, H1 <= H2: H_e = H2 + (H1 - H2) exp[-(Y1/Y2)/(E1/E2) (h_c/h)²].
@@ -62,8 +64,8 @@ class EffectiveHardness(Declared):
             asked("depth_ratio", "", "depth of the indentation over the thickness of the film"),
             "at_depth_ratio",
             (
-                Column("hardness", "Pa", "hardness that the indenter meets"),
-                Column("film_share", "", "weight of the film, from one down to zero"),
+                Quantity("hardness", "Pa", "hardness that the indenter meets"),
+                Quantity("film_share", "1", "weight of the film, from one down to zero"),
             ),
         ),
     )
@@ -85,7 +87,7 @@ class EffectiveHardness(Declared):
 
     def film_share(self, depth_ratio: ArrayLike) -> RealArray:
         """Weight (H_e - H2)/(H1 - H2) of the film at h_c/h = ``depth_ratio`` (any shape, >= 0), from one down to zero."""
-        depth = _depth(depth_ratio)
+        depth = checked(depth_ratio, "depth of an indentation")
         hardness_ratio = self.film / self.substrate
         yield_ratio = hardness_ratio if self.yield_ratio is None else self.yield_ratio
         if hardness_ratio <= 1.0:
@@ -93,13 +95,6 @@ class EffectiveHardness(Declared):
             return soft
         hard: RealArray = np.exp(-hardness_ratio / (yield_ratio * self.modulus_ratio**0.5) * depth)
         return hard
-
-
-def _depth(values: ArrayLike) -> RealArray:
-    depth = np.asarray(values, dtype=float)
-    if depth.size and not depth.min() >= 0.0:
-        raise InputError(f"depth of an indentation must be at least zero, but is {depth.min():g}.")
-    return depth
 
 
 # Several coatings, treated successively as films on substrates.

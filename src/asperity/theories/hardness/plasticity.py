@@ -6,15 +6,15 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
-from ..ask import Column, Way, asked
-from ..protocol import HeightDeviation, Modulus, PoissonOfSolid, SummitRadius, poissons_ratio
+from ..ask import Way, asked
+from ..protocol import HeightDeviation, Modulus, PoissonOfSolid, SummitRadius, Theory, poissons_ratio, real_numbers
 from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
 from ..statistics.roughness import Roughness
 
@@ -96,7 +96,7 @@ class PlasticShares:
 
 
 @dataclass(frozen=True)
-class PlasticityIndex(Declared):
+class PlasticityIndex(Theory):
     """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and
     what flows.
 
@@ -114,19 +114,19 @@ class PlasticityIndex(Declared):
     name: ClassVar[str] = "plasticity-index"
     title: ClassVar[str] = "Plasticity indices of summits"
     citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987", "Greenwood1966")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("index", "", "ψ of Greenwood & Williamson: below 0.6 elastic, above 1 plastic"),
-        Column("critical_index", "", "ψ_c of Chang, Etsion & Bogy: from first yield"),
-        Column("nominal_interference", "m", "R (H/E*)²"),
-        Column("critical_interference", "m", "displacement at first yield"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("index", "1", "ψ of Greenwood & Williamson: below 0.6 elastic, above 1 plastic"),
+        Quantity("critical_index", "1", "ψ_c of Chang, Etsion & Bogy: from first yield"),
+        Quantity("nominal_interference", "m", "R (H/E*)²"),
+        Quantity("critical_interference", "m", "displacement at first yield"),
     )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("D", "", "separation above the mean summit height in standard deviations"),
             "at_D",
             (
-                Column("area", "", "share of the elastic area on summits that flow"),
-                Column("number", "", "share of the contacts that flow"),
+                Quantity("area", "1", "share of the elastic area on summits that flow"),
+                Quantity("number", "1", "share of the contacts that flow"),
             ),
         ),
     )
@@ -170,12 +170,12 @@ class PlasticityIndex(Declared):
 
     def at_D(self, D: ArrayLike) -> PlasticShares:
         """What flows at the standardised separations ``D`` (n,), for Gaussian heights."""
-        places = np.asarray(D, dtype=float)
+        places = real_numbers(D, "separations over the standard deviation")
         return PlasticShares(plastic_area_share(places, self.index), plastic_number_share(places, self.index))
 
 
 @dataclass(frozen=True)
-class ProfilePlasticityIndex(Declared):
+class ProfilePlasticityIndex(Theory):
     """ψ = (E*/H)(σ/β*) of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45."""
 
     E_star: Modulus
@@ -185,7 +185,7 @@ class ProfilePlasticityIndex(Declared):
     name: ClassVar[str] = "profile-plasticity-index"
     title: ClassVar[str] = "Plasticity index of a profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
-    numbers: ClassVar[tuple[Column, ...]] = (Column("index", "", "ψ: below 0.25 elastic, above 0.45 plastic"),)
+    numbers: ClassVar[tuple[Quantity, ...]] = (Quantity("index", "1", "ψ: below 0.25 elastic, above 0.45 plastic"),)
 
     @classmethod
     def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:

@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Positive, Pressure
-from ..ask import PRESSURE, Column, Way, asked
-from ..protocol import curve
+from ..ask import PRESSURE, Way, asked
+from ..protocol import Theory, curve
 
 ELASTIC_INDEX = 0.6
 """Plasticity index ψ = (E*/H) sqrt(σ_s/R) below which a Gaussian rough contact is elastic at any realistic load."""
@@ -43,7 +44,7 @@ class LeastAreas:
 
 
 @dataclass(frozen=True)
-class LeastArea(Declared):
+class LeastArea(Theory):
     """Surface of the least real area that stays elastic: the area falls with E* sqrt(σ_s/R) until that reaches ψ H.
 
     A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both the real area and
@@ -63,24 +64,24 @@ class LeastArea(Declared):
     name: ClassVar[str] = "least-area"
     title: ClassVar[str] = "Design for the least area without plasticity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1984", "Bhushan1998", "Greenwood1966", "Onions1973")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("mean_real_pressure", "Pa", "real pressure of the designed surface"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("mean_real_pressure", "Pa", "real pressure of the designed surface"),
     )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             PRESSURE,
             "at_pressure",
             (
-                Column("elastic", "", "real per nominal area of the designed surface"),
-                Column("plastic", "", "real per nominal area if everything flowed"),
+                Quantity("elastic", "1", "real per nominal area of the designed surface"),
+                Quantity("plastic", "1", "real per nominal area if everything flowed"),
             ),
         ),
         Way(
             asked("E_star", "Pa", "contact modulus"),
             "at_modulus",
             (
-                Column("summit_ratio", "", "largest height deviation over radius of the summits"),
-                Column("profile_ratio", "", "largest rms height over correlation length"),
+                Quantity("summit_ratio", "1", "largest height deviation over radius of the summits"),
+                Quantity("profile_ratio", "1", "largest rms height over correlation length"),
             ),
         ),
     )

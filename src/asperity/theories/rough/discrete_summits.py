@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar, Self
 
 import numpy as np
@@ -12,11 +12,20 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared
 from ...core.values import Length, Number, Several, SignedLength
-from ..ask import separation_at
-from ..limits import area_limit, blunt_summits
-from ..protocol import ContactAnswer, Limit, Modulus, Prediction, curve, prediction, small_slope
+from ..protocol import (
+    BLUNT_SUMMITS,
+    FEW_CONTACTS,
+    Bound,
+    ContactAnswer,
+    Modulus,
+    Prediction,
+    SeparationTheory,
+    Theory,
+    curve,
+    prediction,
+    small_slope,
+)
 from ..single.hertz import HertzPoint
 from ..statistics.roughness import Roughness
 
@@ -27,7 +36,7 @@ _REACH = 4.0  # ranges of the heights below the lowest summit to which pressures
 
 
 @dataclass(frozen=True, eq=False)
-class DiscreteSummits(Declared):
+class DiscreteSummits(SeparationTheory):
     """Sums over the summits z_i > h of one map.
 
         A_r = π Σ R_i (z_i - h),  W = (4/3) E* Σ R_i^(1/2) (z_i - h)^(3/2).
@@ -47,6 +56,7 @@ class DiscreteSummits(Declared):
     name: ClassVar[str] = "discrete-summits"
     title: ClassVar[str] = "Greenwood-Williamson on the summits of the map"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966",)
+    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -83,22 +93,15 @@ class DiscreteSummits(Declared):
             stiffness=stiffness,
         )
 
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
+    @property
+    def roughness_ratio(self) -> float:
+        """Standard deviation of the heights over the mean radius."""
+        return float(self._z.std() / self._r.mean())
 
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or far beyond that at which all summits touch.
-        """
-        wanted = curve(pressure, "pressures (Pa)", positive=True)
+    @property
+    def _ends(self) -> tuple[float, float, float]:
         unit = float(np.ptp(self._z)) or float(self._r.mean())
-        low = float(self._z[-1]) - _REACH * unit
-        return self.at_separation(separation_at(wanted, self._law, low, self.highest, unit=unit))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts without elastic interaction, on blunt summits."""
-        return area_limit(prediction), blunt_summits(prediction, float(self._z.std() / self._r.mean()))
+        return float(self._z[-1]) - _REACH * unit, self.highest, unit
 
     @property
     def _z(self) -> RealArray:
@@ -132,7 +135,7 @@ ROUNDED_ONSET = 0.5  # peak over hardness at p_m = H/3, Bhushan's rounded first 
 
 
 @dataclass(frozen=True)
-class IdenticalAsperities(Declared):
+class IdenticalAsperities(Theory):
     """η equal spheres per area that share the load equally and do not interact: A_r ∝ p^(2/3)."""
 
     E_star: Modulus
@@ -144,6 +147,13 @@ class IdenticalAsperities(Declared):
     name: ClassVar[str] = "identical-asperities"
     title: ClassVar[str] = "Identical asperities"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Hertz1882")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        replace(FEW_CONTACTS, citation="Bhushan1998"),
+        small_slope(
+            "contact radius over radius of the asperities",
+            lambda theory, answer: np.sqrt(answer.area_fraction / (math.pi * theory.density)) / theory.radius,
+        ),
+    )
 
     @property
     def asperity(self) -> HertzPoint:
@@ -167,12 +177,6 @@ class IdenticalAsperities(Declared):
         """
         peak = ROUNDED_ONSET * require.positive(hardness, "hardness (Pa)")
         return self.density * float(self.asperity.at_peak(peak).load)
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, small against the radius."""
-        radius = np.sqrt(prediction.area_fraction / (math.pi * self.density))
-        slope = small_slope("contact radius over radius of the asperities", radius / self.radius)
-        return (area_limit(prediction, citation="Bhushan1998"), slope)
 
     def _prediction(self, answer: ContactAnswer, separation: RealArray | None = None) -> Prediction:
         touching = np.where(answer.area > 0.0, self.density, 0.0)

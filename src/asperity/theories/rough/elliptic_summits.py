@@ -3,64 +3,110 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
-from ...core.parameters import Declared
 from ...core.quadrature import gauss
-from ...core.values import Number, Positive
-from ..ask import separation_at
-from ..limits import area_limit, blunt_summits, gentle_slopes, isotropic_bandwidth
-from ..protocol import Limit, Modulus, Prediction, curve, prediction
+from ...core.values import Positive
+from ..protocol import (
+    BLUNT_SUMMITS,
+    FEW_CONTACTS,
+    GENTLE_SLOPES,
+    ISOTROPY,
+    Bound,
+    MeanSquareBend,
+    MeanSquareHeight,
+    MeanSquareSlope,
+    Modulus,
+    Prediction,
+    SeparationTheory,
+    curve,
+    prediction,
+)
 from ..single.hertz import Ellipse, ellipse, ellipse_of_curvatures
 from ..statistics.heights import GaussianHeights
-from ..statistics.nayak import NayakSummits
+from ..statistics.nayak import NARROWEST, ROUNDING, NayakSummits
 from ..statistics.roughness import MomentTensor, Roughness
 from .greenwood_williamson import GreenwoodWilliamson
+
+ISOTROPIC_BANDWIDTH = Bound(
+    "bandwidth alpha",
+    lambda theory, answer: theory.alpha,
+    NARROWEST * (1.0 - ROUNDING),
+    math.inf,
+    "Nayak1971",
+    "No isotropic Gaussian surface has such moments; the map is anisotropic, not Gaussian or not resolved.",
+)
+
+
+class _OfMoments(SeparationTheory):
+    """Base of theories that are made from the moments of an isotropic Gaussian surface."""
+
+    E_star: float
+    m0: float
+    m2: float
+    m4: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _ = self._nayak  # moments that no isotropic surface has
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
+        """Theory for the moments of ``roughness``."""
+        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)  # type: ignore[call-arg]
+
+    @cached_property
+    def _nayak(self) -> NayakSummits:
+        """Statistics of the summits."""
+        return NayakSummits(self.m0, self.m2, self.m4)
+
+    @property
+    def alpha(self) -> float:
+        """Nayak's bandwidth parameter m0 m4/m2²."""
+        return self.m0 * self.m4 / self.m2**2
+
+    @property
+    def rms_gradient(self) -> float:
+        """sqrt(2 m2)."""
+        return math.sqrt(2.0 * self.m2)
+
 
 # McCool (1986): the theory of Greenwood & Williamson with the summits of a Gaussian surface of given moments.
 
 
 @dataclass(frozen=True)
-class McCool(Declared):
+class McCool(_OfMoments):
     """Greenwood and Williamson with η, R, σ_s and z̄_s of Nayak's summits and Gaussian heights (McCool 1986).
 
     Every summit has the mean curvature, although the highest are the sharpest: for narrow spectra the area at light load
-    is too large (α = 2: by 38 % at a separation of three standard deviations), and it has no linear limit.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive or m0 m4/m2² < 1.5.
+    is too large (α = 2: by 38 % at a separation of three standard deviations), and it has no linear limit. InputError if
+    m0 m4/m2² < 1.5.
     """
 
     E_star: Modulus
-    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
-    m2: Annotated[Positive, "mean square slope of a profile"]
-    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
+    m0: MeanSquareHeight
+    m2: MeanSquareSlope
+    m4: MeanSquareBend
     name: ClassVar[str] = "mccool"
     title: ClassVar[str] = "Greenwood-Williamson with McCool's parameters"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "McCool1986", "Nayak1971")
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        self.equivalent()
-
-    @classmethod
-    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the moments of ``roughness``."""
-        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
+    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS, GENTLE_SLOPES, ISOTROPIC_BANDWIDTH, ISOTROPY)
 
     def equivalent(self) -> GreenwoodWilliamson:
         """The theory with summits of one radius that this one stands for."""
-        summits = NayakSummits(self.m0, self.m2, self.m4)
-        return GreenwoodWilliamson(
-            self.E_star, summits.density, summits.radius, summits.height_deviation, summits.mean_height
-        )
+        s = self._nayak
+        return GreenwoodWilliamson(self.E_star, s.density, s.radius, s.height_deviation, s.mean_height)
+
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/R."""
+        return self.equivalent().roughness_ratio
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
         """Prediction at separations (n,) in m from the mean plane of the surface."""
@@ -69,15 +115,6 @@ class McCool(Declared):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, see ``GreenwoodWilliamson.at_pressure``."""
         return self.equivalent().at_pressure(pressure)
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, blunt summits, gentle slopes, moments of an isotropic surface."""
-        return (
-            area_limit(prediction),
-            blunt_summits(prediction, self.equivalent().roughness_ratio),
-            gentle_slopes(prediction, math.sqrt(2.0 * self.m2)),
-            isotropic_bandwidth(prediction, self.m0 * self.m4 / self.m2**2),
-        )
 
 
 # Contacts on all summits of an isotropic Gaussian surface, with the two curvatures of each (Nayak 1971).
@@ -108,42 +145,32 @@ class SummitShapes:
     weights: RealArray
 
 
-def elliptic_shapes() -> SummitShapes:
-    """Each contact the ellipse of its summit, f_A and f_P as in ``Ellipse``."""
-    return _shapes(circles=False)
+class _OnSummits(_OfMoments):
+    """Base of theories of contacts on all summits, which differ by the shape of a contact: ``circles`` or ellipses.
 
-
-def circular_shapes() -> SummitShapes:
-    """Each contact a circle with the curvature sqrt(κ1 κ2): f_A = (1 - r²)^(-1/2), f_P = (1 - r²)^(-1/4)."""
-    return _shapes(circles=True)
-
-
-@dataclass(frozen=True, eq=False)
-class SummitContacts:
-    """The surface with moments ``m0`` (m²), ``m2``, ``m4`` (1/m²) and contacts of the given ``shapes``; ``E_star`` in Pa.
-
-    Raises
-    ------
-    InputError
-        If a moment is not positive or m0 m4/m2² < 1.5.
+    Circles have the curvature sqrt(κ1 κ2): f_A = (1 - r²)^(-1/2), f_P = (1 - r²)^(-1/4).
     """
 
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
-    shapes: SummitShapes
+    circles: ClassVar[bool]
+    limits: ClassVar[tuple[Bound, ...]] = (
+        replace(FEW_CONTACTS, citation="Carbone2008"),
+        GENTLE_SLOPES,
+        ISOTROPIC_BANDWIDTH,
+        ISOTROPY,
+    )
 
-    def __post_init__(self) -> None:
-        NayakSummits(self.m0, self.m2, self.m4)
+    @cached_property
+    def _shapes(self) -> SummitShapes:
+        return _shapes(circles=self.circles)
 
     @property
-    def alpha(self) -> float:
-        """Nayak's bandwidth parameter m0 m4/m2²."""
-        return self.m0 * self.m4 / self.m2**2
+    def _ends(self) -> tuple[float, float, float]:
+        unit = math.sqrt(self.m0)
+        return unit * _LOWEST, unit * _HIGHEST, unit
 
-    def at_separation(self, h: RealArray) -> Prediction:
-        """Prediction at separations ``h`` (n,) in m from the mean plane of the surface."""
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
         t, weight = self._curvatures(h)
         plain = weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
         shape = self._shape(t)
@@ -158,17 +185,6 @@ class SummitContacts:
             stiffness=stiffness,
         )
 
-    def at_pressure(self, pressure: RealArray) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa, positive.
-
-        Raises
-        ------
-        InputError
-            If a pressure is larger than at 12 standard deviations below the mean plane.
-        """
-        unit = math.sqrt(self.m0)
-        return self.at_separation(separation_at(pressure, self._law, unit * _LOWEST, unit * _HIGHEST, unit=unit))
-
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         t, weight = self._curvatures(h)
         plain = weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
@@ -180,24 +196,18 @@ class SummitContacts:
         return pressure, 1.5 * unit / math.sqrt(self.m0) * np.sum(weight * self._heights(h, t, 0.5), axis=-1)
 
     @property
-    def _rho(self) -> float:
-        return NayakSummits(self.m0, self.m2, self.m4).correlation
-
-    @property
     def _rest(self) -> float:
         """sqrt(1 - ρ²), the deviation of the height of a summit about its regression on the curvature."""
-        return math.sqrt(max(1.0 - self._rho**2, _FEWEST))
+        return math.sqrt(max(1.0 - self._nayak.correlation**2, _FEWEST))
 
     def _heights(self, h: RealArray, t: RealArray, k: float) -> RealArray:
         """H_k(t) for separations (n,) and curvatures (n, nodes)."""
-        depth = (h[:, None] / math.sqrt(self.m0) - self._rho * t) / self._rest
-        values: RealArray = self._rest**k * GaussianHeights().tail_moment(depth, k)
-        return values
+        depth = (h[:, None] / math.sqrt(self.m0) - self._nayak.correlation * t) / self._rest
+        return np.asarray(self._rest**k * GaussianHeights().tail_moment(depth, k))
 
     def _shape(self, t: RealArray) -> RealArray:
         """G_A/t⁴ and G_P/t⁴, (…, 2)."""
-        values: RealArray = np.exp(-(t[..., None] ** 2) * self.shapes.r2) @ self.shapes.weights
-        return values
+        return np.asarray(np.exp(-(t[..., None] ** 2) * self._shapes.r2) @ self._shapes.weights)
 
     def _curvatures(self, h: RealArray) -> tuple[RealArray, RealArray]:
         """Nodes t (n, nodes) where the touching summits lie, with weights.
@@ -206,9 +216,9 @@ class SummitContacts:
         there panels are fine, and above it they run over sqrt(t - D/ρ).
         """
         D = h[:, None] / math.sqrt(self.m0)
-        edge, spread = D / self._rho, self._rest / self._rho
-        low = np.maximum(0.0, self._rho * np.maximum(D, 0.0) - _WIDTH)
-        high = self._rho * np.maximum(D, 0.0) + _WIDTH
+        edge, spread = D / self._nayak.correlation, self._rest / self._nayak.correlation
+        low = np.maximum(0.0, self._nayak.correlation * np.maximum(D, 0.0) - _WIDTH)
+        high = self._nayak.correlation * np.maximum(D, 0.0) + _WIDTH
         fine = edge + spread * np.array(_FINE if spread < 1.0 else (0.0,))
         even = low + (high - low) * np.array(_EVEN)
         breaks = np.sort(np.clip(np.concatenate([fine, even], axis=-1), low, high), axis=-1)
@@ -236,62 +246,21 @@ ASYMPTOTE = math.sqrt(2.0 * math.pi)
 
 
 @dataclass(frozen=True)
-class _OnSummits(Declared):
-    """What theories have in common that differ by the shape of the contact on a summit only: their ``_contacts`` do it."""
-
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        self._contacts()
-
-    @classmethod
-    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the moments of ``roughness``."""
-        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
-
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        return self._contacts().at_separation(curve(separation, "separations (m)"))
-
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa, see ``SummitContacts.at_pressure``."""
-        return self._contacts().at_pressure(curve(pressure, "pressures (Pa)", positive=True))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, gentle slopes, moments of an isotropic surface."""
-        return _validity(self._contacts(), prediction)
-
-    def _contacts(self) -> SummitContacts:
-        raise NotImplementedError
-
-
-@dataclass(frozen=True)
 class BushGibsonThomas(_OnSummits):
     """Elliptical contacts on all summits of an isotropic Gaussian surface.
 
     The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide spectra (Carbone & Bottiglione
-    2008). ``SummitContacts`` holds the integrals.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive or m0 m4/m2² < 1.5.
+    2008). InputError if m0 m4/m2² < 1.5.
     """
 
     E_star: Modulus
-    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
-    m2: Annotated[Positive, "mean square slope of a profile"]
-    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
+    m0: MeanSquareHeight
+    m2: MeanSquareSlope
+    m4: MeanSquareBend
     name: ClassVar[str] = "bush-gibson-thomas"
     title: ClassVar[str] = "Bush-Gibson-Thomas"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Nayak1971")
-
-    def _contacts(self) -> SummitContacts:
-        return SummitContacts(self.E_star, self.m0, self.m2, self.m4, elliptic_shapes())
+    circles: ClassVar[bool] = False
 
 
 @dataclass(frozen=True)
@@ -299,32 +268,17 @@ class GreenwoodElliptic(_OnSummits):
     """Greenwood's simplified elliptic model: on every summit a circle of the geometric mean curvature sqrt(κ1 κ2).
 
     Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the limit at vanishing load
-    is the same.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive or m0 m4/m2² < 1.5.
+    is the same. InputError if m0 m4/m2² < 1.5.
     """
 
     E_star: Modulus
-    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
-    m2: Annotated[Positive, "mean square slope of a profile"]
-    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
+    m0: MeanSquareHeight
+    m2: MeanSquareSlope
+    m4: MeanSquareBend
     name: ClassVar[str] = "greenwood-elliptic"
     title: ClassVar[str] = "Greenwood's simplified elliptic model"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood2006", "Nayak1971")
-
-    def _contacts(self) -> SummitContacts:
-        return SummitContacts(self.E_star, self.m0, self.m2, self.m4, circular_shapes())
-
-
-def _validity(contacts: SummitContacts, prediction: Prediction) -> tuple[Limit, ...]:
-    return (
-        area_limit(prediction, citation="Carbone2008"),
-        gentle_slopes(prediction, math.sqrt(2.0 * contacts.m2)),
-        isotropic_bandwidth(prediction, contacts.alpha),
-    )
+    circles: ClassVar[bool] = True
 
 
 # High summits of an anisotropic Gaussian surface: the limit of Bush, Gibson & Keogh (1979) at large separation.
@@ -337,7 +291,7 @@ _CLOSEST, _FARTHEST = 0.0, 36.0  # separations in sqrt(m0) between which its pre
 
 
 @dataclass(frozen=True)
-class AnisotropicSummits(Declared):
+class AnisotropicSummits(SeparationTheory):
     """High summits are alike: their curvatures are (z/m0)(m20, m02), whatever the rest of the spectrum.
 
     With g = m20/m02, D = h/sqrt(m0), f_A and f_P of the Hertz contact of curvatures in the ratio g, and
@@ -347,30 +301,31 @@ class AnisotropicSummits(Declared):
 
     Q the bearing area, and n = sqrt(m20 m02)/(2π m0) D φ(D) contacts per area. At constant gradient anisotropy raises
     the area slightly: by 1.3 % at g = 2, 12 % at g = 10.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive.
     """
 
     E_star: Modulus
-    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
+    m0: MeanSquareHeight
     steepest: Annotated[Positive, "mean square slope of profiles along the steepest direction"]
     gentlest: Annotated[Positive, "mean square slope of profiles across it"]
     name: ClassVar[str] = "anisotropic-summits"
     title: ClassVar[str] = "Bush-Gibson-Keogh, high summits of anisotropic surfaces"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1979", "Johnson1985", "Nayak1971")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        Bound(
+            "separation over rms height",
+            lambda theory, answer: answer.separation / math.sqrt(theory.m0),
+            HIGH,
+            math.inf,
+            "Bush1979",
+            "Lower summits touch, whose curvatures scatter and depend on the whole spectrum.",
+        ),
+        FEW_CONTACTS,
+        GENTLE_SLOPES,
+    )
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the principal slopes of ``roughness``.
-
-        Raises
-        ------
-        InputError
-            If it does not hold moments by direction, or the surface is corrugated in one direction only.
-        """
+        """Theory for the principal slopes of ``roughness``; InputError without moments by direction, or if it is a grating."""
         moments = roughness.known(roughness.moments, "moments by direction", cls.name)
         return cls(E_star, roughness.m0, *moments.principal_slopes)
 
@@ -406,33 +361,19 @@ class AnisotropicSummits(Declared):
             stiffness=stiffness,
         )
 
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
+    @property
+    def rms_gradient(self) -> float:
+        """sqrt(m20 + m02)."""
+        return math.sqrt(self.steepest + self.gentlest)
 
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at the mean plane, far beyond the validity of the limit.
-        """
-        wanted, unit = curve(pressure, "pressures (Pa)", positive=True), math.sqrt(self.m0)
-        return self.at_separation(separation_at(wanted, self._law, unit * _CLOSEST, unit * _FARTHEST, unit=unit))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """High summits only, gentle slopes."""
-        message = "Lower summits touch, whose curvatures scatter and depend on the whole spectrum."
-        height = Limit(
-            "separation over rms height",
-            prediction.separation / math.sqrt(self.m0),
-            HIGH,
-            math.inf,
-            "Bush1979",
-            message,
-        )
-        return height, area_limit(prediction), gentle_slopes(prediction, math.sqrt(self.steepest + self.gentlest))
+    @property
+    def _ends(self) -> tuple[float, float, float]:  # up to the mean plane, far beyond the validity of the limit
+        unit = math.sqrt(self.m0)
+        return unit * _CLOSEST, unit * _FARTHEST, unit
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         D, gaussian = h / math.sqrt(self.m0), GaussianHeights()
-        unit = self.E_star * math.sqrt(self.steepest + self.gentlest) * self.bearing_share / self.coefficient
+        unit = self.E_star * self.rms_gradient * self.bearing_share / self.coefficient
         return unit * gaussian.tail_moment(D, 0.0), unit / math.sqrt(self.m0) * gaussian.density(D)
 
 

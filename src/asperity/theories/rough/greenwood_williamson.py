@@ -1,9 +1,10 @@
-"""Spherical summits of random heights: Greenwood and Williamson, with fits, plastic share, and two rough surfaces."""
+"""Spherical summits of random heights: Greenwood and Williamson, Kotwal and Bhushan, fits, plastic share, two rough surfaces."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
@@ -12,45 +13,102 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
-from ...core.parameters import Declared, Help
-from ...core.values import Length, Number, SignedLength
-from ..ask import separation_at
-from ..limits import area_limit, blunt_summits
+from ...core.parameters import Help
+from ...core.values import Length, Number, Positive, Real, SignedLength
 from ..protocol import (
+    BLUNT_SUMMITS,
+    FEW_CONTACTS,
+    ISOTROPY,
+    Bound,
     HeightDeviation,
     HeightsLaw,
-    Limit,
     MeanHeight,
     Modulus,
     Prediction,
+    SeparationTheory,
     SummitDensity,
     SummitRadius,
+    Theory,
     curve,
     prediction,
 )
-from ..statistics.heights import GaussianHeights, HistogramHeights, SummitHeights
+from ..statistics.heights import GaussianHeights, HistogramHeights, PearsonHeights, SummitHeights
 from ..statistics.nayak import NayakSummits
 from ..statistics.roughness import Roughness
-
-# Greenwood & Williamson (1966): spherical summits of one radius and random heights, each a Hertz contact.
-
 
 LOWEST, HIGHEST = -40.0, 37.0
 """Separations in standard deviations between which pressures are inverted; at 37 a Gaussian has 1e-300 left."""
 
 
+class SphericalSummits(SeparationTheory):
+    """Base of theories of independent summits of one radius: equations of ``GreenwoodWilliamson``."""
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float
+    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
+
+    @property
+    def heights(self) -> SummitHeights:
+        """Distribution of the standardised heights."""
+        return GaussianHeights()
+
+    @property
+    def pressure_unit(self) -> float:
+        """η R σ_s E* (σ_s/R)^(1/2) in Pa, the unit of the dimensionless pressure P_a."""
+        return self.density * self.radius * self.height_deviation * self.E_star * math.sqrt(self.roughness_ratio)
+
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/R."""
+        return self.height_deviation / self.radius
+
+    def at_separation(self, separation: ArrayLike) -> Prediction:
+        """Prediction at separations (n,) in m from the mean plane of the surface."""
+        h = curve(separation, "separations (m)")
+        D, heights = self.standardised(h), self.heights
+        pressure, stiffness = self._law(h)
+        share = math.pi * self.density * self.radius * self.height_deviation
+        return prediction(
+            pressure,
+            area_fraction=share * heights.tail_moment(D, 1.0),
+            contact_density=self.density * heights.tail_moment(D, 0.0),
+            separation=h,
+            stiffness=stiffness,
+        )
+
+    def standardised(self, separation: RealArray) -> RealArray:
+        """D at ``separation`` in m, in the coordinate of the distribution of heights."""
+        return np.asarray((separation - self.mean_height) / self.height_deviation + self.heights.mean)
+
+    def borne(self, separation: RealArray) -> RealArray:
+        """Pressure in Pa that the summits carry at ``separation`` in m, of any shape."""
+        return np.asarray(4.0 / 3.0 * self.pressure_unit * self.heights.tail_moment(self.standardised(separation), 1.5))
+
+    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        slope = 2.0 * self.pressure_unit / self.height_deviation
+        return self.borne(h), slope * self.heights.tail_moment(self.standardised(h), 0.5)
+
+    @property
+    def _ends(self) -> tuple[float, float, float]:
+        return heights_between(self.heights, self.mean_height, self.height_deviation)
+
+
+def heights_between(heights: SummitHeights, mean: float, deviation: float) -> tuple[float, float, float]:
+    """Separations in m between which pressures are inverted for ``heights`` of ``mean`` and ``deviation`` in m, which ends."""
+    low, high = (mean + deviation * (D - heights.mean) for D in (LOWEST, min(HIGHEST, heights.support[1])))
+    return low, high, deviation
+
+
 @dataclass(frozen=True)
-class GreenwoodWilliamson(Declared):
-    """Independent spherical summits on a rough surface against a rigid plane.
+class GreenwoodWilliamson(SphericalSummits):
+    """Independent spherical summits on a rough surface against a rigid plane, each a Hertz contact.
 
     With D = (h - z̄_s)/σ_s and F_m(D) = ∫_D^∞ (s - D)^m p(s) ds (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
 
         n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive (the mean height may have any sign).
     """
 
     E_star: Modulus
@@ -67,81 +125,72 @@ class GreenwoodWilliamson(Declared):
     def from_roughness(cls, roughness: Roughness, E_star: float, *, bins: int | None = None) -> Self:
         """Theory for the summits of a map: their density, 1/<κ>, and the mean and deviation of their heights.
 
-        ``bins`` None: Gaussian heights; a number: their histogram with so many bins.
-
-        Raises
-        ------
-        InputError
-            If the roughness holds no summits, or their heights are all equal.
+        ``bins`` None: Gaussian heights; a number: their histogram with so many bins. InputError without summits, or if their
+        heights are all equal.
         """
         summits = roughness.known(roughness.summits, "its summits", cls.name)
         return cls(
             E_star,
             summits.density,
-            1.0 / float(summits.curvature.mean()),
+            summits.mean_radius,
             summits.height_deviation,
             summits.mean_height,
             GaussianHeights() if bins is None else HistogramHeights.from_samples(summits.height, bins),
         )
 
-    @property
-    def pressure_unit(self) -> float:
-        """η R σ_s E* (σ_s/R)^(1/2) in Pa, the unit of the dimensionless pressure P_a."""
-        return self.density * self.radius * self.height_deviation * self.E_star * math.sqrt(self.roughness_ratio)
 
-    @property
-    def roughness_ratio(self) -> float:
-        """σ_s/R."""
-        return self.height_deviation / self.radius
+@dataclass(frozen=True)
+class KotwalBhushan(SphericalSummits):
+    """Greenwood and Williamson's summits with heights of Pearson's system (Kotwal & Bhushan 1996).
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        D = self.standardised(h)
-        pressure, stiffness = self._law(h)
-        return prediction(
-            pressure,
-            area_fraction=math.pi
-            * self.density
-            * self.radius
-            * self.height_deviation
-            * self.heights.tail_moment(D, 1.0),
-            contact_density=self.density * self.heights.tail_moment(D, 0.0),
-            separation=h,
-            stiffness=stiffness,
-        )
+    Types I and II end: there is no contact above the highest summit. InputError if kurtosis <= 1 + skewness².
 
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
+    Examples
+    --------
+    Few high summits touch on a smaller area than those of Gaussian heights:
 
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
+    >>> shapes = (0, 3), (0.5, 5)
+    >>> loads = [KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=s, kurtosis=k).at_pressure(1e5) for s, k in shapes]
+    >>> [f"{load.area_fraction[0]:.2e}" for load in loads]
+    ['2.03e-05', '1.11e-05']
+    """
+
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    mean_height: MeanHeight = 0.0
+    skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
+    kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
+    name: ClassVar[str] = "kotwal-bhushan"
+    title: ClassVar[str] = "Kotwal-Bhushan"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Kotwal1996", "Pearson1895", "Pearson1916")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _ = self.heights  # a kurtosis that no heights have
+
+    @classmethod
+    def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
+        """Theory for the summits of a map: density, 1/<κ>, and mean, deviation, skewness and kurtosis of their heights.
+
+        InputError without summits, or if their heights are all equal.
         """
-        wanted = curve(pressure, "pressures (Pa)", positive=True)
-        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
-        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
-        return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
+        s = roughness.known(roughness.summits, "its summits", cls.name)
+        require.positive(s.height_deviation, "standard deviation of summit heights (m)")
+        numbers = (s.density, s.mean_radius, s.height_deviation, s.mean_height)
+        return cls(E_star, *numbers, s.height_skewness, s.height_kurtosis)
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts without elastic interaction, on blunt summits."""
-        return (area_limit(prediction), blunt_summits(prediction, self.roughness_ratio))
+    @cached_property
+    def greenwood_williamson(self) -> GreenwoodWilliamson:
+        """The same summits in the theory of Greenwood & Williamson."""
+        numbers = (self.density, self.radius, self.height_deviation, self.mean_height)
+        return GreenwoodWilliamson(self.E_star, *numbers, self.heights)
 
-    def standardised(self, separation: RealArray) -> RealArray:
-        """D at ``separation`` in m, in the coordinate of the distribution of heights."""
-        D: RealArray = (separation - self.mean_height) / self.height_deviation + self.heights.mean
-        return D
-
-    def borne(self, separation: RealArray) -> RealArray:
-        """Pressure in Pa that the summits carry at ``separation`` in m, of any shape."""
-        D = self.standardised(separation)
-        return np.asarray(4.0 / 3.0 * self.pressure_unit * self.heights.tail_moment(D, 1.5))
-
-    def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D, pressure = self.standardised(h), self.borne(h)
-        stiffness = 2.0 * self.pressure_unit / self.height_deviation * self.heights.tail_moment(D, 0.5)
-        return pressure, stiffness
+    @cached_property
+    def heights(self) -> SummitHeights:
+        """The distribution of Pearson's system."""
+        return PearsonHeights(self.skewness, self.kurtosis)
 
 
 # Power laws fitted to the Gaussian theory of Greenwood & Williamson (Bhushan 1998, table 1).
@@ -170,8 +219,7 @@ class FittedLaws:
     def separation(self, P_a: RealArray) -> RealArray:
         """D, NaN for P_a >= 0.57 and for the linear form."""
         inside = (P_a < LARGEST) & (self.form == "power")
-        D: RealArray = np.where(inside, 1.40 * np.log10(LARGEST / np.where(inside, P_a, LARGEST)) ** 0.65, np.nan)
-        return D
+        return np.where(inside, 1.40 * np.log10(LARGEST / np.where(inside, P_a, LARGEST)) ** 0.65, np.nan)
 
     def real_pressure(self, P_a: RealArray) -> RealArray:
         """p_r/[E* (σ_s/R)^(1/2)]."""
@@ -191,20 +239,22 @@ class FittedLaws:
 
     def _law(self, P_a: RealArray, power: tuple[float, float], linear: tuple[float, float]) -> RealArray:
         factor, exponent = power if self.form == "power" else linear
-        values: RealArray = factor * P_a**exponent
-        return values
+        return np.asarray(factor * P_a**exponent)
+
+
+def _range_of_fits(form: str, share: str) -> Bound:
+    def value(theory: FittedGreenwoodWilliamson, answer: Prediction) -> RealArray | None:
+        return answer.pressure / theory._exact.pressure_unit if theory.form == form else None
+
+    message = f"The fits leave the integrals that they replace by more than a {share}."
+    return Bound(f"P_a of the {form} form", value, *FORMS[form], "Bhushan1998", message)
 
 
 @dataclass(frozen=True)
-class FittedGreenwoodWilliamson(Declared):
+class FittedGreenwoodWilliamson(Theory):
     """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
 
     Real area and real pressure are fits of their own: their product is the load within a few per cent only.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive (the mean height may have any sign), or the form unknown.
     """
 
     E_star: Modulus
@@ -216,6 +266,11 @@ class FittedGreenwoodWilliamson(Declared):
     name: ClassVar[str] = "greenwood-williamson-fits"
     title: ClassVar[str] = "Greenwood-Williamson, fitted power laws"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Greenwood1966")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        _range_of_fits("power", "fifth"),
+        _range_of_fits("linear", "half"),
+        FEW_CONTACTS,
+    )
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, form: Literal["power", "linear"] = "power") -> Self:
@@ -226,7 +281,7 @@ class FittedGreenwoodWilliamson(Declared):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa."""
         p = curve(pressure, "pressures (Pa)", positive=True)
-        exact, laws = self._exact(), FittedLaws(self.form)
+        exact, laws = self._exact, FittedLaws(self.form)
         P_a = p / exact.pressure_unit
         return prediction(
             p,
@@ -236,12 +291,7 @@ class FittedGreenwoodWilliamson(Declared):
             separation=self.mean_height + self.height_deviation * laws.separation(P_a),
         )
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """The range of the fits, and that of the theory."""
-        P_a = prediction.pressure / self._exact().pressure_unit
-        message = "The fits leave the integrals they replace by more than a fifth (power) or a half (linear)."
-        return (Limit("P_a", P_a, *FORMS[self.form], "Bhushan1998", message), area_limit(prediction))
-
+    @property
     def _exact(self) -> GreenwoodWilliamson:
         return GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
 
@@ -260,51 +310,35 @@ _LOWEST, _HIGHEST = -35.0, 35.0  # D between which the onset is sought
 def plastic_area_share(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
     """Share of the elastic contact area on summits that flow: ∫_(D + w)^∞ (s - D) p ds/F_1(D).
 
-    Parameters
-    ----------
-    D
-        Standardised separations, any shape.
-    psi
-        Plasticity index ψ > 0.
-    heights
-        Distribution of the summit heights.
+    ``D`` standardised separations of any shape, ``psi`` plasticity index ψ > 0, ``heights`` distribution of the summits.
     """
-    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
+    D, w = np.asarray(D, dtype=float), _depth(psi)
     deep = heights.tail_moment(D + w, 1.0) + w * heights.tail_moment(D + w, 0.0)
-    share: RealArray = deep / heights.tail_moment(D, 1.0)
-    return share
+    return np.asarray(deep / heights.tail_moment(D, 1.0))
 
 
 def plastic_area_share_beyond(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
     """F_1(D + w)/F_1(D), the share if only the depth beyond δ_p counts; a definition that is also in use."""
-    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
-    share: RealArray = heights.tail_moment(D + w, 1.0) / heights.tail_moment(D, 1.0)
-    return share
+    D = np.asarray(D, dtype=float)
+    return np.asarray(heights.tail_moment(D + _depth(psi), 1.0) / heights.tail_moment(D, 1.0))
 
 
 def plastic_number_share(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
     """F_0(D + w)/F_0(D), the share of the contacts that flow."""
-    D, w = np.asarray(D, dtype=float), 1.0 / require.positive(psi, "plasticity index psi") ** 2
-    share: RealArray = heights.tail_moment(D + w, 0.0) / heights.tail_moment(D, 0.0)
-    return share
+    D = np.asarray(D, dtype=float)
+    return np.asarray(heights.tail_moment(D + _depth(psi), 0.0) / heights.tail_moment(D, 0.0))
+
+
+def _depth(psi: float) -> float:
+    """w = 1/ψ²."""
+    return 1.0 / require.positive(psi, "plasticity index psi") ** 2
 
 
 def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond: bool = False) -> float:
     """D below which the plastic share of the area exceeds ``share``, for Gaussian heights.
 
-    Parameters
-    ----------
-    psi
-        Plasticity index.
-    share
-        Share of the area, between 0 and 1.
-    beyond
-        Whether the share is that of ``plastic_area_share_beyond``.
-
-    Raises
-    ------
-    NoSolutionError
-        If the share is exceeded, or not reached, at every separation between -35 and 35 standard deviations.
+    ``psi`` plasticity index, ``share`` between 0 and 1, with ``beyond`` that of ``plastic_area_share_beyond``.
+    NoSolutionError if the share is exceeded, or not reached, at every separation between -35 and 35 standard deviations.
     """
     from scipy.optimize import brentq
 
@@ -327,7 +361,7 @@ def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond
 
 
 @dataclass(frozen=True)
-class GreenwoodTripp(Declared):
+class GreenwoodTripp(SeparationTheory):
     """Two surfaces, each with paraboloidal summits of the same radius and density, at random relative positions.
 
     With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged over the misalignment
@@ -337,11 +371,6 @@ class GreenwoodTripp(Declared):
         p = (16√2 π/15) (η β σ_s)² E* (σ_s/β)^(1/2) F_(5/2).
 
     The second power of the density stands for pairs: doubling the summits of both surfaces quadruples the contacts.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive (the mean height may have any sign).
     """
 
     E_star: Modulus
@@ -353,6 +382,7 @@ class GreenwoodTripp(Declared):
     name: ClassVar[str] = "greenwood-tripp"
     title: ClassVar[str] = "Greenwood-Tripp, two rough surfaces"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Greenwood1970", "McCool1986")
+    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS, ISOTROPY)
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
@@ -377,35 +407,26 @@ class GreenwoodTripp(Declared):
             stiffness=stiffness,
         )
 
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
-
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at 40 standard deviations below the mean.
-        """
-        wanted = curve(pressure, "pressures (Pa)", positive=True)
-        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
-        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
-        return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.height_deviation))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts without elastic interaction, on blunt summits."""
-        return (area_limit(prediction), blunt_summits(prediction, self.height_deviation / self.radius))
-
     @property
     def _crowding(self) -> float:
         """η β σ_s."""
         return self.density * self.radius * self.height_deviation
 
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/β."""
+        return self.height_deviation / self.radius
+
+    @property
+    def _ends(self) -> tuple[float, float, float]:
+        return heights_between(self.heights, self.mean_height, self.height_deviation)
+
     def _standardised(self, h: RealArray) -> RealArray:
-        D: RealArray = (h - self.mean_height) / self.height_deviation + self.heights.mean
-        return D
+        return np.asarray((h - self.mean_height) / self.height_deviation + self.heights.mean)
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         D = self._standardised(h)
         unit = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self._crowding**2 * self.E_star
-        unit *= math.sqrt(self.height_deviation / self.radius)
+        unit *= math.sqrt(self.roughness_ratio)
         slope = 2.5 * unit / self.height_deviation * self.heights.tail_moment(D, 1.5)
         return unit * self.heights.tail_moment(D, 2.5), slope

@@ -14,10 +14,9 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
 from ...core.values import Number, Several
-from ..limits import area_limit
-from ..protocol import Limit, Modulus, Prediction, curve, prediction
+from ..protocol import FEW_CONTACTS, Bound, Limit, Modulus, Prediction, Theory, curve, prediction
 from ..single.waves import TWO_TERMS, two_term_approach, two_term_load, two_terms
 from ..statistics.roughness import Roughness
 from .discrete_summits import DiscreteSummits
@@ -282,7 +281,15 @@ State: TypeAlias = tuple[CrestSystem, RealArray]
 
 
 @dataclass(frozen=True, eq=False)
-class InteractingCrests(Declared):
+class _Touching(Prediction):
+    """A prediction with the largest contact radius over wavelength, and over the distance to the next contact, (n,)."""
+
+    slender: RealArray
+    near: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class InteractingCrests(Theory):
     """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on the others.
 
     ``interaction``: displacements of point forces between crests (``far field``), or none (``off``). ``method``: Newton steps
@@ -311,6 +318,25 @@ class InteractingCrests(Declared):
     name: ClassVar[str] = "interacting-crests"
     title: ClassVar[str] = "Greenwood-Williamson with interacting sinusoidal crests"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        FEW_CONTACTS,
+        Bound(
+            "contact radius over wavelength",
+            lambda theory, answer: answer.slender,
+            0.0,
+            SHALLOW,
+            "Johnson1985",
+            "Two terms of the sine err by more than 0.5 % (at 0.34 they end), paraboloids by more than 2 %.",
+        ),
+        Bound(
+            "contact radius over distance to the next contact",
+            lambda theory, answer: answer.near,
+            0.0,
+            APART,
+            "Johnson1985",
+            "The displacement by a near contact is more than 3 % larger than that of a point force.",
+        ),
+    )
     equations: ClassVar[type[CrestSystem]] = CrestSystem
 
     def __post_init__(self) -> None:
@@ -390,31 +416,13 @@ class InteractingCrests(Declared):
         approaches, states = self._loaded(wanted)
         return self._predicted(self.highest - approaches, states)
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts, small against their wavelength and against their distance."""
-        states = self._states(self.highest - prediction.separation)
+    def validity(self, answer: Prediction, roughness: Roughness | None = None) -> tuple[Limit, ...]:
+        """Its ``limits``, for which the crests are solved again."""
+        states = self._states(self.highest - answer.separation)
         wavelength = np.asarray(self.wavelength)
         slender = [math.sqrt(float(np.max(w / wavelength[: w.size] ** 2, initial=0.0))) for _, w in states]
         near = [math.sqrt(float(np.max(w * system.nearness(w) ** 2, initial=0.0))) for system, w in states]
-        return (
-            area_limit(prediction),
-            Limit(
-                "contact radius over wavelength",
-                np.array(slender),
-                0.0,
-                SHALLOW,
-                citation="Johnson1985",
-                message="Two terms of the sine err by more than 0.5 % (at 0.34 they end), paraboloids by more than 2 %.",
-            ),
-            Limit(
-                "contact radius over distance to the next contact",
-                np.array(near),
-                0.0,
-                APART,
-                citation="Johnson1985",
-                message="The displacement by a near contact is more than 3 % larger than that of a point force.",
-            ),
-        )
+        return super().validity(_Touching(**vars(answer), slender=np.array(slender), near=np.array(near)), roughness)
 
     def _loaded(self, pressure: RealArray) -> tuple[RealArray, list[State]]:
         """Approaches δ in m at which the crests carry ``pressure`` (n,) in Pa, and the crests there.

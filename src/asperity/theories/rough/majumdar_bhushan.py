@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar, Self
 
 import numpy as np
@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
 from ...core.values import Length, Number, Pressure
-from ..protocol import Limit, Modulus, Prediction, curve, prediction
+from ..protocol import FEW_CONTACTS, ISOTROPY, MEASURED_SLOPES, Bound, Modulus, Prediction, Theory, curve, prediction
 from ..statistics.roughness import Roughness
 
 # Sizes of the contact spots of a fractal surface: Korcak's law of islands (Mandelbrot 1982; Majumdar & Bhushan 1991).
@@ -86,7 +86,7 @@ _LARGEST = 700.0  # logarithm of the largest area that a float holds
 
 
 @dataclass(frozen=True)
-class MajumdarBhushan(Declared):
+class MajumdarBhushan(Theory):
     """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
 
     A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a). Spots obey Korcak's
@@ -115,6 +115,19 @@ class MajumdarBhushan(Declared):
     name: ClassVar[str] = "majumdar-bhushan"
     title: ClassVar[str] = "Majumdar-Bhushan (fractal)"
     citation_keys: ClassVar[tuple[str, ...]] = ("BhushanMajumdar1992", "Majumdar1991")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        replace(FEW_CONTACTS, citation="Majumdar1991"),
+        Bound(
+            "critical area (m^2)",
+            lambda theory, answer: theory.critical_area,
+            ATOM,
+            math.inf,
+            "Bhushan1998",
+            "The critical spot is smaller than an atom: every real spot is elastic.",
+        ),
+        MEASURED_SLOPES,
+        ISOTROPY,
+    )
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:
@@ -133,17 +146,6 @@ class MajumdarBhushan(Declared):
         p = curve(pressure, "pressures (Pa)", positive=True)
         spots = np.array([self.largest_spot_under(load) for load in p * self.nominal_area])
         return prediction(p, area_fraction=self.sizes.area(spots) / self.nominal_area)
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """A critical area larger than an atom, and a largest spot inside the nominal area."""
-        spot = self.sizes.largest(prediction.area_fraction * self.nominal_area)
-        critical = np.full_like(spot, self.critical_area)
-        atom = "The critical spot is smaller than an atom: every real spot is elastic."
-        whole = "The largest spot is as large as the nominal area."
-        return (
-            Limit("critical area (m^2)", critical, ATOM, math.inf, "Bhushan1998", atom),
-            Limit("largest spot / nominal area", spot / self.nominal_area, 0.0, 1.0, "Majumdar1991", whole),
-        )
 
     @property
     def sizes(self) -> SpotSizes:

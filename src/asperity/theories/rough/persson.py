@@ -14,10 +14,23 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Number, Positive, Real, Several
-from ..ask import PRESSURE, ROUGH, Column, Way, asked
-from ..protocol import Limit, Modulus, Prediction, curve, prediction
+from ..ask import PRESSURE, Way, asked
+from ..protocol import (
+    ISOTROPY,
+    MEASURED_SLOPES,
+    QUANTITIES,
+    Bound,
+    Modulus,
+    Prediction,
+    Theory,
+    checked,
+    curve,
+    prediction,
+    real_numbers,
+)
 from ..statistics.isotropic_spectrum import IsotropicSpectrum
 from ..statistics.roughness import Roughness
 
@@ -130,7 +143,7 @@ class PerssonGap:
         return self.E_star * math.exp(brentq(difference, low, high, xtol=1e-12, rtol=1e-12))
 
     def _relative(self, pressure: ArrayLike) -> RealArray:
-        values = np.asarray(pressure, dtype=float)
+        values = real_numbers(pressure, "mean pressures (Pa)")
         if not (np.isfinite(values).all() and (values > 0.0).all()):
             raise InputError("mean pressure (Pa) must be greater than zero: without load the gap has no bound.")
         return np.asarray(values / self.E_star)
@@ -194,7 +207,7 @@ class LocalPressures:
 
 
 @dataclass(frozen=True, eq=False)
-class Persson(Declared):
+class Persson(Theory):
     """Area and pressure of an elastic half-space on a randomly rough rigid surface.
 
     Roughness of ever shorter waves is taken in turn; with each the density P of the pressure spreads as by diffusion,
@@ -223,14 +236,29 @@ class Persson(Declared):
     name: ClassVar[str] = "persson"
     title: ClassVar[str] = "Persson"
     citation_keys: ClassVar[tuple[str, ...]] = ("Persson2001", "Persson2002", "Persson2007", "Yang2008")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        Bound(
+            "p/(E* h'_rms)",
+            lambda theory, answer: (
+                answer.pressure / (theory.E_star * theory.rms_gradient) if theory._has_spectrum else None
+            ),
+            0.01,
+            0.2,
+            "Yang2008",
+            "The calibrated mean gap is within 7 % of elasticity inside these loads only.",
+            of=("mean_gap", "stiffness"),
+        ),
+        MEASURED_SLOPES,
+        ISOTROPY,
+    )
     ways: ClassVar[tuple[Way, ...]] = (
-        Way(PRESSURE, "at_pressure", ROUGH),
+        Way(PRESSURE, "at_pressure", QUANTITIES),
         Way(
             asked("local", "Pa", "pressure at a point"),
             "at_local",
             (
-                Column("density", "1/Pa", "probability density of the pressure at a point"),
-                Column("area_above", "", "share of the nominal area with more pressure"),
+                Quantity("density", "1/Pa", "probability density of the pressure at a point"),
+                Quantity("area_above", "1", "share of the nominal area with more pressure"),
             ),
             (PRESSURE,),
             checked=False,
@@ -274,14 +302,6 @@ class Persson(Declared):
             known |= {"mean_gap": self.gap.mean_gap(p), "stiffness": self.gap.stiffness(p)}
         return prediction(p, **known)
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """The range of loads in which the calibrated gap has been compared with elasticity, where there is a gap."""
-        if not self._has_spectrum:
-            return ()
-        message = "The calibrated mean gap is within 7 % of elasticity inside these loads only."
-        relative = prediction.pressure / (self.E_star * self.rms_gradient)
-        return (Limit("p/(E* h'_rms), for the mean gap", relative, 0.01, 0.2, "Yang2008", message),)
-
     @property
     def _has_spectrum(self) -> bool:
         return np.size(self.q) > 0 or np.size(self.psd) > 0
@@ -295,7 +315,7 @@ class Persson(Declared):
         """A/A_n at the mean ``pressure`` in Pa (>= 0, any shape): erf[sqrt(2) p/(E* h'_rms)]."""
         from scipy.special import erf
 
-        return np.asarray(erf(_pressures(pressure) / (math.sqrt(2.0) * self.spread)))
+        return np.asarray(erf(checked(pressure, "pressure (Pa)") / (math.sqrt(2.0) * self.spread)))
 
     def pressure_for(self, area_fraction: float) -> float:
         """Mean pressure in Pa at which ``area_fraction`` (0 < … < 1) is in contact."""
@@ -310,7 +330,7 @@ class Persson(Declared):
         The integral over all pressures is the area fraction, that of p P the mean pressure; P ∝ p near zero.
         """
         nominal = require.not_negative(pressure, "mean pressure (Pa)")
-        p, s = _pressures(local), self.spread
+        p, s = checked(local, "pressure (Pa)"), self.spread
         # a difference of Gaussians as one Gaussian times 1 - exp, which keeps its digits near zero pressure
         front = np.exp(-((p - nominal) ** 2) / (2.0 * s**2)) / (math.sqrt(2.0 * math.pi) * s)
         values: RealArray = front * -np.expm1(-2.0 * p * nominal / s**2)
@@ -325,15 +345,8 @@ class Persson(Declared):
         from scipy.special import erfc
 
         nominal = require.not_negative(pressure, "mean pressure (Pa)")
-        p, width = _pressures(local), math.sqrt(2.0) * self.spread
+        p, width = checked(local, "pressure (Pa)"), math.sqrt(2.0) * self.spread
         return np.asarray(0.5 * (erfc((p - nominal) / width) - erfc((p + nominal) / width)))
-
-
-def _pressures(pressure: ArrayLike) -> RealArray:
-    values = np.asarray(pressure, dtype=float)
-    if not (np.isfinite(values).all() and (values >= 0.0).all()):
-        raise InputError(f"pressure (Pa) must be finite and not negative, but its least value is {values.min():g}.")
-    return values
 
 
 # Persson's diffusion of the pressure, solved by finite differences from one magnification to the next.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar, Self
 
 import numpy as np
@@ -12,12 +12,21 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.quantity import Quantity
 from ...core.values import Length, Number
-from ..ask import Column, separation_at
-from ..limits import area_limit, constant_limit
-from ..protocol import Limit, Modulus, Prediction, curve, prediction
+from ..protocol import (
+    FEW_CONTACTS,
+    ISOTROPY,
+    MEASURED_SLOPES,
+    Bound,
+    Modulus,
+    Prediction,
+    SeparationTheory,
+    Theory,
+    curve,
+    prediction,
+)
 from ..statistics.heights import GaussianHeights
 from ..statistics.roughness import Roughness
 
@@ -38,7 +47,7 @@ _NORM = 3.0 / (2.0**1.5 * math.pi) * math.sqrt(2.0 * math.pi / 3.0)  # of f* aft
 
 
 @dataclass(frozen=True)
-class OnionsArchard(Declared):
+class OnionsArchard(SeparationTheory):
     """Peaks among independent ordinates at the interval ℓ = 2.3 β*, one in five of a square grid being a summit.
 
     With the joint density f*(s, C) of height s (in σ) and curvature C (in σ/ℓ²) of three-point peaks (Whitehouse &
@@ -47,11 +56,6 @@ class OnionsArchard(Declared):
         A_r/A_a = (π/5) ∫_D^∞ (s - D) ∫ f*/C dC ds,  p = (4 E* σ/15ℓ) ∫_D^∞ (s - D)^(3/2) ∫ f*/C^(1/2) dC ds.
 
     The area is nearly proportional to the load, A_r/A_a ≈ 3.1 p/(E* σ/β*).
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive.
     """
 
     E_star: Modulus
@@ -60,16 +64,33 @@ class OnionsArchard(Declared):
     name: ClassVar[str] = "onions-archard"
     title: ClassVar[str] = "Onions-Archard"
     citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        replace(FEW_CONTACTS, citation="Onions1973"),
+        Bound(
+            "rms height over correlation length",
+            lambda theory, answer: theory.rms_height / theory.correlation_length,
+            0.0,
+            0.3,
+            "Onions1973",
+            "Contacts become as large as their radius of curvature, which is of the order of β*²/σ.",
+        ),
+        Bound(
+            "rms gradient over that of the ordinates",
+            lambda theory, roughness: roughness.rms_gradient * SAMPLING * theory.correlation_length / theory.rms_height,
+            0.0,
+            2.0,  # the area is about 0.7 times this that of elasticity
+            "Whitehouse1970",
+            "Waves shorter than 2.3 correlation lengths, which the theory leaves out, hold most of the slope; its area is "
+            "too large by their share.",
+            measured=True,
+        ),
+        MEASURED_SLOPES,
+        ISOTROPY,
+    )
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the rms height and the correlation length of ``roughness``.
-
-        Raises
-        ------
-        InputError
-            If the autocorrelation does not fall to 1/e.
-        """
+        """Theory for the rms height and correlation length of ``roughness``; InputError without the latter."""
         if math.isnan(roughness.correlation_length):
             raise InputError(
                 "roughness for the theory onions-archard must hold a correlation length (m), but does not. Give it to "
@@ -90,29 +111,9 @@ class OnionsArchard(Declared):
             stiffness=stiffness,
         )
 
-    def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa.
-
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at 30 standard deviations below the mean plane.
-        """
-        wanted = curve(pressure, "pressures (Pa)", positive=True)
-        low, high = self.rms_height * _LOWEST, self.rms_height * _HIGHEST
-        return self.at_separation(separation_at(wanted, self._law, low, high, unit=self.rms_height))
-
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Few contacts; heights small against the interval that makes the summits."""
-        steepness = constant_limit(
-            "rms height over correlation length",
-            self.rms_height / self.correlation_length,
-            (0.0, 0.3),
-            prediction=prediction,
-            citation="Onions1973",
-            message="Contacts become as large as their radius of curvature, which is of the order of β*²/σ.",
-        )
-        return area_limit(prediction, citation="Onions1973"), steepness
+    @property
+    def _ends(self) -> tuple[float, float, float]:
+        return self.rms_height * _LOWEST, self.rms_height * _HIGHEST, self.rms_height
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         D = h / self.rms_height
@@ -172,7 +173,7 @@ def _curvatures(D: RealArray, k: float, depth: float = 0.0) -> tuple[RealArray, 
 
 
 @dataclass(frozen=True)
-class SampledPeaks(Declared):
+class SampledPeaks(Theory):
     """Peaks of a Gaussian profile sampled at an interval ℓ, from the correlations ρ1 = ρ(ℓ) and ρ2 = ρ(2ℓ).
 
     A peak is a point above both neighbours. Heights are in standard deviations of the profile, curvatures
@@ -190,14 +191,14 @@ class SampledPeaks(Declared):
     name: ClassVar[str] = "sampled-peaks"
     title: ClassVar[str] = "Whitehouse-Archard, peaks of a sampled profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Whitehouse1970", "Whitehouse1978")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("fraction", "", "peaks per point"),
-        Column("mean_height", "", "mean height of the peaks in rms heights"),
-        Column("height_deviation", "", "standard deviation of their heights in rms heights"),
-        Column("mean_curvature", "", "mean curvature of the peaks in rms heights per squared interval"),
-        Column("curvature_deviation", "", "standard deviation of their curvature in the same unit"),
-        Column("height_curvature_correlation", "", "correlation of height and curvature"),
-        Column("zero_crossings", "", "crossings of the mean line per point"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("fraction", "1", "peaks per point"),
+        Quantity("mean_height", "1", "mean height of the peaks in rms heights"),
+        Quantity("height_deviation", "1", "standard deviation of their heights in rms heights"),
+        Quantity("mean_curvature", "1", "mean curvature of the peaks in rms heights per squared interval"),
+        Quantity("curvature_deviation", "1", "standard deviation of their curvature in the same unit"),
+        Quantity("height_curvature_correlation", "1", "correlation of height and curvature"),
+        Quantity("zero_crossings", "1", "crossings of the mean line per point"),
     )
 
     def __post_init__(self) -> None:

@@ -11,16 +11,15 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.parameters import Declared
 from ...core.values import Length
 from ..ask import LINE_LOAD, Way
-from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked, small_slope
 
 # Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
 
 
 @dataclass(frozen=True)
-class HertzPoint(Declared):
+class HertzPoint(Theory):
     """Frictionless elastic contact of a sphere of relative radius R: a³ = 3PR/4E*, δ = a²/R, p = p0 sqrt(1 - r²/a²).
 
     Examples
@@ -36,6 +35,7 @@ class HertzPoint(Declared):
     name: ClassVar[str] = "hertz"
     title: ClassVar[str] = "Hertz, point contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (CONTACT_RADIUS,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -82,10 +82,6 @@ class HertzPoint(Declared):
         displacement: RealArray = scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside)
         return displacement
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: a/R <= 0.3."""
-        return (small_slope("contact radius over radius of curvature", answer.radius / self.radius),)
-
 
 def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
     """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance ``r`` in m."""
@@ -97,7 +93,7 @@ def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
 
 
 @dataclass(frozen=True)
-class HertzLine(Declared):
+class HertzLine(Theory):
     """Frictionless elastic contact of a cylinder of relative radius R: a² = 4PR/πE*, p0 = E*a/2R, p = p0 sqrt(1 - x²/a²).
 
     The approach of distant points depends on how the bodies are held (it grows with the logarithm of their size), so
@@ -109,6 +105,7 @@ class HertzLine(Declared):
     name: ClassVar[str] = "hertz-line"
     title: ClassVar[str] = "Hertz, line contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (CONTACT_RADIUS,)
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
@@ -133,10 +130,6 @@ class HertzLine(Declared):
         """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0."""
         answer = self.at_load(require.positive(load, "load per length (N/m)"))
         return hertz_profile(np.asarray(x, dtype=float), answer)
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: a/R <= 0.3."""
-        return (small_slope("contact radius over radius of curvature", answer.radius / self.radius),)
 
 
 # Hertz's contact with two different curvatures: an ellipse (Hertz 1882; Johnson 1985, sec. 4.2).
@@ -164,7 +157,7 @@ def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
 
 
 @dataclass(frozen=True)
-class HertzEllipse(Declared):
+class HertzEllipse(Theory):
     """Frictionless elastic contact of bodies whose gap before loading is x²/2Rx + y²/2Ry.
 
     p = p0 sqrt(1 - x²/a² - y²/b²) on an ellipse, p0 = 3P/2πab, δ = p0 b K(e)/E*, e² = 1 - b²/a² with a the larger
@@ -177,6 +170,9 @@ class HertzEllipse(Declared):
     name: ClassVar[str] = "hertz-ellipse"
     title: ClassVar[str] = "Hertz, elliptical contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("semi-axis over radius of curvature", lambda theory, answer: theory.steepest(answer.load)),
+    )
 
     @property
     def eccentricity(self) -> float:
@@ -203,18 +199,17 @@ class HertzEllipse(Declared):
         major, minor = self._major_and_minor(checked(load, "load (N)"))
         return (major, minor) if self.radius_x >= self.radius_y else (minor, major)
 
+    def steepest(self, load: ArrayLike) -> RealArray:
+        """Largest semi-axis over radius of curvature along the same axis under ``load`` in N, >= 0, of any shape."""
+        along_x, along_y = self.semi_axes(load)
+        return np.asarray(np.maximum(along_x / self.radius_x, along_y / self.radius_y))
+
     def pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the centre under ``load`` in N, > 0."""
         along_x, along_y = self.semi_axes(require.positive(load, "load (N)"))
         inside = 1.0 - (np.asarray(x) / along_x) ** 2 - (np.asarray(y) / along_y) ** 2
         profile: RealArray = self.at_load(load).max_pressure * np.sqrt(np.maximum(inside, 0.0))
         return profile
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: semi-axis over radius along either axis <= 0.3."""
-        along_x, along_y = self.semi_axes(answer.load)
-        slopes = np.maximum(along_x / self.radius_x, along_y / self.radius_y)
-        return (small_slope("semi-axis over radius of curvature", slopes),)
 
     @property
     def _axis_ratio(self) -> float:

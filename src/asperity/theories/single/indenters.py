@@ -12,11 +12,10 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared
 from ...core.quadrature import gauss
 from ...core.values import Length, Number, Positive
 from ..ask import LINE_LOAD, Way
-from ..protocol import ContactAnswer, Limit, Modulus, bisected, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked, small_slope
 
 # Rigid axisymmetric indenters: power laws (cone, paraboloid, …), flat punch, exact sphere (Galin 1946; Sneddon 1965).
 #
@@ -54,8 +53,14 @@ def power_integral(rho: ArrayLike, exponent: float) -> RealArray:
     return integral
 
 
+_EDGE = small_slope(
+    "slope of the profile at the edge",
+    lambda theory, answer: theory.exponent * theory.coefficient * answer.radius ** (theory.exponent - 1.0),
+)
+
+
 @dataclass(frozen=True)
-class PowerLawIndenter(Declared):
+class PowerLawIndenter(Theory):
     """Profile f = B r^n against an elastic half-space: δ = κ B aⁿ, P = 2n/(n + 1) E* a δ.
 
     κ = √π Γ(n/2 + 1)/Γ((n + 1)/2): π/2 for the cone (n = 1, B its slope), 2 for the paraboloid (n = 2, B = 1/2R), and the
@@ -68,6 +73,7 @@ class PowerLawIndenter(Declared):
     name: ClassVar[str] = "power-law-indenter"
     title: ClassVar[str] = "Power-law indenter"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Sneddon1965")
+    limits: ClassVar[tuple[Bound, ...]] = (_EDGE,)
 
     @property
     def approach_factor(self) -> float:
@@ -102,11 +108,6 @@ class PowerLawIndenter(Declared):
         profile: RealArray = np.where(rho == 0.0, at_apex, values)
         return profile
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: n B a^(n-1) <= 0.3 at the edge of the contact."""
-        slope = self.exponent * self.coefficient * answer.radius ** (self.exponent - 1.0)
-        return (small_slope("slope of the profile at the edge", slope),)
-
     def _max_pressure(self, a: RealArray, approach: RealArray) -> RealArray:
         """At the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined."""
         n = self.exponent
@@ -127,7 +128,7 @@ class PowerLawIndenter(Declared):
 
 
 @dataclass(frozen=True)
-class FlatPunch(Declared):
+class FlatPunch(Theory):
     """Flat-ended rigid cylinder: P = 2E*aδ, p = P/(2πa² sqrt(1 - r²/a²))."""
 
     E_star: Modulus
@@ -135,6 +136,9 @@ class FlatPunch(Declared):
     name: ClassVar[str] = "flat-punch"
     title: ClassVar[str] = "Flat punch"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("approach over radius of the punch", lambda theory, answer: answer.approach / theory.radius),
+    )
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -169,13 +173,9 @@ class FlatPunch(Declared):
         displacement: RealArray = 2.0 / np.pi * approach * np.arcsin(self.radius / distance)
         return displacement
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """The edge must not sink in further than slopes stay small: δ/a <= 0.3."""
-        return (small_slope("approach over radius of the punch", answer.approach / self.radius),)
-
 
 @dataclass(frozen=True)
-class SphericalIndenter(Declared):
+class SphericalIndenter(Theory):
     """Rigid sphere with its exact profile R - sqrt(R² - r²): δ = a artanh(a/R), P = E*[(R² + a²) artanh(a/R) - aR].
 
     The body is still a half-space with small slopes, so this shows what the paraboloid of ``HertzPoint`` leaves out.
@@ -186,6 +186,9 @@ class SphericalIndenter(Declared):
     name: ClassVar[str] = "rigid-sphere"
     title: ClassVar[str] = "Sphere with its exact profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Sneddon1965",)
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("contact radius over radius of the sphere", CONTACT_RADIUS.value),
+    )
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -225,10 +228,6 @@ class SphericalIndenter(Declared):
         profile: RealArray = self.E_star / np.pi * np.sum(weight * rise, axis=-1)
         return profile
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: a/R <= 0.3."""
-        return (small_slope("contact radius over radius of the sphere", answer.radius / self.radius),)
-
     def _load(self, s: RealArray) -> RealArray:
         """P of s = a/R; for small s the two terms cancel to (4/3) s³, so the series of artanh is used there."""
         exact = (1.0 + s**2) * np.arctanh(s) - s
@@ -249,7 +248,7 @@ def _integral_artanh_over_x(s: RealArray) -> RealArray:
 
 
 @dataclass(frozen=True)
-class LinePowerLawIndenter(Declared):
+class LinePowerLawIndenter(Theory):
     """Profile f = B|x|ⁿ in plane strain: P = E* n B c aⁿ per length, c = (√π/2) Γ((n + 1)/2)/Γ(n/2 + 1).
 
     The wedge has n = 1 and slope B, the cylinder n = 2 and B = 1/2R. Approach and stiffness depend on how the body is
@@ -262,6 +261,7 @@ class LinePowerLawIndenter(Declared):
     name: ClassVar[str] = "line-power-law-indenter"
     title: ClassVar[str] = "Power-law indenter in plane strain"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (_EDGE,)
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     @property
@@ -302,18 +302,13 @@ class LinePowerLawIndenter(Declared):
         )
         return profile
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Slopes must be small: n B a^(n-1) <= 0.3 at the edge of the contact."""
-        slope = self.exponent * self.coefficient * answer.radius ** (self.exponent - 1.0)
-        return (small_slope("slope of the profile at the edge", slope),)
-
     @property
     def _stiff(self) -> float:
         return self.E_star * self.exponent * self.coefficient * self.load_factor
 
 
 @dataclass(frozen=True)
-class LineFlatPunch(Declared):
+class LineFlatPunch(Theory):
     """Flat rigid punch of the half-width a in plane strain: p = P/(π sqrt(a² - x²)), P per length."""
 
     E_star: Modulus
@@ -321,6 +316,9 @@ class LineFlatPunch(Declared):
     name: ClassVar[str] = "line-flat-punch"
     title: ClassVar[str] = "Flat punch in plane strain"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("mean pressure over contact modulus", lambda theory, answer: answer.mean_pressure / theory.E_star),
+    )
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
@@ -339,16 +337,12 @@ class LineFlatPunch(Declared):
             profile: RealArray = np.where(distance > self.half_width, 0.0, P / (np.pi * root))
         return profile
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """The pressure away from the edge must be small against the modulus: P/2aE* <= 0.3."""
-        return (small_slope("mean pressure over contact modulus", answer.mean_pressure / self.E_star),)
-
 
 # Cone and wedge: the power-law indenters of exponent one by their slope (Sneddon 1965; Johnson 1985, secs. 5.1, 5.2).
 
 
 @dataclass(frozen=True)
-class Cone(Declared):
+class Cone(Theory):
     """Cone against an elastic half-space: a = 2δ/(π slope), P = (2/π) E* δ²/slope.
 
     Examples
@@ -362,6 +356,9 @@ class Cone(Declared):
     name: ClassVar[str] = "cone"
     title: ClassVar[str] = "Cone"
     citation_keys: ClassVar[tuple[str, ...]] = PowerLawIndenter.citation_keys
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("slope of the profile at the edge", lambda theory, answer: theory.slope),
+    )
 
     @property
     def indenter(self) -> PowerLawIndenter:
@@ -372,13 +369,9 @@ class Cone(Declared):
         """The contact under ``load`` in N, >= 0, of any shape."""
         return self.indenter.at_load(load)
 
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """The slope must be small."""
-        return self.indenter.validity(answer)
-
 
 @dataclass(frozen=True)
-class Wedge(Declared):
+class Wedge(Theory):
     """Wedge against an elastic half-space in plane strain."""
 
     E_star: Modulus
@@ -386,6 +379,9 @@ class Wedge(Declared):
     name: ClassVar[str] = "wedge"
     title: ClassVar[str] = "Wedge"
     citation_keys: ClassVar[tuple[str, ...]] = LinePowerLawIndenter.citation_keys
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("slope of the profile at the edge", lambda theory, answer: theory.slope),
+    )
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     @property
@@ -396,7 +392,3 @@ class Wedge(Declared):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape."""
         return self.indenter.at_load(load)
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """The slope must be small."""
-        return self.indenter.validity(answer)

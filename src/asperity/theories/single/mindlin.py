@@ -16,10 +16,11 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Length, Positive, Pressure
-from ..ask import Column, Way, asked
-from ..protocol import ContactAnswer, Limit, Modulus, checked
+from ..ask import Way, asked
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, checked, small_slope
 from .hertz import HertzLine, HertzPoint
 
 
@@ -30,10 +31,10 @@ def tangential_modulus(shear_0: float, nu_0: float, shear_1: float, nu_1: float)
 
 
 SLIP = (
-    Column("normal.radius", "m", "radius (half-width) of the contact"),
-    Column("stick_radius", "m", "radius (half-width) of the stick zone"),
-    Column("displacement", "m", "tangential displacement of distant points"),
-    Column("stiffness", "N/m", "derivative of the tangential force by it"),
+    Quantity("normal.radius", "m", "radius (half-width) of the contact"),
+    Quantity("stick_radius", "m", "radius (half-width) of the stick zone"),
+    Quantity("displacement", "m", "tangential displacement of distant points"),
+    Quantity("stiffness", "N/m", "derivative of the tangential force by it"),
 )
 """What a contact under a tangential force answers; the first two in plane strain."""
 
@@ -61,7 +62,7 @@ class SlipAnswer:
 
 
 @dataclass(frozen=True)
-class MindlinPoint(Declared):
+class MindlinPoint(Theory):
     """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c."""
 
     E_star: Modulus
@@ -71,6 +72,9 @@ class MindlinPoint(Declared):
     name: ClassVar[str] = "mindlin"
     title: ClassVar[str] = "Cattaneo-Mindlin, point contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(CONTACT_RADIUS.criterion, lambda theory, answer: answer.normal.radius / theory.radius),
+    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(asked("tangential", "N", "tangential force"), "at_load", SLIP, (asked("load", "N", "normal force"),)),
     )
@@ -99,13 +103,9 @@ class MindlinPoint(Declared):
         """Shear traction q in Pa at the distance ``r`` in m (any shape) from the axis."""
         return _difference(self.normal, r, load, tangential, self.friction)
 
-    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
-        """Conditions of the normal contact."""
-        return self.normal.validity(answer.normal)
-
 
 @dataclass(frozen=True)
-class MindlinLine(Declared):
+class MindlinLine(Theory):
     """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP)."""
 
     E_star: Modulus
@@ -114,6 +114,9 @@ class MindlinLine(Declared):
     name: ClassVar[str] = "mindlin-line"
     title: ClassVar[str] = "Cattaneo-Mindlin, line contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cattaneo1938", "Ciavarella1998", "Jager1998", "Mindlin1949")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(CONTACT_RADIUS.criterion, lambda theory, answer: answer.normal.radius / theory.radius),
+    )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("tangential", "N/m", "tangential force per length"),
@@ -157,10 +160,6 @@ class MindlinLine(Declared):
                 f"{shift / a:.3g} half-widths with a half-width of {c / a:.3g}. Less bulk stress or more friction does."
             )
         return shift
-
-    def validity(self, answer: SlipAnswer) -> tuple[Limit, ...]:
-        """Conditions of the normal contact."""
-        return self.normal.validity(answer.normal)
 
 
 def _sticking(tangential: ArrayLike, limit: float) -> RealArray:

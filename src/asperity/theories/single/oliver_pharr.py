@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from ...core.errors import InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Force, Length, Number, Positive
-from ..ask import Column
+from ..protocol import Theory
 
 CONE, PARABOLOID, PUNCH = 0.72, 0.75, 1.0
 """ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the paraboloid."""
@@ -19,7 +20,7 @@ BERKOVICH = 24.5
 
 
 @dataclass(frozen=True)
-class OliverPharr(Declared):
+class OliverPharr(Theory):
     """Results from the initial unloading: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
 
     Raises
@@ -40,11 +41,11 @@ class OliverPharr(Declared):
     name: ClassVar[str] = "oliver-pharr"
     title: ClassVar[str] = "Oliver-Pharr, hardness and modulus from unloading"
     citation_keys: ClassVar[tuple[str, ...]] = ("Oliver1992",)
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("hardness", "Pa", "hardness"),
-        Column("contact_modulus", "Pa", "reduced modulus of indenter and body"),
-        Column("contact_depth", "m", "depth of the contact"),
-        Column("area", "m^2", "area of the contact"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("hardness", "Pa", "hardness"),
+        Quantity("contact_modulus", "Pa", "reduced modulus of indenter and body"),
+        Quantity("contact_depth", "m", "depth of the contact"),
+        Quantity("area", "m^2", "area of the contact"),
     )
 
     def __post_init__(self) -> None:

@@ -12,15 +12,15 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.quantity import Quantity
 from ...core.values import Length
-from ..ask import Column
 from ..protocol import (
+    Bound,
     ContactAnswer,
-    Limit,
     Modulus,
     Prediction,
+    Theory,
     bisected,
     checked,
     curve,
@@ -33,7 +33,7 @@ from .hertz import HertzPoint
 
 
 @dataclass(frozen=True)
-class Westergaard(Declared):
+class Westergaard(Theory):
     """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* = πE*Δ/λ just closes it everywhere.
 
     Examples
@@ -49,8 +49,13 @@ class Westergaard(Declared):
     name: ClassVar[str] = "westergaard"
     title: ClassVar[str] = "Westergaard, sinusoid"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Westergaard1939")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(
+            "largest slope of the wave", lambda theory, answer: 2.0 * np.pi * theory.amplitude / theory.wavelength
+        ),
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
 
     @property
@@ -106,11 +111,6 @@ class Westergaard(Declared):
             p, area_fraction=self.area_fraction(p), separation=gap, mean_gap=gap, stiffness=self.stiffness(p)
         )
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Slopes of the wave must be small: 2πΔ/λ <= 0.3."""
-        slope = 2.0 * np.pi * self.amplitude / self.wavelength
-        return (small_slope("largest slope of the wave", np.full(len(prediction), slope)),)
-
     def _share(self, mean_pressure: ArrayLike) -> RealArray:
         share: RealArray = checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
         return share
@@ -126,7 +126,7 @@ LOW_LOAD, HIGH_LOAD = 0.02, 0.95
 
 
 @dataclass(frozen=True)
-class CrossedWaves(Declared):
+class CrossedWaves(Theory):
     """Gap Δ(2 - cos 2πx/λ - cos 2πy/λ) before loading; p* = 2πE*Δ/λ closes it everywhere.
 
     The product form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface turned by 45°, Δ = Δ'/2, λ = λ'/√2.
@@ -138,14 +138,33 @@ class CrossedWaves(Declared):
     name: ClassVar[str] = "crossed-waves"
     title: ClassVar[str] = "Johnson-Greenwood-Higginson, crossed waves"
     citation_keys: ClassVar[tuple[str, ...]] = ("JohnsonGreenwood1985",)
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(
+            "largest slope of the waves",
+            lambda theory, answer: 2.0 * math.sqrt(2.0) * math.pi * theory.amplitude / theory.wavelength,
+        ),
+        Bound(
+            "p/p* between 0.02 and 0.95, by",
+            lambda theory, answer: theory._between(answer.pressure),
+            -math.inf,
+            0.0,
+            "JohnsonGreenwood1985",
+            "There is no closed form between the asymptotes of low and of high load.",
+        ),
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("full_contact_pressure", "Pa", "mean pressure that closes the gap everywhere"),
     )
 
     @property
     def full_contact_pressure(self) -> float:
         """p* = 2πE*Δ/λ in Pa."""
         return 2.0 * np.pi * self.E_star * self.amplitude / self.wavelength
+
+    def _between(self, pressure: RealArray) -> RealArray:
+        """How far p/p* lies between the ends of the asymptotes; negative within them."""
+        share = pressure / self.full_contact_pressure
+        return np.asarray(np.minimum(share - LOW_LOAD, HIGH_LOAD - share))
 
     @property
     def crest(self) -> HertzPoint:
@@ -185,17 +204,6 @@ class CrossedWaves(Declared):
         between = np.where(share >= HIGH_LOAD, self.area_fraction_at_high_load(p), np.nan)
         return prediction(p, area_fraction=np.where(share <= LOW_LOAD, self.area_fraction_at_low_load(p), between))
 
-    def validity(self, prediction: Prediction) -> tuple[Limit, ...]:
-        """Slopes small, and every load near one of the ends: p̄/p* <= 0.02 or >= 0.95."""
-        share = prediction.pressure / self.full_contact_pressure
-        inside = np.minimum(share - LOW_LOAD, HIGH_LOAD - share)
-        message = "There is no closed form between the asymptotes of low and of high load."
-        steepest = np.full(len(prediction), 2.0 * math.sqrt(2.0) * math.pi * self.amplitude / self.wavelength)
-        return (
-            small_slope("largest slope of the waves", steepest),
-            Limit("p/p* between 0.02 and 0.95, by", inside, -math.inf, 0.0, "JohnsonGreenwood1985", message),
-        )
-
 
 # Axisymmetric cosine cap pressed by a plane, exactly and to two terms of its profile (Sneddon 1965; Johnson 1985).
 
@@ -207,7 +215,7 @@ _NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
 
 
 @dataclass(frozen=True)
-class SinusoidalAsperity(Declared):
+class SinusoidalAsperity(Theory):
     """Cap that drops as (h/2)(1 - cos 2πr/λ) from its top, with radius of curvature λ²/2π²h.
 
     δ = (π²ha/2λ) H0(2πa/λ) with Struve's function, P = (2πE*ha²/λ) ∫ sin²t sin((2πa/λ) sin t) dt over 0 < t < π/2.
@@ -219,6 +227,14 @@ class SinusoidalAsperity(Declared):
     name: ClassVar[str] = "sinusoidal-asperity"
     title: ClassVar[str] = "Sinusoidal asperity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(
+            "slope of the profile at the edge",
+            lambda theory, answer: (
+                math.pi * theory.height / theory.wavelength * np.sin(2.0 * math.pi * answer.radius / theory.wavelength)
+            ),
+        ),
+    )
 
     @property
     def radius(self) -> float:
@@ -259,11 +275,6 @@ class SinusoidalAsperity(Declared):
             max_pressure=np.full_like(a, np.nan),
             stiffness=2.0 * self.E_star * a,
         )
-
-    def validity(self, answer: ContactAnswer) -> tuple[Limit, ...]:
-        """Small slopes at the edge."""
-        steepest = math.pi * self.height / self.wavelength * np.sin(2.0 * math.pi * answer.radius / self.wavelength)
-        return (small_slope("slope of the profile at the edge", np.asarray(steepest)),)
 
 
 def two_term_load(contact_radius: ArrayLike, E_star: float, A1: ArrayLike, A2: ArrayLike) -> RealArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, Protocol, Self
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.pearson import Pearson
 from ...core.quadrature import gauss
 
 # Distributions of summit heights and their one-sided moments F_m(D) = ∫_D^∞ (s - D)^m p(s) ds.
@@ -163,6 +165,37 @@ class TriangularHeights:
         twice = high ** (m + 2.0) - 2.0 * middle ** (m + 2.0) + low ** (m + 2.0)
         values: RealArray = twice / (6.0 * (m + 1.0) * (m + 2.0))
         return values
+
+
+@dataclass(frozen=True)
+class PearsonHeights:
+    """The density of Pearson's system that has this ``skewness`` and ``kurtosis``; InputError if kurtosis <= 1 + skewness²."""
+
+    skewness: float
+    kurtosis: float
+    name: ClassVar[str] = "pearson"
+    mean: ClassVar[float] = 0.0
+
+    def __post_init__(self) -> None:
+        _ = self.curve
+
+    @cached_property
+    def curve(self) -> Pearson:
+        """The curve of the system."""
+        return Pearson(self.skewness, self.kurtosis)
+
+    @property
+    def support(self) -> tuple[float, float]:
+        """Lowest and highest possible height; infinite where there is none."""
+        return self.curve.support
+
+    def density(self, s: RealArray) -> RealArray:
+        """Probability density p(s), any shape."""
+        return self.curve.pdf(s)
+
+    def tail_moment(self, D: RealArray, m: float) -> RealArray:
+        """F_m(D) for ``D`` of any shape, -1 < m < 4."""
+        return self.curve.excess_moment(m, D)
 
 
 NAMED_HEIGHTS: tuple[tuple[str, SummitHeights], ...] = (

@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared
 from ...core.quadrature import gauss
+from ...core.quantity import Quantity
 from ...core.values import Number, Positive
-from ..ask import Column, Way, asked
+from ..ask import Way, asked
+from ..protocol import Theory, real_numbers
 from .roughness import Roughness
 
 GEOMETRIC_CURVATURE = 1.35621131344399
@@ -38,7 +39,7 @@ class SummitsAt:
 
 
 @dataclass(frozen=True)
-class NayakSummits(Declared):
+class NayakSummits(Theory):
     """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2, m4.
 
     With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the joint
@@ -56,25 +57,25 @@ class NayakSummits(Declared):
     name: ClassVar[str] = "nayak"
     title: ClassVar[str] = "Nayak, summits of a Gaussian surface"
     citation_keys: ClassVar[tuple[str, ...]] = ("LonguetHiggins1957", "McCool1986", "Nayak1971")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("alpha", "", "bandwidth m0 m4/m2²"),
-        Column("density", "1/m^2", "summits per area"),
-        Column("mean_height", "m", "mean height of the summits above the mean plane"),
-        Column("height_deviation", "m", "standard deviation of the summit heights"),
-        Column("height_skewness", "", "skewness of the summit heights"),
-        Column("height_kurtosis", "", "kurtosis of the summit heights"),
-        Column("radius", "m", "1/<κ>, κ the mean curvature"),
-        Column("mean_curvature", "1/m", "mean of κ"),
-        Column("curvature_deviation", "1/m", "standard deviation of κ"),
-        Column("height_curvature_correlation", "", "correlation of height and κ"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("alpha", "1", "bandwidth m0 m4/m2²"),
+        Quantity("density", "1/m^2", "summits per area"),
+        Quantity("mean_height", "m", "mean height of the summits above the mean plane"),
+        Quantity("height_deviation", "m", "standard deviation of the summit heights"),
+        Quantity("height_skewness", "1", "skewness of the summit heights"),
+        Quantity("height_kurtosis", "1", "kurtosis of the summit heights"),
+        Quantity("radius", "m", "1/<κ>, κ the mean curvature"),
+        Quantity("mean_curvature", "1/m", "mean of κ"),
+        Quantity("curvature_deviation", "1/m", "standard deviation of κ"),
+        Quantity("height_curvature_correlation", "1", "correlation of height and κ"),
     )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("height", "m", "height above the mean plane"),
             "at_height",
             (
-                Column("probability", "1/m", "probability density of the summit heights"),
-                Column("curvature", "1/m", "mean of κ over the summits of this height"),
+                Quantity("probability", "1/m", "probability density of the summit heights"),
+                Quantity("curvature", "1/m", "mean of κ over the summits of this height"),
             ),
         ),
     )
@@ -156,14 +157,14 @@ class NayakSummits(Declared):
 
     def height_density(self, height: ArrayLike) -> RealArray:
         """Probability density in 1/m of the summit heights at ``height`` in m (any shape)."""
-        xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
+        xi = real_numbers(height, "heights (m)") / math.sqrt(self.m0)
         scale, moments = self._partial_moments(xi)
         values: RealArray = np.exp(scale) * moments[0] / math.sqrt(self.m0)
         return values
 
     def mean_curvature_at(self, height: ArrayLike) -> RealArray:
         """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are sharper."""
-        xi = np.asarray(height, dtype=float) / math.sqrt(self.m0)
+        xi = real_numbers(height, "heights (m)") / math.sqrt(self.m0)
         moments = self._partial_moments(xi)[1]
         with np.errstate(invalid="ignore"):  # no summits below the mean plane where there is a single wavelength
             return np.asarray(self._curvature_unit * moments[1] / moments[0])

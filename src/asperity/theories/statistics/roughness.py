@@ -109,6 +109,11 @@ class SummitList:
         return radius
 
     @property
+    def mean_radius(self) -> float:
+        """1/<κ> in m."""
+        return 1.0 / float(self.curvature.mean())
+
+    @property
     def mean_height(self) -> float:
         """Mean height above the mean plane of the surface in m."""
         return float(self.height.mean())
@@ -205,6 +210,14 @@ class Roughness:
     def rms_gradient(self) -> float:
         """sqrt(<|∇h|²>) = sqrt(2 m2)."""
         return math.sqrt(2.0 * self.m2)
+
+    @property
+    def anisotropy(self) -> float | None:
+        """Ratio of the principal mean square slopes, from 1 on; None if moments by direction are not known."""
+        if self.moments is None:
+            return None
+        steep, gentle = self.moments.principal_slopes
+        return steep / gentle if gentle > 0.0 else math.inf
 
     def known(self, part: T | None, what: str, theory: str) -> T:
         """Return ``part`` of this value, or say that the ``theory`` needs ``what``.

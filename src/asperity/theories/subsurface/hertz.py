@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import ComplexArray, RealArray
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.tensor import Displacement, ElasticFields, StressTensor
 from ...core.values import Length, Number
-from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked
-from ..protocol import Modulus, PoissonOfSolid, checked, poissons_ratio
+from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked, places
+from ..protocol import Modulus, PoissonOfSolid, Theory
 from ..single.hertz import HertzEllipse, HertzLine, HertzPoint
 
 # Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
@@ -341,7 +341,7 @@ SOME_SHEAR = 1.0
 
 
 @dataclass(frozen=True)
-class HertzStress(Declared):
+class HertzStress(Theory):
     """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1)."""
 
     E_star: Modulus
@@ -357,17 +357,16 @@ class HertzStress(Declared):
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""
-        z = checked(depth, "depth (m)")
         contact = HertzPoint(self.E_star, self.radius).at_load(require.positive(load, "load (N)"))
         a, peak = float(contact.radius), float(contact.max_pressure)
-        places = (x + 0.0 * z, y + 0.0 * z, z, a)
-        pressed = hertz_normal(*places, shear=SOME_SHEAR, nu=self.nu).stress
-        dragged = hertz_shear(*places, shear=SOME_SHEAR, nu=self.nu).stress
+        X, Y, Z = places(depth, x, y)
+        pressed = hertz_normal(X, Y, Z, a, shear=SOME_SHEAR, nu=self.nu).stress
+        dragged = hertz_shear(X, Y, Z, a, shear=SOME_SHEAR, nu=self.nu).stress
         return StressAnswer((pressed + dragged * self.friction) * peak)
 
 
 @dataclass(frozen=True)
-class HertzLineStress(Declared):
+class HertzLineStress(Theory):
     """Stresses below a cylinder in plane strain that is pressed and slides (McEwen 1949; Johnson 1985, secs. 4.2c, 7.1).
 
     Parameters as for ``HertzStress``.
@@ -388,16 +387,15 @@ class HertzLineStress(Declared):
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the place ``x`` in m of the surface under ``load`` in N/m, > 0."""
-        z = checked(depth, "depth (m)")
         contact = HertzLine(self.E_star, self.radius).at_load(require.positive(load, "load per length (N/m)"))
-        places = (x + 0.0 * z, z, float(contact.radius))
-        pressed = hertz_line_normal(*places, shear=SOME_SHEAR, nu=self.nu).stress
-        dragged = hertz_line_shear(*places, shear=SOME_SHEAR, nu=self.nu).stress
+        (X, Z), a = places(depth, x), float(contact.radius)
+        pressed = hertz_line_normal(X, Z, a, shear=SOME_SHEAR, nu=self.nu).stress
+        dragged = hertz_line_shear(X, Z, a, shear=SOME_SHEAR, nu=self.nu).stress
         return StressAnswer((pressed + dragged * self.friction) * float(contact.max_pressure))
 
 
 @dataclass(frozen=True)
-class HertzEllipseStress(Declared):
+class HertzEllipseStress(Theory):
     """Stresses below an elliptical contact (Johnson 1985, sec. 3.5)."""
 
     E_star: Modulus
@@ -411,14 +409,9 @@ class HertzEllipseStress(Declared):
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
         """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""
-        z = checked(depth, "depth (m)")
         contact = HertzEllipse(self.E_star, self.radius_x, self.radius_y)
         first, second = (float(np.squeeze(axis)) for axis in contact.semi_axes(require.positive(load, "load (N)")))
         peak = float(contact.at_load(load).max_pressure)
-        found = hertz_ellipse_normal(x + 0.0 * z, y + 0.0 * z, z, (first, second), nu=self.nu)
+        X, Y, Z = places(depth, x, y)
+        found = hertz_ellipse_normal(X, Y, Z, (first, second), nu=self.nu)
         return StressAnswer(found * peak)
-
-
-def _check(nu: float, friction: float) -> None:
-    poissons_ratio(nu)
-    require.not_negative(friction, "friction coefficient")

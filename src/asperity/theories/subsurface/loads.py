@@ -8,14 +8,13 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
 from ...core.tensor import Displacement, ElasticFields, StressTensor
 from ...core.values import Length, Number, Pressure
-from ..ask import ALONG_X, ALONG_Y, DEPTH, FIELDS, FieldAnswer, Way
-from ..protocol import PoissonOfSolid, checked, poissons_ratio
+from ..ask import ALONG_X, ALONG_Y, DEPTH, FIELDS, FieldAnswer, Way, places
+from ..protocol import PoissonOfSolid, Theory
 
 # Point forces on the surface of a half-space (Boussinesq 1885; Cerruti 1882; Johnson 1985, ch. 3).
 
@@ -193,7 +192,7 @@ PLANE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X,)),)
 
 
 @dataclass(frozen=True)
-class Boussinesq(Declared):
+class Boussinesq(Theory):
     """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2)."""
 
     load: Annotated[float, Number("force"), Help("force", of="bodies")]
@@ -206,12 +205,12 @@ class Boussinesq(Declared):
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
-        z = _away(depth, x, y)
-        return _fields(boussinesq(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.load)
+        X, Y, Z = _away(depth, x, y)
+        return _fields(boussinesq(X, Y, Z, shear=self.shear, nu=self.nu) * self.load)
 
 
 @dataclass(frozen=True)
-class Cerruti(Declared):
+class Cerruti(Theory):
     """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6)."""
 
     tangential: Annotated[float, Number("force"), Help("force", of="bodies")]
@@ -224,12 +223,12 @@ class Cerruti(Declared):
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
-        z = _away(depth, x, y)
-        return _fields(cerruti(x + 0.0 * z, y + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.tangential)
+        X, Y, Z = _away(depth, x, y)
+        return _fields(cerruti(X, Y, Z, shear=self.shear, nu=self.nu) * self.tangential)
 
 
 @dataclass(frozen=True)
-class Flamant(Declared):
+class Flamant(Theory):
     """Forces on the line x = 0 of the surface in plane strain (Flamant 1892; Johnson 1985, secs. 2.2, 2.3).
 
     Displacements are those up to a constant, see ``flamant_normal``.
@@ -246,13 +245,13 @@ class Flamant(Declared):
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""
-        z = _away(depth, x, 0.0)
-        pressed = flamant_normal(x + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.normal
-        return _fields(pressed + flamant_tangential(x + 0.0 * z, z, shear=self.shear, nu=self.nu) * self.tangential)
+        X, Z = _away(depth, x)
+        pressed = flamant_normal(X, Z, shear=self.shear, nu=self.nu) * self.normal
+        return _fields(pressed + flamant_tangential(X, Z, shear=self.shear, nu=self.nu) * self.tangential)
 
 
 @dataclass(frozen=True)
-class Strip(Declared):
+class Strip(Theory):
     """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5)."""
 
     half_width: Annotated[Length, Help("half the width of the strip b", of="bodies")]
@@ -267,26 +266,19 @@ class Strip(Declared):
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
         """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""
-        z = checked(depth, "depth (m)")
-        places = (x + 0.0 * z, z, self.half_width)
-        pressed = strip_pressure(*places, shear=self.shear, nu=self.nu) * self.pressure
-        return _fields(pressed + strip_shear(*places, shear=self.shear, nu=self.nu) * self.traction)
+        X, Z = places(depth, x)
+        pressed = strip_pressure(X, Z, self.half_width, shear=self.shear, nu=self.nu) * self.pressure
+        return _fields(pressed + strip_shear(X, Z, self.half_width, shear=self.shear, nu=self.nu) * self.traction)
 
 
-def _check(force: float, shear: float, nu: float) -> None:
-    require.finite(force, "force or pressure")
-    require.positive(shear, "shear modulus (Pa)")
-    poissons_ratio(nu)
-
-
-def _away(depth: ArrayLike, x: float, y: float) -> RealArray:
-    """``depth`` as an array of places off the force itself."""
-    z = checked(depth, "depth (m)")
-    if np.any(np.hypot(np.hypot(x, y), z) == 0.0):
+def _away(depth: ArrayLike, *beside: float) -> tuple[RealArray, ...]:
+    """Places off the force itself."""
+    found = places(depth, *beside)
+    if np.any(np.sum(np.square(found), axis=0) == 0.0):
         raise InputError(
             "depth (m) must be greater than zero below the force, but is 0: fields are infinite at a force."
         )
-    return z
+    return found
 
 
 def _fields(found: ElasticFields) -> FieldAnswer:

@@ -16,10 +16,11 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.tensor import StressTensor, second_invariant
-from ..ask import Column, Way, asked
-from ..protocol import PoissonOfSolid, curve, poissons_ratio
+from ..ask import Way, asked
+from ..protocol import PoissonOfSolid, Theory, curve, poissons_ratio
 from .hertz import hertz_line_normal, hertz_line_shear, hertz_normal, hertz_shear
 
 _ROUNDS = 14  # of refinement by 5 each: past the square root of the rounding, which the place of a maximum is known to
@@ -82,17 +83,17 @@ ONSET: tuple[Way, ...] = (
         asked("friction", "", "friction coefficient"),
         "at_friction",
         (
-            Column("peak_over_Y", "", "peak pressure at first yield over the tensile yield stress"),
-            Column("peak_over_k", "", "peak pressure at first yield over the yield stress in shear"),
-            Column("x", "", "place along the sliding direction in contact radii"),
-            Column("z", "", "depth in contact radii; 0 is the surface"),
+            Quantity("peak_over_Y", "1", "peak pressure at first yield over the tensile yield stress"),
+            Quantity("peak_over_k", "1", "peak pressure at first yield over the yield stress in shear"),
+            Quantity("x", "1", "place along the sliding direction in contact radii"),
+            Quantity("z", "1", "depth in contact radii; 0 is the surface"),
         ),
     ),
 )
 
 
 @dataclass(frozen=True)
-class SphereYield(Declared):
+class SphereYield(Theory):
     """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion."""
 
     nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3
@@ -107,7 +108,7 @@ class SphereYield(Declared):
 
 
 @dataclass(frozen=True)
-class CylinderYield(Declared):
+class CylinderYield(Theory):
     """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``."""
 
     nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3

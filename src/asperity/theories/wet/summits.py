@@ -12,13 +12,24 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
-from ...core.parameters import Declared, Help
+from ...core.parameters import Help
+from ...core.quantity import Quantity
 from ...core.values import Length, Number, Positive, Real, Viscosity
-from ..ask import PRESSURE, Column, Way, asked
-from ..protocol import HeightDeviation, Limit, MeanHeight, Modulus, Prediction, SummitDensity, SummitRadius, curve
+from ..ask import PRESSURE, Way, asked
+from ..protocol import (
+    Bound,
+    HeightDeviation,
+    Limit,
+    MeanHeight,
+    Modulus,
+    Prediction,
+    SummitDensity,
+    SummitRadius,
+    Theory,
+    curve,
+)
 from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
-from ..rough.kotwal_bhushan import PearsonHeights
-from ..statistics.heights import GaussianHeights, SummitHeights
+from ..statistics.heights import GaussianHeights, PearsonHeights, SummitHeights
 from ..statistics.roughness import Roughness
 from .meniscus import MeniscusGrowth, film_force
 
@@ -243,18 +254,18 @@ def caught(heights: SummitHeights, D: RealArray, film: float, height: ArrayLike)
 
 
 WET = (
-    Column("pressure", "Pa", "external load per nominal area"),
-    Column("meniscus_pressure", "Pa", "meniscus force per nominal area"),
-    Column("contact.pressure", "Pa", "what the summits carry"),
-    Column("contact.area_fraction", "", "real area per nominal area"),
-    Column("contact.contact_density", "1/m^2", "contacts per nominal area"),
-    Column("contact.separation", "m", "plane to mean plane of the undeformed surface"),
+    Quantity("pressure", "Pa", "external load per nominal area"),
+    Quantity("meniscus_pressure", "Pa", "meniscus force per nominal area"),
+    Quantity("contact.pressure", "Pa", "what the summits carry"),
+    Quantity("contact.area_fraction", "1", "real area per nominal area"),
+    Quantity("contact.contact_density", "1/m^2", "contacts per nominal area"),
+    Quantity("contact.separation", "m", "plane to mean plane of the undeformed surface"),
 )
 """What wet summits answer."""
 
 
 @dataclass(frozen=True)
-class WetSummits(Declared):
+class WetSummits(Theory):
     """Summits in a film of liquid, each pulled by the force of a sphere that touches it, against a smooth plane.
 
     ``theory`` is the :class:`~asperity.theories.statistical_meniscus.StatisticalMeniscus` of these numbers.
@@ -273,9 +284,10 @@ class WetSummits(Declared):
     name: ClassVar[str] = "statistical-meniscus"
     title: ClassVar[str] = "Menisci of Greenwood-Williamson summits"
     citation_keys: ClassVar[tuple[str, ...]] = (*StatisticalMeniscus.citation_keys, "Kotwal1996")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("theory.largest", "Pa", "meniscus force per area when every summit reaches the film"),
-        Column("theory.pull_off", "Pa", "largest tension that the menisci hold"),
+    limits: ClassVar[tuple[Bound, ...]] = GreenwoodWilliamson.limits
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("theory.largest", "Pa", "meniscus force per area when every summit reaches the film"),
+        Quantity("theory.pull_off", "Pa", "largest tension that the menisci hold"),
     )
     ways: ClassVar[tuple[Way, ...]] = (Way(PRESSURE, "at_pressure", WET),)
 
@@ -316,7 +328,7 @@ class WetSummits(Declared):
         """Balance under external pressures (n,) in Pa, > 0."""
         return self.theory.at_pressure(pressure)
 
-    def validity(self, answer: WetPrediction) -> tuple[Limit, ...]:
+    def validity(self, answer: WetPrediction, roughness: Roughness | None = None) -> tuple[Limit, ...]:
         """Conditions of the contact of the summits."""
         return self.theory.contact.validity(answer.contact)
 
@@ -331,7 +343,7 @@ class GrownMenisci:
 
 
 @dataclass(frozen=True)
-class GrowingMenisci(Declared):
+class GrowingMenisci(Theory):
     """Wet summits whose menisci grow with time; Gaussian heights.
 
     ``theory`` is the :class:`~asperity.theories.kinetic_meniscus.KineticMeniscus` of these numbers.
@@ -354,19 +366,19 @@ class GrowingMenisci(Declared):
     name: ClassVar[str] = "kinetic-meniscus"
     title: ClassVar[str] = "Growing menisci of Greenwood-Williamson summits"
     citation_keys: ClassVar[tuple[str, ...]] = (*KineticMeniscus.citation_keys, "Greenwood1966")
-    numbers: ClassVar[tuple[Column, ...]] = (
-        Column("theory.growth.equilibrium_height", "m", "height at which the film holds back its liquid"),
-        Column("theory.growth.time_scale", "s", "time scale of the growth"),
-        Column("theory.growth.disjoining_pressure", "Pa", "disjoining pressure of the film"),
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("theory.growth.equilibrium_height", "m", "height at which the film holds back its liquid"),
+        Quantity("theory.growth.time_scale", "s", "time scale of the growth"),
+        Quantity("theory.growth.disjoining_pressure", "Pa", "disjoining pressure of the film"),
     )
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
             asked("time", "s", "time after contact"),
             "at_time",
             (
-                Column("height", "m", "height of the menisci"),
-                Column("meniscus_pressure", "Pa", "meniscus force per nominal area"),
-                Column("area_fraction", "", "real area per nominal area"),
+                Quantity("height", "m", "height of the menisci"),
+                Quantity("meniscus_pressure", "Pa", "meniscus force per nominal area"),
+                Quantity("area_fraction", "1", "real area per nominal area"),
             ),
             (PRESSURE,),
         ),
@@ -387,6 +399,6 @@ class GrowingMenisci(Declared):
 
     def at_time(self, time: ArrayLike, pressure: float) -> GrownMenisci:
         """Balance at ``time`` (n,) in s, >= 0, under the external ``pressure`` in Pa, > 0."""
-        times = np.atleast_1d(np.asarray(time, dtype=float))
+        times = curve(time, "times (s)")
         found = self.theory.at(times, pressure)
         return GrownMenisci(self.theory.growth.height(times), found.meniscus_pressure, found.contact.area_fraction)
