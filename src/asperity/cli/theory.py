@@ -332,11 +332,8 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
 
 
 def _print_columns(found: Evaluation) -> None:
-    """The curve; rows beyond a limit are marked and red."""
-    size = found.columns[0][1].size
-    left = np.zeros(size, dtype=bool)
-    for limit in found.limits:
-        left |= ~np.broadcast_to(limit.holds, size)
+    """The curve; rows beyond a limit that concerns all columns are marked and red."""
+    size, left = found.columns[0][1].size, ~found.holds()
     names = [_heading(column.name) for column, _ in found.columns]
     if size == 1:  # one point is read downwards
         point = [

@@ -81,7 +81,7 @@ def catalogue_record(kind: type[Described]) -> dict[str, Any]:
 
 
 def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write the columns of ``found`` as CSV with a heading of names and units, and whether all limits hold; SI, exact.
+    """Write the columns of ``found`` as CSV with a heading of names and units, and whether the limits hold that concern all; SI, exact.
 
     Without columns the numbers are written: name, value, unit, meaning.
 
@@ -98,9 +98,7 @@ def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) 
             return
         units = [f"{column.name} ({column.unit})" if _unit(column) else column.name for column, _ in found.columns]
         writer.writerow((*units, "valid"))
-        valid = np.all([np.broadcast_to(limit.holds, found.columns[0][1].shape) for limit in found.limits], axis=0)
-        valid = np.broadcast_to(valid, found.columns[0][1].shape)
-        writer.writerows(zip(*(values.tolist() for _, values in found.columns), valid.tolist(), strict=True))
+        writer.writerows(zip(*(values.tolist() for _, values in found.columns), found.holds().tolist(), strict=True))
 
 
 def _unit(quantity: Quantity) -> str:

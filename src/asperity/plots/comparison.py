@@ -206,7 +206,6 @@ def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) 
     if not found.columns or found.columns[0][1].size < 2:
         raise InputError("--plot must be given together with a range, such as --load 1N..100N, but there is one point.")
     (axis, x), *columns = found.columns
-    valid = np.all([np.broadcast_to(limit.holds, x.shape) for limit in found.limits], axis=0) | np.zeros(x.size, bool)
     across = scale(x, axis.unit)
     logarithmic = "log" if x.min() > 0.0 and x.max() > 20.0 * x.min() else "linear"
 
@@ -217,14 +216,14 @@ def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) 
         for ax, (column, y) in zip(places.flat, columns, strict=False):
             up = scale(y, column.unit)
             ax.plot(across(x), up(y), color=BLUE, alpha=FAINT)
-            ax.plot(across(x), np.where(valid, up(y), np.nan), color=BLUE)
+            ax.plot(across(x), np.where(found.holds(column.name), up(y), np.nan), color=BLUE)
             rising = logarithmic == "log" and np.nanmin(y) > 0.0
             ax.set(xscale=logarithmic, yscale="log" if rising else "linear")
             ax.set_title(column.name.replace("_", " ") + (f", {up.symbol}" if up.symbol else ""))
         for ax in places.flat[len(columns) :]:
             ax.set_axis_off()
         for ax in places[-1]:
-            ax.set_xlabel(f"{axis.meaning}{f', {across.symbol}' if across.symbol else ''}")
+            ax.set_xlabel(f"{axis.label}{f', {across.symbol}' if across.symbol else ''}")
         figure.suptitle(found.theory.title)
         figure.tight_layout()
         return first

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import require
-from ..core.arrays import RealArray
+from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter
 from ..core.quantity import Quantity
@@ -123,6 +123,14 @@ class Evaluation:
     numbers: tuple[tuple[Quantity, float], ...]
     columns: tuple[tuple[Quantity, RealArray], ...] = ()
     limits: tuple[Limit, ...] = ()
+
+    def holds(self, quantity: str = "") -> BoolArray:
+        """(n,) whether all limits hold that concern the column ``quantity``; without a name those that concern every one."""
+        inside = np.ones(self.columns[0][1].shape, dtype=bool)
+        for limit in self.limits:
+            if limit.concerns(quantity):
+                inside &= limit.holds
+        return inside
 
 
 def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:

@@ -179,7 +179,9 @@ def test_an_anisotropic_surface_is_noted_with_its_ratio(film):
     found = asp.compare(stretched, STEEL, 1e7, theories=["persson", "mccool", "discrete-summits"], numerical=False)
     steep, gentle = found.roughness.moments.principal_slopes
     for name in ("persson", "mccool"):
-        assert f"principal mean square slopes {steep / gentle:.3g}, not from 1 to 2" in " ".join(found.curve(name).notes)
+        assert f"principal mean square slopes {steep / gentle:.3g}, not from 1 to 2" in " ".join(
+            found.curve(name).notes
+        )
         assert not found.curve(name).valid.any()
     assert "principal" not in " ".join(found.curve("discrete-summits").notes)
     alike = asp.compare(film, STEEL, 1e7, theories=["mccool"], numerical=False).curves[0]
