@@ -116,7 +116,7 @@ def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: P
 
 def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: Path) -> None:
     """In the frame of plane strain: loads per metre, stresses with a section along the line, no section across it."""
-    line = ("--boundary", "line", "--load", "0.5N", "--friction", 0.2, "--coupled")
+    line = ("--boundary", "line", "--load", "0.5N/m", "--friction", 0.2, "--coupled")
     found = run("contact", matrix, *SCALE, *BODY, *line, "--line", "x=3um", "--out", tmp_path / "run")
     assert found.exit_code == 0, found.stderr
     result = load(tmp_path / "run" / "result.nc")
@@ -125,6 +125,23 @@ def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: 
     assert result.force == pytest.approx(0.5)
     assert "sliced: line at x = 3.125 µm (24 points)" in found.stdout
     assert load_document(tmp_path / "run" / "problem.toml").surface.prepare[-1].x == pytest.approx(3e-6)
+    per_length = run("contact", matrix, *SCALE, *BODY, "--load", "1N/m")
+    assert "force per length must be given together with the boundary line only" in per_length.stderr
+    path = run(
+        "contact",
+        matrix,
+        *SCALE,
+        *BODY,
+        "--boundary",
+        "line",
+        "--line",
+        "x=3um",
+        "--path",
+        "0.5N/m",
+        "--path-steps",
+        "1",
+    )
+    assert "force                                                    500 mN" in path.stdout, path.stderr
     refused = run("contact", matrix, *SCALE, *BODY, *line)
     assert refused.exit_code == 2
     assert "--line y=middle" in refused.stderr

@@ -61,6 +61,7 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
     html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")
     assert "Largest stresses inside each layer" in html
     assert "film" in later.stdout
+    assert "warning (resolution)" in later.stdout
     assert load_document(document).friction.coefficient == 0.3
 
 

@@ -36,6 +36,7 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
     for text in ("Liquid film and menisci", "60° and 60°", "2.414 nm", "toe-dipping", "static friction coefficient"):
         assert text in result.stdout, text
     assert "Statistical theory beside it" in result.stdout
+    assert "prescribed                mean pressure 2 MPa" in result.stdout, "what was asked for, not the force it made"
     assert "Largest stresses inside" not in result.stdout, "the friction coefficient is that of the film alone"
     wet = asp.load(out / "result.nc")
     film = asp.LiquidFilm.at_humidity(asp.liquid("water"), 0.8, contact_angles=(np.pi / 3.0, np.pi / 3.0))

@@ -250,7 +250,8 @@ def path_table(text: str) -> dict[str, Any]:
     """Table of the load path in ``text``: the unit of its first value other than zero says what is prescribed."""
     points = [part.strip() for part in text.split(",")]
     loads = [point for point in points if point != NONE]
-    for key, kind in {"mean_pressure": "pressure", "force": "force", "approach": "length"}.items():
+    kinds = (("mean_pressure", "pressure"), ("force", "force"), ("force", "surface tension"), ("approach", "length"))
+    for key, kind in kinds:
         try:
             units.parse(loads[0] if loads else "", kind, "")
         except UnitError:

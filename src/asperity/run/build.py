@@ -33,6 +33,7 @@ from ..io.schemas.problem import (
     HardnessTable,
     LawTable,
     PathTable,
+    PerLength,
     ProblemDocument,
     SolverTable,
 )
@@ -93,7 +94,7 @@ class Case:
 
     def under(self, document: ProblemDocument) -> Case:
         """The same case with the load of ``document``, which differs in nothing else."""
-        control, path = build_load(document.control)
+        control, path = build_load(document.control, self.problem.surface.size[1])
         return replace(self, document=document, control=control, path=path)
 
 
@@ -122,7 +123,7 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         if part.name in asks:
             part.check(asks[part.name], problem)
     problem = _with_physics(problem, asks)
-    control, path = build_load(document.control)
+    control, path = build_load(document.control, surface.size[1])
     return Case(document, problem, control, path, build_solver(document.solver, problem), asks)
 
 
@@ -163,15 +164,18 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
     return LayeredHardness(softer) if coated_softer and isinstance(softer, Layered) else Hardness(hardness)
 
 
-def build_load(table: ControlTable) -> tuple[Control, tuple[Control, ...]]:
-    """The one control that ``table`` gives and no path, or the last control of its load path and the whole path."""
+def build_load(table: ControlTable, length: float = 1.0) -> tuple[Control, tuple[Control, ...]]:
+    """The one control that ``table`` gives and no path, or the last control of its load path and the whole path.
+
+    Forces per length are those of a line contact of this ``length`` in m.
+    """
     if table.path is None:
-        return build_control(table), ()
-    path = build_path(table.path)
+        return build_control(table, length), ()
+    path = build_path(table.path, length)
     return path[-1], path
 
 
-def build_path(table: PathTable) -> tuple[Control, ...]:
+def build_path(table: PathTable, length: float = 1.0) -> tuple[Control, ...]:
     """The controls of the load path that ``table`` describes."""
     kinds: dict[str, tuple[Ramped, str]] = {
         "mean_pressure": (MeanPressure, "pressure"),
@@ -182,11 +186,14 @@ def build_path(table: PathTable) -> tuple[Control, ...]:
     name = next(key for key in kinds if getattr(table, key) is not None)
     kind, quantity = kinds[name]
     texts: tuple[str, ...] = getattr(table, name)
-    points = [0.0 if text == NONE else units.parse(text, quantity, f"control.path.{name}") for text in texts]
+    points = [
+        0.0 if text == NONE else units.parse(text, quantity, f"control.path.{name}") * _per_length(text, length)
+        for text in texts
+    ]
     return ramps(kind, points, steps=table.steps)
 
 
-def build_control(table: ControlTable) -> Control:
+def build_control(table: ControlTable, length: float = 1.0) -> Control:
     """The one control that ``table`` gives.
 
     Raises
@@ -202,11 +209,15 @@ def build_control(table: ControlTable) -> Control:
     if table.mean_pressure is not None:
         return MeanPressure(_pressure(table.mean_pressure))
     if table.force is not None:
-        return Force(units.parse(table.force, "force", "control.force"))
+        return Force(units.parse(table.force, "force", "control.force") * _per_length(table.force, length))
     if table.approach is not None:
         return Approach(units.parse(table.approach, "length", "control.approach"))
     assert table.mean_gap is not None
     return MeanGap(units.parse(table.mean_gap, "length", "control.mean_gap"))
+
+
+def _per_length(force: float | str, length: float) -> float:
+    return length if isinstance(force, PerLength) else 1.0
 
 
 def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:

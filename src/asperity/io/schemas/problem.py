@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, model_validator
 
 from ...contact.solvers.by_name import SOLVERS
-from ...core.errors import InputError
+from ...core import units
+from ...core.errors import InputError, UnitError
 from ...core.settings import Settings, setting
-from ...core.values import Choice, Count, Force, Fraction, Length, Number, Pressure
+from ...core.values import Choice, Count, Fraction, Length, Number, Pressure, Written
 from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
 
@@ -25,10 +27,31 @@ NONE = "0"
 MIDDLE = "middle"
 """Word for a position: of the line in the middle of a map."""
 
+
+class PerLength(Written):
+    """Force per length of a line contact, in N/m."""
+
+
+@dataclass(frozen=True)
+class Load(Number):
+    """Forces, or forces per length such as ``"1 N/m"`` for a line contact."""
+
+    def read(self, value: Any, what: str) -> float | str:
+        """Number for text with a unit, which is kept."""
+        if isinstance(value, str) and value not in self.words:
+            try:
+                found = PerLength(units.parse(value, "surface tension", what), value)
+            except UnitError:
+                return super().read(value, what)
+            self.check(found, what)
+            return found
+        return super().read(value, what)
+
+
 Method: TypeAlias = Annotated[str, Choice({name: name for name in SOLVERS})]
 PressureOrBody: TypeAlias = Annotated[float | str, Number("pressure", above=0.0, words=(FROM_BODY, EFFECTIVE))]
 PathPressure: TypeAlias = Annotated[float | str, Number("pressure", least=0.0, words=(NONE,))]
-PathForce: TypeAlias = Annotated[float | str, Number("force", least=0.0, words=(NONE,))]
+PathForce: TypeAlias = Annotated[float | str, Load("force", least=0.0, words=(NONE,))]
 PathLength: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=(NONE,))]
 
 LOADS = ("mean_pressure", "force", "approach", "mean_gap")
@@ -103,7 +126,9 @@ class ControlTable(Settings):
     """What is prescribed: exactly one of these."""
 
     mean_pressure: Pressure | None = setting(None, option="--pressure", help="mean pressure: 50kPa")
-    force: Force | None = setting(None, option="--load", help="normal force: 1mN")
+    force: Annotated[float, Load("force", above=0.0)] | None = setting(
+        None, option="--load", help="normal force: 1mN; of a line contact also per length: 1N/m"
+    )
     approach: Length | None = setting(None, help="approach from first touch: 3nm")
     mean_gap: Length | None = setting(None, help="mean gap of the deformed surfaces")
     path: PathTable | None = setting(
@@ -167,6 +192,12 @@ class ProblemDocument(Settings):
             raise InputError(
                 'counter_surface.mirror must be given: "x" or "y" for a map measured facing its own body (how it is '
                 'turned over to meet the other one), "none" for one already in the frame of the other surface.'
+            )
+        forces = (self.control.force, *((self.control.path and self.control.path.force) or ()))
+        if self.boundary.kind != "line" and any(isinstance(force, PerLength) for force in forces):
+            raise InputError(
+                "force per length must be given together with the boundary line only (--boundary line), but is given for "
+                f"the boundary {self.boundary.kind}; write a force, such as 1 N."
             )
         if self.body.rigid and self.counter_body.rigid:
             raise InputError("body and counter_body must not both be rigid: give one of them a material.")
