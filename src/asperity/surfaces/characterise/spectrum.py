@@ -248,6 +248,7 @@ _NODES = 10  # Gauss-Legendre nodes of a piece
 _PIECES = 12  # pieces per factor of ten of wavenumber
 _UNFILTERED = 150.0  # q L/2 beyond which levelling removes less than 1e-4 of the power
 _ANGLES = 3.0  # trapezoidal points on a quarter circle per unit of q L/2
+_CHUNK = 2**17  # angles at once
 
 
 def mean_square_after_levelling(
@@ -277,8 +278,7 @@ def mean_square_after_levelling(
     if bend > low:
         # resolves the oscillations of the Bessel functions, of period π in q L/2
         q, weight = _nodes(_with_ripples(low, bend, longer))
-        passed = np.array([_passed(float(wavenumber), size, degree) for wavenumber in q])
-        filtered = float((weight * q * psd(q)) @ passed)
+        filtered = float((weight * q * psd(q)) @ _passed(q, size, degree))
     if high > bend:
         q, weight = _nodes(_logarithmic(max(bend, low), high))
         filtered += float(weight @ (q * psd(q)))
@@ -336,15 +336,20 @@ def effective_samples(spectrum: PowerSpectrum) -> float:
     return 2.0 * total**2 / squares if squares > 0.0 else math.nan
 
 
-def _passed(q: float, size: tuple[float, float], degree: int) -> float:
-    """Share of the power at wavenumber ``q`` that remains after levelling a window, averaged over all directions."""
-    reach = 0.5 * q * max(size)
-    count = 16 + math.ceil(_ANGLES * reach)
-    angle = (np.arange(count) + 0.5) * (0.5 * np.pi / count)
-    along_x = _bessel_squares(0.5 * q * size[0] * np.cos(angle), degree)
-    along_y = _bessel_squares(0.5 * q * size[1] * np.sin(angle), degree)
-    fitted = sum(along_x[a] @ along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
-    return 1.0 - float(fitted) / count
+def _passed(q: RealArray, size: tuple[float, float], degree: int) -> RealArray:
+    """Share of the power at wavenumbers ``q`` that remains after levelling a window, averaged over all directions."""
+    count = 16 + np.ceil(0.5 * _ANGLES * max(size) * q).astype(np.int64)
+    passed = np.empty_like(q)
+    for part in np.array_split(np.arange(q.size), 1 + int(count.sum()) // _CHUNK):
+        n = count[part]
+        first, points = np.cumsum(n) - n, np.repeat(n, n)
+        angle = (np.arange(points.size) - np.repeat(first, n) + 0.5) * (0.5 * np.pi / points)
+        radius = np.repeat(0.5 * q[part], n)
+        along_x = _bessel_squares(radius * size[0] * np.cos(angle), degree)
+        along_y = _bessel_squares(radius * size[1] * np.sin(angle), degree)
+        fitted = sum(along_x[a] * along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
+        passed[part] = 1.0 - np.add.reduceat(fitted, first) / n
+    return passed
 
 
 def _bessel_squares(x: RealArray, degree: int) -> list[RealArray]:
