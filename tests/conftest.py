@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import hashlib
+import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import IO
 
-import matplotlib
+import matplotlib.figure
 import pytest
 import reference_data
 from hypothesis import settings
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from PIL import Image
 
 matplotlib.use("Agg")
+
+RENDER = matplotlib.figure.Figure.savefig
+PIXEL = io.BytesIO()
+Image.new("RGB", (1, 1)).save(PIXEL, "png")
 
 IN_CI = os.environ.get("CI", "").lower() in {"1", "true"}
 
@@ -36,3 +46,26 @@ def shared_data() -> Path:
 def reference() -> Callable[[str], list[reference_data.Row]]:
     """Reader of tests/reference/<name>.csv; ``from reference_data import reference`` serves in parametrisations."""
     return reference_data.reference
+
+
+@pytest.fixture(scope="module")
+def unrendered() -> Iterator[None]:
+    """Figures are composed, but their file is one pixel with a digest of what they hold: rendering takes most of the time."""
+
+    def save(figure: matplotlib.figure.Figure, file: IO[bytes], **_: object) -> None:
+        held = hashlib.sha256()
+        for artist in figure.findobj():
+            held.update(repr((type(artist), artist.get_label(), getattr(artist, "get_array", str)())).encode())
+            held.update(repr(artist.get_text() if isinstance(artist, Text) else "").encode())
+            held.update(repr(artist.get_xydata() if isinstance(artist, Line2D) else "").encode())
+        file.write(PIXEL.getvalue() + held.digest())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(matplotlib.figure.Figure, "savefig", save)
+        yield
+
+
+@pytest.fixture
+def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures are rendered after all."""
+    monkeypatch.setattr(matplotlib.figure.Figure, "savefig", RENDER)

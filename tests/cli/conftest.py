@@ -22,6 +22,11 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NO_COLOR", "1")
 
 
+@pytest.fixture(autouse=True, scope="module")
+def quick_pictures(unrendered: None) -> None:
+    """A test that looks at pictures asks for the fixture ``rendered``."""
+
+
 @pytest.fixture
 def run() -> Runner:
     """Run the program in this process on arguments of any type."""

@@ -74,7 +74,7 @@ def test_effective_hardness(run: Runner, matrix: Path) -> None:
     assert "effective hardness 9 GPa at the surface to 100 MPa deep in the base, by local indentation" in words
 
 
-def test_plots_of_an_indented_surface(run: Runner, matrix: Path, tmp_path: Path) -> None:
+def test_plots_of_an_indented_surface(run: Runner, matrix: Path, tmp_path: Path, rendered: None) -> None:
     out = tmp_path / "run"
     body = ("--body", "E=100GPa,nu=0.3,H=0.5GPa")
     result = run("contact", matrix, *SCALE, *body, "--hardness", "body", "--pressure", "30MPa", "--out", out)

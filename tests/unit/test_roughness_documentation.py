@@ -12,6 +12,8 @@ import pytest
 import asperity as asp
 from asperity.surfaces.characterise.quantities import GROUPS, QUANTITIES
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "docs" / "reference" / "roughness.md"
 

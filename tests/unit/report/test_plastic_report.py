@@ -15,6 +15,8 @@ from asperity.parts.contact import energy_table, path_sentence, plastic_load_row
 from asperity.parts.part import Found
 from asperity.run.execute import analysed
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 
 def posed(law: asp.Hardness | asp.HardWall) -> asp.ContactProblem:
     noise = np.random.default_rng(7).standard_normal((24, 16))

@@ -23,6 +23,8 @@ from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
 from asperity.surfaces.surface import Origin
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 VOID = {"meta", "link", "img", "br"}
 
 

@@ -23,6 +23,8 @@ from asperity.report.roughness import (
 )
 from asperity.surfaces.roughness import QUANTITIES
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 BY_PATH = {quantity.name: quantity for quantity in QUANTITIES}
 
 

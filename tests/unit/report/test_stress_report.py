@@ -26,6 +26,8 @@ from asperity.report import write_report
 from asperity.run.execute import analysed
 from asperity.stress.survey import Strengths, StressRequest, StressSurvey, survey
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 FILM = asp.Elastic(200e9, 0.25, asp.Strength(hardness=14e9), name="film")
 BASE = asp.Elastic(100e9, 0.3, name="base")
 

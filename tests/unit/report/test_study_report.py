@@ -14,6 +14,8 @@ from asperity.report.study import write_study_files
 from asperity.studies.campaign import Campaign, prepare_study
 from asperity.studies.run import carry_out
 
+pytestmark = pytest.mark.usefixtures("unrendered")
+
 SEED = {"path": "surface.seed", "distribution": "seed"}
 STUDIES = {
     "sweep": {"axes": [LOADS, {"path": "body.layers.0.thickness", "values": ["1 nm", "10 nm"]}]},
