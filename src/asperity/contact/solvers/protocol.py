@@ -325,7 +325,7 @@ def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> fl
     rms height (in full contact 0.1, where most points yield 0.05, on small free grids up to 4.5), and the rms height serves.
 
     * Where bodies deform by much less, as plateaus under tiny loads do, the length is 30 energies per load (with the error
-      of the energy). An error of 1e-7 then bounds the duality gap by 3e-6 of the elastic energy of this contact. Of 10³
+      of the energy). An error of 1e-7 then bounds the duality gap by 3e-6 of the elastic energy of this contact. Of 10⁴
       random small problems with loads over twelve decades none that is called converged has a pressure off by more than
       1e-3; with the rms height for all, or with the work of yielding in the energy, 10 to 20 in 300 had.
     * It is at least ``least_length``, beyond which rounding hides errors.
