@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,22 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..io.atomic import atomic_file
 from ..theories.ask import Evaluation
-from .picture import BLACK, BLUE, CURVE_SIZE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, Figure, png, save_pictures, scale
+from .picture import (
+    BLACK,
+    BLUE,
+    CURVE_SIZE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    Figure,
+    apart,
+    literal,
+    png,
+    save_pictures,
+    scale,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -25,14 +40,20 @@ COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 LINES = ("-", "--", ":", "-.")
 """Lines of theories, each for one turn of the colours."""
 
-FAINT = 0.3
-"""Opacity of a curve where its theory is beyond its limits."""
+MUTED = "0.82"
+"""Grey of a curve where its theory is beyond its limits."""
+
+LABEL_ROOM = 0.042
+"""Least distance of the names of curves over the height of the axes."""
+
+SIZE = (CURVE_SIZE[0], 4.2)
+"""Width and height in inches of a comparison, which has room for the names of all theories beside their curves."""
 
 TEXTS = {
     "area": (
         "Area against pressure",
         "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected for the pixels "
-        "(small points: pixels counted). Curves are faint where a theory is beyond its limits.",
+        "(small points: pixels counted). Curves are grey where a theory is beyond its limits.",
     ),
     "kappa": (
         "Slope of the area",
@@ -67,14 +88,14 @@ VALID_BY = {"gap": "gap_valid"}
 
 def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
     """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both logarithmic."""
-    _draw(data, "area_fraction", ax)
+    curves = _draw(data, "area_fraction", ax)
     if "numerical_area_fraction" in data:
         pixels = _values(data["numerical_area_fraction"])
         ax.plot(_pressure(data), pixels, color=BLACK, linestyle="", marker=".", markersize=2.0)
-        _points(data, "numerical_area_fraction_corrected", ax)
+        curves += _points(data, "numerical_area_fraction_corrected", ax)
     ax.set(xscale="log", yscale="log", xlabel="p/E*", ylabel="real area / nominal area")
     ax.set_ylim(top=1.3)
-    return _legend(ax)
+    return _named(ax, curves)
 
 
 def plot_comparison_kappa(data: xarray.Dataset, ax: Axes) -> Axes:
@@ -90,8 +111,8 @@ def plot_comparison_slope(data: xarray.Dataset, ax: Axes) -> Axes:
 def plot_comparison_gap(data: xarray.Dataset, ax: Axes) -> Axes:
     """Draw the mean gap of every curve of ``data`` against p/E* on ``ax``, in rms heights."""
     rms = float(data.attrs["rms_height_m"])
-    _draw(data, "gap", ax, unit=rms)
-    _points(data, "numerical_mean_gap", ax, unit=rms)
+    curves = _draw(data, "gap", ax, unit=rms)
+    curves += _points(data, "numerical_mean_gap", ax, unit=rms)
     in_m = scale(rms, "m")
     label = f"mean gap / rms height ({float(in_m(rms)):.3g} {in_m.symbol})"
     ax.set(xscale="log", xlabel="p/E*", ylabel=label)
@@ -99,20 +120,20 @@ def plot_comparison_gap(data: xarray.Dataset, ax: Axes) -> Axes:
     if "numerical_mean_gap" in data:
         highest = float(np.nanmax(_values(data["numerical_mean_gap"]))) / rms
         ax.set_ylim(-0.4 * highest, 1.25 * highest)
-    return _legend(ax)
+    return _named(ax, curves)
 
 
 def plot_comparison_deviation(data: xarray.Dataset, ax: Axes) -> Axes:
     """Draw the relative deviation of the area of every theory of ``data`` against the numerical area on ``ax``."""
     area = 100.0 * _values(data["numerical_area_fraction_corrected"])
-    _draw(data, "area_fraction_deviation", ax, unit=0.01, against=area)
+    curves = _draw(data, "area_fraction_deviation", ax, unit=0.01, against=area)
     ax.axhline(0.0, color=BLACK, linewidth=0.8)
     ax.set(
         xscale="log", xlabel="real area of the numerical solution (% of nominal)", ylabel="deviation of the area (%)"
     )
     low, high = ax.get_ylim()
     ax.set_ylim(max(low, -100.0 * LARGEST_DEVIATION), min(high, 100.0 * LARGEST_DEVIATION))
-    return _legend(ax)
+    return _named(ax, curves)
 
 
 def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
@@ -125,7 +146,7 @@ def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
     }
     if "numerical_area_fraction" in data:
         draws["deviation"] = plot_comparison_deviation
-    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), CURVE_SIZE)) for name, draw in draws.items())
+    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), SIZE)) for name, draw in draws.items())
 
 
 def save_comparison_plots(
@@ -147,41 +168,78 @@ def _picture(figure: Figure) -> bytes:
 
 
 def _slopes(data: xarray.Dataset, name: str, label: str, ax: Axes) -> Axes:
-    _draw(data, name, ax)
-    _points(data, f"numerical_{name}", ax)
+    curves = _draw(data, name, ax) + _points(data, f"numerical_{name}", ax)
     ax.set(xscale="log", xlabel="p/E*", ylabel=label)
     ax.set_ylim(0.0, min(STEEPEST, ax.get_ylim()[1]))
-    return _legend(ax)
+    return _named(ax, curves)
 
 
-def _draw(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0, against: RealArray | None = None) -> None:
-    """Curves of ``data[name]`` in ``unit``, faint where the theory is beyond its limits."""
+class _Curve(NamedTuple):
+    """A curve with its name and look."""
+
+    name: str
+    x: RealArray
+    y: RealArray
+    color: str
+    linestyle: str
+
+
+def _draw(
+    data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0, against: RealArray | None = None
+) -> list[_Curve]:
+    """Curves of ``data[name]`` in ``unit``, grey where the theory is beyond its limits."""
+    curves = []
     x = _pressure(data) if against is None else against
     for number, theory in enumerate(data["theory"].values):
         row = data.sel(theory=theory)
-        values, valid = (
-            _values(row[name]) / unit,
-            np.asarray(row[VALID_BY.get(name, "area_fraction_valid")].values, dtype=bool),
-        )
+        values = _values(row[name]) / unit
+        valid = np.asarray(row[VALID_BY.get(name, "area_fraction_valid")].values, dtype=bool)
         if not np.isfinite(values).any():
             continue
         look: dict[str, Any] = {
             "color": COLOURS[number % len(COLOURS)],
             "linestyle": LINES[number // len(COLOURS) % len(LINES)],
         }
-        ax.plot(x, values, alpha=FAINT, linewidth=1.0, **look)
+        ax.plot(x, values, color=MUTED, linewidth=0.7, zorder=1.0)
         ax.plot(x, np.where(valid, values, np.nan), **look)
-        ax.plot([], [], label=str(theory), **look)
+        there = bool((valid & np.isfinite(values)).any())
+        words = literal(str(theory)) if there else f"{literal(str(theory))}: nowhere valid"
+        curves.append(_Curve(words, x, values, look["color"] if there else "0.6", look["linestyle"]))
+    return curves
 
 
-def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> None:
-    if name in data:
-        values = _values(data[name]) / unit
-        ax.plot(_pressure(data), values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8, label="numerical")
+def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> list[_Curve]:
+    if name not in data:
+        return []
+    x, values = _pressure(data), _values(data[name]) / unit
+    ax.plot(x, values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8)
+    return [_Curve("numerical", x, values, BLACK, "-")]
 
 
-def _legend(ax: Axes) -> Axes:
-    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=6.5, handlelength=2.6, labelspacing=0.35)
+def _named(ax: Axes, curves: list[_Curve]) -> Axes:
+    """Name every curve at its right end, in its colour and line; names are moved apart, in the order of the ends."""
+    curves = [curve for curve in curves if np.isfinite(curve.y).any()]
+    if curves:
+        ax.set_xlim(right=max(float(curve.x.max()) for curve in curves))  # curves end where their names begin
+    to_axes = ax.transData + ax.transAxes.inverted()
+    ends = []
+    for curve in curves:
+        last = np.flatnonzero(np.isfinite(curve.y))[-1]
+        x, y = np.clip(to_axes.transform((curve.x[last], curve.y[last])), 0.0, 1.0)
+        ends.append((float(y), float(x), curve))
+    ends.sort(key=lambda end: end[0])
+    for (y, x, curve), place in zip(ends, apart([end[0] for end in ends], LABEL_ROOM), strict=True):
+        line = {"arrowstyle": "-", "color": curve.color, "linewidth": 0.9, "linestyle": curve.linestyle}
+        ax.annotate(
+            curve.name,
+            (x, y),
+            (1.1, place),
+            "axes fraction",
+            arrowprops=line | {"shrinkA": 1.0, "shrinkB": 0.0, "relpos": (0.0, 0.5)},
+            color=curve.color,
+            fontsize=7.0,
+            va="center",
+        )
     return ax
 
 
@@ -194,7 +252,7 @@ def _values(variable: xarray.DataArray) -> RealArray:
 
 
 def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) -> None:
-    """Draw every column of the answer ``found`` of a theory against the first and write it to ``path``; faint beyond its limits.
+    """Draw every column of the answer ``found`` of a theory against the first and write it to ``path``; grey beyond its limits.
 
     Raises
     ------
@@ -215,7 +273,7 @@ def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) 
         places = figure.subplots(-(-len(columns) // 2), min(2, len(columns)), squeeze=False)
         for ax, (column, y) in zip(places.flat, columns, strict=False):
             up = scale(y, column.unit)
-            ax.plot(across(x), up(y), color=BLUE, alpha=FAINT)
+            ax.plot(across(x), up(y), color=MUTED)
             ax.plot(across(x), np.where(found.holds(column.name), up(y), np.nan), color=BLUE)
             rising = logarithmic == "log" and np.nanmin(y) > 0.0
             ax.set(xscale=logarithmic, yscale="log" if rising else "linear")

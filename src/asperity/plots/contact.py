@@ -18,7 +18,17 @@ from ..core.arrays import RealArray
 from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
-from .maps import plot_classes, plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
+from .maps import (
+    enlarge_contact,
+    enlarge_indentation,
+    plot_classes,
+    plot_contact,
+    plot_gap,
+    plot_heights,
+    plot_indentation,
+    plot_pressure,
+    plot_residual,
+)
 from .picture import (
     BLACK,
     BLUE,
@@ -32,10 +42,12 @@ from .picture import (
     Figure,
     Plot,
     Scale,
+    drawn,
     map_size,
     png,
     render,
     save_pictures,
+    say_exaggeration,
     scale,
 )
 
@@ -72,8 +84,10 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
         ylabel=f"height ({height.symbol})",
         xlim=(0.0, float(length(grid.size[0]))),
     )
+    low, high = ax.get_ylim()
+    say_exaggeration(ax, "heights", grid.size[0], (high - low) * height.factor)
     _draw_pressure(x, result.pressure[:, row], ax)
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.3, borderpad=0.2)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.04), ncols=3, borderaxespad=0.3, borderpad=0.2)
     return ax
 
 
@@ -191,8 +205,7 @@ def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
         "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
         "reaches stay dry."
     )
-    picture = png(partial(plot_menisci, result), map_size(result.problem.grid))
-    return (Figure("menisci", "Menisci", caption, picture),)
+    return drawn([Plot("menisci", "Menisci", caption, plot_menisci, "map", enlarge_contact)], result)
 
 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
@@ -204,21 +217,36 @@ def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
 
 PLOTS = (
     Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface, "map"),
-    Plot("pressure", "Pressure", "Contact pressure; grey where the bodies do not touch.", plot_pressure, "map"),
+    Plot(
+        "pressure",
+        "Pressure",
+        "Contact pressure; grey where the bodies do not touch.",
+        plot_pressure,
+        "map",
+        beside=enlarge_contact,
+    ),
     Plot(
         "pressure_log",
         "Pressure, logarithmic",
         "Contact pressure on a logarithmic scale of three decades below the maximum.",
         partial(plot_pressure, log=True),
         "map",
+        enlarge_contact,
     ),
-    Plot("contact", "Contact", "Where the bodies touch, elastically or at the hardness.", plot_contact, "map"),
-    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap, "map"),
+    Plot(
+        "contact",
+        "Contact",
+        "Where the bodies touch, elastically or at the hardness.",
+        plot_contact,
+        "map",
+        beside=enlarge_contact,
+    ),
+    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap, "map", beside=enlarge_contact),
     Plot(
         "section",
         "Section",
         "Cut along x through the highest pressure: deformed composite surface against the counter surface, "
-        "and the pressure below. Heights are exaggerated.",
+        "and the pressure below.",
         plot_section,
     ),
     Plot(
@@ -243,6 +271,7 @@ PLASTIC_PLOTS = (
         "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
         plot_indentation,
         "map",
+        enlarge_indentation,
     ),
     Plot(
         "residual",
@@ -268,7 +297,7 @@ def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
     if isinstance(result, HistoryResult):
         found |= {plot.name: partial(render, plot, result) for plot in PATH_PLOTS}
     if contact.menisci is not None:
-        found["menisci"] = partial(png, partial(plot_menisci, contact), map_size(contact.problem.grid))
+        found["menisci"] = lambda: wet_figures(contact)[0].picture
     return found
 
 

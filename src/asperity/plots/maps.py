@@ -3,16 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.islands import labelled
 from ..contact.result import ContactResult
-from ..core.arrays import RealArray
+from ..core.arrays import BoolArray, RealArray
 from ..core.grid import Grid
 from ..core.units import percent
 from ..surfaces.surface import Surface
-from .picture import BLUE, GAP_MAP, HEIGHT_MAP, NO_CONTACT, PRESSURE_MAP, SLENDER, VERMILLION, Scale, scale
+from .picture import (
+    BAR,
+    BAR_ROOM,
+    BLUE,
+    GAP_MAP,
+    HEIGHT_MAP,
+    NO_CONTACT,
+    PRESSURE_MAP,
+    SLENDER,
+    VERMILLION,
+    Scale,
+    make_room,
+    scale,
+    size_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -160,6 +176,9 @@ def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
     ratio = max(width / height, height / width)
     aspect = 1.0 if ratio > SLENDER else min(ratio, 4.0)  # keeps the bar's thickness on oblong maps
     place = (0.0, 1.0 + 0.03 * aspect, 1.0, 0.03 * aspect) if wide else (1.0 + 0.03 * aspect, 0.0, 0.045 * aspect, 1.0)
+    title = "\n".join(wrap(title, 44))
+    room = BAR_ROOM + 0.15 * title.count("\n")
+    make_room(ax, top=room) if wide else make_room(ax, right=room, share=BAR * aspect)
     bar_axes = ax.inset_axes(place)
     bar = ax.figure.colorbar(image, cax=bar_axes, orientation="horizontal" if wide else "vertical")
     bar.set_label(title)
@@ -169,6 +188,96 @@ def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
     if wide:
         bar_axes.xaxis.set_ticks_position("top")
         bar_axes.xaxis.set_label_position("top")
+
+
+@dataclass(frozen=True)
+class Window:
+    """Part of a map: its first pixel along x and y, which may lie before the border of a periodic map, and its pixels."""
+
+    first: tuple[int, int]
+    count: tuple[int, int]
+
+
+def largest_island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool]) -> Window | None:
+    """Square window about the largest island of the points ``there``; None where that is no detail of the map."""
+    if 1 in grid.shape or max(grid.size) > SLENDER * min(grid.size) or not there.any():
+        return None
+    labels, _ = labelled(there, wraps=wraps)
+    spot = labels == np.argmax(np.bincount(labels[there]))
+    ends = [_ends(spot.any(axis=1 - axis), wraps[axis]) for axis in (0, 1)]
+    widths = [(last - first + 1) * d for (first, last), d in zip(ends, grid.spacing, strict=True)]
+    side = max(ROUND * max(widths), FEWEST * max(grid.spacing))
+    if side > LARGEST * min(grid.size):
+        return None
+    nx, ny = (round(side / d) for d in grid.spacing)
+    i, j = (
+        start if wraps[axis] else int(np.clip(start, 0, grid.shape[axis] - n))
+        for axis, n in ((0, nx), (1, ny))
+        for start in [(ends[axis][0] + ends[axis][1] + 1 - n) // 2]
+    )
+    return Window((i, j), (nx, ny))
+
+
+ROUND, FEWEST, LARGEST = 1.8, 16, 0.5
+"""Side of a window in widths of the contact, its fewest pixels, and the share of the map from which it is not drawn."""
+
+
+def _ends(there: BoolArray, wraps: bool) -> tuple[int, int]:
+    """First and last pixel of an island along an axis; the last is beyond the border where the island crosses it."""
+    places = np.flatnonzero(there)
+    if not wraps or there.all():
+        return int(places[0]), int(places[-1])
+    gaps = np.diff(np.append(places, places[0] + there.size))
+    widest = int(np.argmax(gaps))
+    first, last = int(places[(widest + 1) % places.size]), int(places[widest])
+    return first, last + (there.size if last < first else 0)
+
+
+def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
+    """Draw the pixels of the map on ``ax`` within ``window`` once more, beside it, and a rectangle where they are."""
+    from matplotlib.patches import Rectangle
+
+    image: Any = ax.images[0]
+    width, height = size_of(ax)
+    aspect = grid.size[0] / grid.size[1]
+    width, height = min(width, height * aspect), min(height, width / aspect)  # as drawn to scale
+    bar = 0.0 if not ax.child_axes or aspect > WIDE else BAR_ROOM + BAR * width
+    beside = ax.inset_axes((1.0 + (bar + 0.6) / width, 0.0, height / width, 1.0))
+    steps = [float(end) / n for end, n in zip(image.get_extent()[1::2], grid.shape, strict=True)]
+    (x, nx), (y, ny) = ((i * d, n * d) for i, n, d in zip(window.first, window.count, steps, strict=True))
+    rows, columns = (np.arange(window.first[axis], window.first[axis] + window.count[axis]) for axis in (1, 0))
+    pixels: Any = np.ma.filled(np.ma.asarray(image.get_array(), dtype=float), np.nan)
+    beside.imshow(
+        np.ma.masked_invalid(pixels.take(rows, 0, mode="wrap").take(columns, 1, mode="wrap")),
+        origin="lower",
+        extent=(x, x + nx, y, y + ny),
+        cmap=image.get_cmap(),
+        norm=image.norm,
+        interpolation="nearest",
+    )
+    beside.locator_params(nbins=4)
+    beside.set(xlabel=ax.get_xlabel(), ylabel=ax.get_ylabel())
+    beside.set_title(title, loc="left")
+    ax.add_patch(Rectangle((x, y), nx, ny, fill=False, edgecolor="black", linewidth=0.6))
+    return beside
+
+
+def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
+    """Draw the largest contact of ``result`` enlarged beside its map on ``ax``; False where it is no detail of the map."""
+    return _enlarge_island(result, result.contact, "largest contact", ax)
+
+
+def enlarge_indentation(result: ContactResult, ax: Axes) -> bool:
+    """The same for the largest permanent indentation."""
+    return _enlarge_island(result, result.indented, "largest plastic zone", ax)
+
+
+def _enlarge_island(result: ContactResult, there: BoolArray, title: str, ax: Axes) -> bool:
+    grid = result.problem.grid
+    window = largest_island(there, grid, result.problem.boundary.wraps)
+    if window is not None:
+        enlarge(ax, grid, window, title)
+    return window is not None
 
 
 def _plot_curve(values: RealArray, grid: Grid, ax: Axes, title: str, *, log: bool) -> Axes:

@@ -98,6 +98,67 @@ def scale(values: RealArray | float, unit: str) -> Scale:
     return Scale(symbol, units.unit_factor(symbol, KINDS[unit], "unit of an axis"))
 
 
+def literal(text: str) -> str:
+    """``text`` as it is drawn: no formula, no control characters, of at most 40 characters."""
+    shown = "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
+    return (shown if len(shown) <= 40 else f"{shown[:39]}…").replace("$", r"\$")
+
+
+BAR, BAR_ROOM = 0.08, 0.62
+"""Width of a colour bar with its gap, over that of its axes, and of its numbers and label, in inches."""
+
+
+def make_room(ax: Axes, *, right: float = 0.0, top: float = 0.0, share: float = 0.0) -> None:
+    """Keep ``right`` and ``top`` inches, and ``share`` of the width that is left, of the place of ``ax`` for what lies beside it.
+
+    What is drawn there then stays within a subplot.
+    """
+    from matplotlib.transforms import Bbox
+
+    def locate(axes: Any, renderer: Any) -> Bbox:
+        place, (width, height) = axes.get_position(original=True), axes.figure.bbox.size / axes.figure.dpi
+        wide = max(place.width - right / width, 0.4 * place.width) / (1.0 + share)
+        tall = max(place.height - top / height, 0.4 * place.height)
+        return Bbox.from_bounds(place.x0, place.y0, wide, tall)
+
+    ax.set_axes_locator(locate)
+
+
+def size_of(ax: Axes) -> tuple[float, float]:
+    """Width and height of ``ax`` in inches, before an aspect is applied."""
+    locate: Any = ax.get_axes_locator()
+    place: Any = ax.get_position(original=True) if locate is None else locate(ax, None)
+    figure: Any = ax.figure
+    return place.width * figure.bbox.width / figure.dpi, place.height * figure.bbox.height / figure.dpi
+
+
+def say_exaggeration(ax: Axes, what: str, across: float, up: float) -> None:
+    """Write above the right end of ``ax`` how much larger ``what`` is drawn than lengths across; ranges of the axes in m."""
+    width, height = size_of(ax)
+    times = (height / up) / (width / across) if up > 0.0 and across > 0.0 else 1.0
+    if max(times, 1.0 / times) > 1.05:
+        ax.annotate(
+            f"{what} × {float(f'{times:.2g}'):g}",
+            (1.0, 1.0),
+            (0, 3),
+            "axes fraction",
+            "offset points",
+            ha="right",
+            fontsize=7.5,
+        )
+
+
+def apart(places: list[float], room: float) -> list[float]:
+    """Increasing ``places`` between 0 and 1, moved as far as needed to be ``room`` apart and half of it from the ends."""
+    room = min(room, 1.0 / max(len(places), 1))
+    moved: list[float] = []
+    for place in places:
+        moved.append(max(place, moved[-1] + room if moved else 0.5 * room))
+    for number in reversed(range(len(moved))):
+        moved[number] = min(moved[number], 1.0 - room * (len(moved) - number - 0.5))
+    return moved
+
+
 @contextmanager
 def style() -> Iterator[None]:
     """Within it, matplotlib draws in the style of this package; outside nothing changes."""
@@ -142,19 +203,36 @@ class Plot:
     caption: str
     draw: Callable[[Any, Axes], Axes]
     kind: str = "curve"
+    beside: Callable[[Any, Axes], bool] | None = None
+    """Draws a part enlarged beside the map; whether it did."""
+
+
+BESIDE = " Beside it the part within the rectangle, enlarged."
 
 
 def render(plot: Plot, thing: Any) -> bytes:
     """PNG of ``plot`` for ``thing``: a contact, a load path or a characterised surface."""
-    last = getattr(thing, "last", thing)
-    grid = getattr(last, "problem", last).surface.grid
-    size = {"map": map_size(grid), "view": VIEW_SIZE}.get(plot.kind, CURVE_SIZE)
-    return png(lambda ax: plot.draw(thing, ax), size, projection="3d" if plot.kind == "view" else None)
+    return drawn([plot], thing)[0].picture
 
 
 def drawn(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
     """Figures of ``thing`` by ``plots``."""
-    return tuple(Figure(plot.name, plot.title, plot.caption, render(plot, thing)) for plot in plots)
+    return tuple(_figure(plot, thing) for plot in plots)
+
+
+def _figure(plot: Plot, thing: Any) -> Figure:
+    last = getattr(thing, "last", thing)
+    grid = getattr(last, "problem", last).surface.grid
+    size = {"map": map_size(grid), "view": VIEW_SIZE}.get(plot.kind, CURVE_SIZE)
+    enlarged: list[bool] = []
+
+    def draw(ax: Axes) -> Axes:
+        plot.draw(thing, ax)
+        enlarged.append(plot.beside is not None and plot.beside(thing, ax))
+        return ax
+
+    picture = png(draw, size, projection="3d" if plot.kind == "view" else None)
+    return Figure(plot.name, plot.title, plot.caption + (BESIDE if any(enlarged) else ""), picture)
 
 
 def png(
@@ -182,8 +260,10 @@ def map_size(grid: Grid) -> tuple[float, float]:
     ratio = width / height
     if 1 in grid.shape or not 1.0 / SLENDER <= ratio <= SLENDER:
         return CURVE_SIZE
-    longer = MAP_SIZE * (1.5 if ratio > 2.0 else 1.0) / 0.775  # 0.775 is the share of the figure that the axes take
-    return (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)
+    longer = MAP_SIZE * (1.5 if ratio > 2.0 else 1.0)
+    wide, tall = (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)
+    bar = (0.0, BAR_ROOM) if ratio > 2.0 else (BAR * wide + BAR_ROOM, 0.0)
+    return (wide + bar[0]) / 0.775, (tall + bar[1]) / 0.77  # shares of the figure that the axes take
 
 
 def save_pictures(

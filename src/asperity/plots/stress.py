@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -19,7 +20,27 @@ from ..core.units import show
 from ..stress.field import DERIVED, StressField
 from ..stress.survey import StressSurvey, SurveyedSection
 from .maps import Look, plot_field
-from .picture import BLACK, BLUE, CURVE_SIZE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, Figure, map_size, png, scale
+from .picture import (
+    BAR,
+    BAR_ROOM,
+    BLACK,
+    BLUE,
+    CURVE_SIZE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    Figure,
+    apart,
+    literal,
+    make_room,
+    map_size,
+    png,
+    say_exaggeration,
+    scale,
+    size_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +59,7 @@ SIGNED_MAP, UNSIGNED_MAP = "RdBu_r", "viridis"
 """Colour maps of stresses of either sign (white at zero, red in tension) and of magnitudes."""
 
 LABEL_ROOM = 0.09
-"""Least distance of the names of regions over the height of the axes."""
+"""Height of the name of a region over that of the axes: the least thickness in which it stands, and the least distance."""
 
 COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 """Colours of the curves of a depth profile, in order."""
@@ -79,7 +100,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     depth_unit = scale(field.depth, "m")
     levels = _levels(in_unit(values), kind, log=log)
     contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
-    _draw_interfaces(field, ax, depth_unit)
+    beside = _draw_interfaces(field, ax, depth_unit)
     _mark_peak(field, ax, values if (kind.name in TENSIONS) else np.abs(values), (axis, length, depth_unit))
     ax.set(
         xlabel=f"{axis} ({length.symbol})" + ("" if field.single_row else f", at {other} = {show(at, 'm')}"),
@@ -87,12 +108,20 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
         xlim=(float(length(line[0])), float(length(line[-1]))),
         ylim=(float(depth_unit(field.depth[-1])), 0.0),
     )
-    if 6.0 * field.depth[-1] > line[-1] - line[0] and field.depth[-1] < 6.0 * (line[-1] - line[0]):
+    make_room(ax, right=BAR_ROOM + beside, share=BAR)
+    across = float(line[-1] - line[0])
+    exaggerated = not across / 6.0 < field.depth[-1] < 6.0 * across
+    if exaggerated:
+        say_exaggeration(ax, "depth", across, float(field.depth[-1]))
+    else:
         ax.set_aspect(length.factor**-1 * depth_unit.factor, adjustable="box")
-    bar = ax.figure.colorbar(contours, cax=ax.inset_axes((1.03, 0.0, 0.035, 1.0)), format=_two_digits if log else "%g")
+    place = ax.inset_axes((1.03 + beside / size_of(ax)[0], 0.0, 0.035, 1.0))
+    bar = ax.figure.colorbar(contours, cax=place, format=_two_digits if log else "%g")
     bar.set_label(f"{kind.label} ({in_unit.symbol})")
     if kind.name not in MAGNITUDES:
-        bar.set_ticks(levels.tolist())
+        height = size_of(ax)[1] if exaggerated else size_of(ax)[0] * float(field.depth[-1]) / across
+        every = math.ceil(0.15 * levels.size / height)  # inches for a number
+        bar.set_ticks(levels[::-1][::every].tolist())
         bar.minorticks_off()
     return ax
 
@@ -224,40 +253,30 @@ def _contours(
     return contours
 
 
-def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> None:
-    """Lines at the interfaces, and the names of the regions beside them; neighbours of one name are one region.
+def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> float:
+    """Lines at the interfaces and the names of the regions: in their regions, or beside those that are too thin.
 
-    Names of thin regions are moved apart, still in order, so that they can be read.
+    Neighbours of one name are one region. Returns the room in inches that the names beside take.
     """
     parts = list(dict.fromkeys(plane.region for plane in field.planes))
     runs = [list(run) for _, run in groupby(parts, key=lambda region: region.name)]
     for run in runs[1:]:
         ax.axhline(float(depth_unit(run[0].top)), color=BLACK, linewidth=0.8)
     if len(runs) < 2:
-        return
+        return 0.0
     last = field.depth[-1]
-    middles = [0.5 * (run[0].top + min(run[-1].bottom, last)) / last for run in runs]
-    for run, middle in zip(runs, _apart(middles), strict=True):
-        ax.annotate(
-            run[0].name,
-            (0.985, 1.0 - middle),
-            xycoords="axes fraction",
-            ha="right",
-            va="center",
-            fontsize=7.5,
-            bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
-        )
-
-
-def _apart(places: list[float]) -> list[float]:
-    """Increasing ``places`` between 0 and 1, moved as far as needed to be ``LABEL_ROOM`` apart and from the ends."""
-    room = min(LABEL_ROOM, 1.0 / len(places))
-    moved: list[float] = []
-    for place in places:
-        moved.append(max(place, moved[-1] + room if moved else 0.5 * room))
-    for number in reversed(range(len(moved))):
-        moved[number] = min(moved[number], 1.0 - room * (len(moved) - number - 0.5))
-    return moved
+    ends = [(run[0].top / last, min(run[-1].bottom / last, 1.0), literal(run[0].name)) for run in runs]
+    look: dict[str, Any] = {"xycoords": "axes fraction", "va": "center", "fontsize": 7.5}
+    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
+    thin = [end for end in ends if end[1] - end[0] < LABEL_ROOM]
+    for top, bottom, name in ends:
+        if bottom - top >= LABEL_ROOM:
+            ax.annotate(name, (0.985, 1.0 - 0.5 * (top + bottom)), ha="right", bbox=box, **look)
+    line = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0.0, "shrinkB": 0.0}
+    for (top, bottom, name), place in zip(thin, apart([0.5 * (t + b) for t, b, _ in thin], LABEL_ROOM), strict=True):
+        at = (1.0, 1.0 - 0.5 * (top + bottom))
+        ax.annotate(name, at, (1.02, 1.0 - place), ha="left", arrowprops=line, **look)
+    return 0.12 + 0.07 * max(len(name) for *_, name in thin) if thin else 0.0
 
 
 def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str, Any, Any]) -> None:
@@ -289,7 +308,8 @@ PROFILE = ("von_mises", "max_principal", "normal_zz", "shear_xz", "shear_yz")
 def line_figures(survey: StressSurvey) -> Iterator[Figure]:
     """Figures of the sections and depth profiles of ``survey``."""
     for number, section in enumerate(survey.sections, start=1):
-        yield from _section(section, number)
+        wraps = survey.result.problem.boundary.wraps["xy".index(section.field.dims[1])]
+        yield from _section(section, number, wraps=wraps)
     for number, field in enumerate(survey.profiles, start=1):
         picture = png(partial(plot_stress_profile, field, quantities=_worth_drawing(field)), CURVE_SIZE)
         caption = "Stresses against depth; a break where a stress jumps at an interface."
@@ -310,7 +330,7 @@ def map_figure(plane: StressField, number: int) -> Figure:
     )
 
 
-def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
+def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:
     """The whole section, and where that is long the close-up of the maximum, for each quantity."""
     field = section.field
     axis = "y" if field.dims[1] == "x" else "x"
@@ -324,7 +344,7 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
         if kind.name not in MAGNITUDES:
             tension = " Red is tension, blue compression, the darkest blue beyond the scale."
             said += tension if (kind.name in TENSIONS) else " Red and blue are the two directions."
-        near = close_up(field, quantity)
+        near = close_up(field, quantity, wraps=wraps)
         log = near is not None and not (kind.name not in MAGNITUDES)
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
@@ -334,19 +354,25 @@ def _section(section: SurveyedSection, number: int) -> Iterator[Figure]:
             yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {said}", png(draw, SECTION_SIZE))
 
 
-def close_up(field: StressField, quantity: str) -> StressField | None:
-    """The part of a long section about its maximum; None where the section is short."""
+def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> StressField | None:
+    """The part of a long section about its maximum; None where the section is short.
+
+    Where the field ``wraps`` along the section, the maximum is in the middle and x or y run on across the border.
+    """
     axis, values = field.dims[1], getattr(field, quantity)
     line, length = getattr(field, axis), CLOSE_UP * float(field.depth[-1])
     peak = field.peak(values if quantity in TENSIONS else np.abs(values))
     if line[-1] - line[0] <= 2.0 * length:
         return None
-    middle = float(np.clip(getattr(peak, axis), line[0] + 0.5 * length, line[-1] - 0.5 * length))
-    part = np.flatnonzero(np.abs(line - middle) <= 0.5 * length)
+    step = field.spacing["xy".index(axis)]
+    half = int(0.5 * length / step)
+    middle = round((getattr(peak, axis) - line[0]) / step)
+    first = middle - half if wraps else int(np.clip(middle - half, 0, line.size - 2 * half - 1))
+    part = np.arange(first, first + 2 * half + 1)
     if part.size < 3:
         return None
-    tensor = field.tensor.map(lambda component: component[:, part])
-    lines = {"x": field.x, "y": field.y} | {axis: line[part]}
+    tensor = field.tensor.map(lambda component: component.take(part, 1, mode="wrap"))
+    lines = {"x": field.x, "y": field.y} | {axis: line[0] + step * part}
     return replace(field, tensor=tensor, x=lines["x"], y=lines["y"])
 
 

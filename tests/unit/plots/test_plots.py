@@ -18,7 +18,8 @@ from PIL import Image
 import asperity as asp
 from asperity import plots
 from asperity.core.errors import OutputError
-from asperity.plots.picture import scale
+from asperity.plots.maps import Look, Window, enlarge, largest_island, plot_field
+from asperity.plots.picture import literal, scale
 
 NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram", "gap_histogram")
 
@@ -164,6 +165,46 @@ def test_every_figure_of_every_contact_is_drawn(result: asp.ContactResult) -> No
     for plot in plots.PLOTS:
         picture = plots.render(plot, result)
         assert picture.startswith(b"\x89PNG")
+
+
+def test_the_largest_contact_is_enlarged_beside_its_map(ax: Axes) -> None:
+    grid = asp.Grid((120, 40), (1e-6, 2e-6))
+    there = np.zeros(grid.shape, dtype=bool)
+    there[20:22, 10:12] = True  # 2 x 4 µm
+    there[118:, 30] = there[:3, 30] = True  # 5 x 2 µm, across the border
+    window = largest_island(there, grid, (True, True))
+    assert window == Window((104, 22), (32, 16))  # 16 pixels of 2 µm, about x = 120.5 µm
+    assert largest_island(there, grid, (False, False)) == Window((5, 3), (32, 16))  # about 21 µm, 22 µm
+    assert largest_island(np.ones(grid.shape, dtype=bool), grid, (True, True)) is None
+    values = np.arange(4800.0).reshape(grid.shape)
+    plot_field(values, grid, ax, Look("m", "height", "cividis"))
+    beside = drawn(enlarge(ax, grid, window, "largest contact"))
+    np.testing.assert_array_equal(
+        np.asarray(beside.images[0].get_array()).T, values[np.arange(104, 136) % 120, 22:38] / 1e3
+    )
+    assert beside.get_xlim() == pytest.approx((104.0, 136.0))
+    assert beside.get_ylim() == pytest.approx((44.0, 76.0))
+    assert beside.images[0].get_clim() == ax.images[0].get_clim()
+    assert beside.get_window_extent().x0 > ax.child_axes[0].get_tightbbox().x1
+
+
+@pytest.mark.parametrize("shape", [(24, 16), (60, 16)])
+def test_a_colour_bar_with_its_label_stays_in_its_subplot(shape: tuple[int, int]) -> None:
+    figure = Figure(figsize=(9.0, 3.5))
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(1, 2)
+    places = [ax.get_window_extent().frozen() for ax in axes]
+    for ax, place in zip(axes, places, strict=True):
+        plots.plot_heights(asp.Surface(np.random.default_rng(0).standard_normal(shape) * 1e-7, 1e-6), ax)
+        figure.canvas.draw()
+        box = ax.child_axes[0].get_tightbbox()
+        assert box.x1 <= place.x1 + 12.0  # the half of a number at the end of a bar
+        assert box.y1 <= place.y1 + 2.0
+
+
+def test_names_are_drawn_as_they_are(ax: Axes) -> None:
+    ax.set_title(literal("$\\frac{$\x1b[31m\n" + 60 * "x"))
+    assert drawn(ax).get_title() == "\\$\\frac{\\$\ufffd[31m\ufffd" + 25 * "x" + "…"
 
 
 def test_files_are_pictures_of_print_size(elastic: asp.ContactResult, tmp_path: Path) -> None:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_cases import rough
+from matplotlib.figure import Figure
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.plots.stress import CLOSE_UP, close_up, line_figures, map_figure
+from asperity.plots.stress import CLOSE_UP, close_up, line_figures, map_figure, plot_stress_section
 from asperity.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
 
 BODY = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.25, name="film"), 1e-6)], asp.Elastic(1e9, 0.3, name="base"))
@@ -64,6 +67,24 @@ def test_close_ups_hold_the_maximum_and_short_sections_have_none(long: StressSur
     assert close_up(short.sections[1].field, "von_mises") is None
     names = [figure.name for figure in line_figures(short)]
     assert not any(name.startswith("stress_section_2") and name.endswith("near") for name in names)
+
+
+def test_close_up_wraps_over_the_period_and_its_colours_reach_the_maximum(long: StressSurvey) -> None:
+    field = long.sections[0].field
+    step, n = field.spacing[0], field.x.size
+    at = round(field.peak(field.von_mises).x / step)
+    moved = replace(field, tensor=field.tensor.map(lambda part: np.roll(part, -at, axis=1)))  # the maximum at x = 0
+    near = close_up(moved, "von_mises", wraps=True)
+    assert near is not None
+    assert near.x[0] < 0.0 < near.x[-1]
+    assert near.peak(near.von_mises).x == 0.0 == near.x[near.x.size // 2]
+    numbers = np.rint(near.x / step).astype(int)
+    np.testing.assert_array_equal(near.von_mises, moved.von_mises[:, numbers % n])
+    ax = Figure().add_subplot()
+    plot_stress_section(near, ax, "von_mises")
+    (bar,) = ax.child_axes
+    top = bar.get_ylim()[1] * {"MPa": 1e6, "GPa": 1e9, "kPa": 1e3}[bar.get_ylabel().rpartition("(")[2][:-1]]
+    assert near.von_mises.max() == field.von_mises.max() <= top
 
 
 def test_maps_of_planes(long: StressSurvey) -> None:

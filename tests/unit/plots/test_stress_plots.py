@@ -10,6 +10,7 @@ from catalogue import oblong
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 import asperity as asp
 from asperity import plots
@@ -177,12 +178,23 @@ def test_layers_of_one_name_are_one_and_names_of_thin_layers_stay_apart(ax):
     field = asp.stress(result, asp.depths_through(body, 100e-9, per_region=1), on=asp.Section(y="max"))
     plots.plot_stress_section(field, ax, "von_mises")
     ax.figure.canvas.draw()
-    assert [text.get_text() for text in ax.texts] == ["a", "b", "c", "graded film - base", "base"]
+    *texts, exaggeration = ax.texts
+    within, beside = texts[:2], texts[2:]  # thick regions hold their names, thin ones have them beside
+    assert [text.get_text() for text in texts] == ["graded film - base", "base", "a", "b", "c"]
+    tops, outside = {"graded film - base": (3.0, 43.0), "base": (43.0, 100.0)}, ax.get_window_extent()
+    for text in within:
+        low, high = (outside.y1 - outside.height * depth / 100.0 for depth in reversed(tops[text.get_text()]))
+        assert low < text.get_window_extent().y0 < text.get_window_extent().y1 < high
+    bar = ax.child_axes[0].get_window_extent()
+    assert all(
+        outside.x1 < Text.get_window_extent(text).x0 < Text.get_window_extent(text).x1 < bar.x0 for text in beside
+    )
+    times = (outside.height / 100e-9) / (outside.width / (field.x[-1] - field.x[0]))
+    assert exaggeration.get_text() == f"depth × {float(f'{times:.2g}'):g}"
     lines = [line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "-" and len(line.get_ydata()) == 2]
     assert lines == pytest.approx([1.0, 2.0, 3.0, 43.0])
-    boxes = [text.get_window_extent() for text in ax.texts]
+    boxes = [Text.get_window_extent(text) for text in beside]
     assert all(upper.y0 > lower.y0 + 0.8 * lower.height for upper, lower in pairwise(boxes))
-    outside = ax.get_window_extent()
     assert all(outside.y0 <= box.y0 and box.y1 <= outside.y1 for box in boxes)
 
 

@@ -11,9 +11,11 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from contact_cases import TIGHT, elastic
+from matplotlib.figure import Figure
 from scipy.special import erf
 
 import asperity as asp
+from asperity.plots.comparison import LABEL_ROOM, MUTED, SIZE, plot_comparison_area
 from asperity.report.comparison import comparison_sentence
 from asperity.surfaces import generate
 from asperity.theories import Limit, Prediction, Westergaard, theory
@@ -35,6 +37,25 @@ def film() -> asp.Surface:
 def compared(film: asp.Surface) -> asp.Comparison:
     """The whole catalogue at four loads."""
     return asp.compare(film, STEEL, np.array([0.08, 0.01, 0.02, 0.04]) * 0.1 * E_STAR)
+
+
+def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.Comparison) -> None:
+    ax = Figure(figsize=SIZE).add_subplot()
+    data = compared.dataset
+    plot_comparison_area(data, ax)
+    texts = [text.get_text() for text in ax.texts]
+    assert sorted(texts) == sorted(
+        ["numerical", *(n if n in texts else f"{n}: nowhere valid" for n in data["theory"].values)]
+    )
+    assert ax.get_legend() is None
+    places = sorted(text.get_position()[1] for text in ax.texts)
+    assert np.diff(places).min() >= LABEL_ROOM - 1e-9
+    looks = [
+        (line.get_color(), line.get_linestyle()) for line in ax.lines if line.get_color() not in (MUTED, "#000000")
+    ]
+    assert len(looks) == len(set(looks)) == data.sizes["theory"]
+    outside = [np.asarray(line.get_ydata()) for line in ax.lines if line.get_color() != MUTED]
+    assert any(np.isnan(values).any() for values in outside)  # beyond its limits a theory is grey only
 
 
 @dataclass(frozen=True)
