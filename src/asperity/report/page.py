@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Iterable
 from importlib import resources
 from typing import Any
@@ -14,7 +13,6 @@ from ..plots.picture import Figure
 def rendered(template: str, **values: Any) -> str:
     """Text of the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped."""
     import jinja2
-    from markupsafe import Markup, escape
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_source),
@@ -23,7 +21,6 @@ def rendered(template: str, **values: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["breakable"] = lambda text: Markup(re.sub("(_+)", r"\1<wbr>", str(escape(text))))
     return environment.get_template(template).render(**values)
 
 

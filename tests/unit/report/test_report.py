@@ -25,7 +25,7 @@ from asperity.surfaces.surface import Origin
 
 pytestmark = pytest.mark.usefixtures("unrendered")
 
-VOID = {"meta", "link", "img", "br"}
+VOID = {"meta", "link", "img", "br", "wbr"}
 
 
 class Page(HTMLParser):
