@@ -59,6 +59,7 @@ def diagnosis(error: Exception) -> tuple[int, str]:
 
 
 def _say(sentence: str, *, traceback: bool = False) -> None:
+    from ..core.text import printable
     from .show import error_console  # brings rich
 
     console = error_console()
@@ -66,4 +67,6 @@ def _say(sentence: str, *, traceback: bool = False) -> None:
         from traceback import format_exc
 
         console.print(format_exc(), markup=False, highlight=False, soft_wrap=True)
-    console.print(f"asperity: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
+    console.print(
+        printable(f"asperity: {sentence}", keep="\n\t"), style="red", markup=False, highlight=False, soft_wrap=True
+    )

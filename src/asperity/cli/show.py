@@ -22,6 +22,7 @@ from rich.text import Text
 
 from ..core.progress import NoProgress, Progress
 from ..core.system import compiling
+from ..core.text import printable
 from ..core.units import prefixed, show
 
 if TYPE_CHECKING:
@@ -72,15 +73,19 @@ def error_console() -> Console:
 def say(text: str, style: str = "", *, warning: bool = False) -> None:
     """Print ``text`` as it is, whatever brackets it holds and however long it is; a ``warning`` also where answers are dropped."""
     out = error_console() if warning and isinstance(sys.stdout, Nowhere) else console()
-    out.print(text, style=style, markup=False, highlight=False, soft_wrap=True)
+    out.print(printable(text, keep="\n\t"), style=style, markup=False, highlight=False, soft_wrap=True)
 
 
 def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...] = ()) -> Table:
     """Table of text; without ``headings`` the first column names what the others say."""
     made = Table(
-        title=Text(title), title_justify="left", title_style="bold", box=box.SIMPLE, show_header=bool(headings)
+        title=Text(printable(title)),
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE,
+        show_header=bool(headings),
     )
-    filled = [tuple(Text(cell) for cell in row) for row in rows]
+    filled = [tuple(Text(printable(cell)) for cell in row) for row in rows]
     for index in range(len(headings) or max((len(row) for row in filled), default=0)):
         made.add_column(headings[index] if headings else "", overflow="fold")
     for row in filled:

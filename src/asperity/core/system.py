@@ -6,6 +6,7 @@ import importlib.util
 import math
 import os
 import sys
+from pathlib import Path
 
 
 def peak_memory() -> float:
@@ -19,11 +20,14 @@ def peak_memory() -> float:
 
 
 def free_memory() -> float:
-    """Free memory of the machine in bytes; infinite where the system does not tell (Windows, macOS)."""
-    names = getattr(os, "sysconf_names", {})
-    if "SC_AVPHYS_PAGES" not in names or "SC_PAGE_SIZE" not in names:
-        return math.inf
-    return float(os.sysconf("SC_AVPHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE"))
+    """Bytes of memory that new work may take; infinite where the system does not tell (Windows, macOS)."""
+    try:
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        return next(1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable"))
+    except (OSError, StopIteration):
+        names = getattr(os, "sysconf_names", {})
+        known = "SC_AVPHYS_PAGES" in names and "SC_PAGE_SIZE" in names
+        return float(os.sysconf("SC_AVPHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE")) if known else math.inf
 
 
 def compiling() -> bool:

@@ -142,9 +142,16 @@ def _meant(name: str, unit: str) -> str:
     return f"write {' or '.join(alike)}" if alike else f"use for example {unit or 'none'}"
 
 
+_FACTOR = r"[^\W\d_]{1,20}(?: ?(?:\*\*|\^) ?[+-]?\d(?:\.\d)?)?"
+_GRAMMAR = re.compile(rf"(?:1 ?/ ?)?\(?{_FACTOR}\)?(?: ?[*/· ] ?\(?{_FACTOR}\)?){{0,5}}|[%°]|")
+"""What the library of units is given, which computes whatever stands in a text: names with small powers."""
+
+
 @cache
 def _factor(name: str, unit: str) -> float:
     """One ``name`` in ``unit``."""
+    if len(name) > 60 or not _GRAMMAR.fullmatch(name):
+        raise ValueError(name)
     return float(_registry().Quantity(1.0, name).to(unit).magnitude)
 
 

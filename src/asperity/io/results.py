@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -25,12 +26,13 @@ from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
+from ..core.text import require_file
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
 from .description import describe, rebuild
 from .provenance import provenance, software, surface_provenance
 from .stress_files import field_from, field_node
-from .tree import Node, coordinate, datatree, read_tree, write_tree
+from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
 from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 if TYPE_CHECKING:
@@ -153,12 +155,15 @@ def document_in(path: str | Path) -> str | None:
     FileFormatError
         If the file is missing or no NetCDF-4 file.
     """
-    import h5netcdf
+    import h5py
 
     try:
-        with h5netcdf.File(path, "r") as file:
+        require_sound_heaps(require_file(path, "result file"))
+        with h5py.File(path, "r") as file:
             text = file.attrs.get("document")
-    except OSError as error:
+    except FileFormatError:
+        raise
+    except Exception as error:  # the library raises many types on foreign or damaged bytes
         raise FileFormatError(f"result file must be a whole NetCDF-4 file, but {path} is not ({error}).") from error
     return None if text is None else str(text)
 
@@ -186,7 +191,7 @@ def result_in(tree: Node, path: str | Path) -> Any:
         If it holds none, or not the whole of one.
     """
     groups = tree.children
-    try:
+    with whole(path):
         if "contact" not in groups and "field" in groups:
             return field_from(groups["field"])
         if "path" in groups and "control" not in groups["path"]:
@@ -198,11 +203,21 @@ def result_in(tree: Node, path: str | Path) -> Any:
             return path_from(groups["path"], result)
         if "film" in groups and "stored_rounds" in groups["film"].attributes:
             return _with_film(groups["film"], result)
+        return result
+
+
+@contextmanager
+def whole(path: str | Path) -> Iterator[None]:
+    """Within it, whatever is missing or wrong in what the file ``path`` holds is a ``FileFormatError``."""
+    try:
+        yield
     except FileFormatError:
         raise
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError, InputError) as error:
-        raise FileFormatError(f"result file must hold a whole result, but {path} lacks or garbles {error}.") from error
-    return result
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, AssertionError, RuntimeError) as error:
+        reason = " ".join(f"{type(error).__name__} {error}".split())[:200]
+        raise FileFormatError(
+            f"result file must hold a whole result, but {path} lacks or garbles something ({reason})."
+        ) from error
 
 
 def result_tree(result: Result, *, document: str | None = None) -> Node:
@@ -273,6 +288,9 @@ def contact_from(node: Node, film: Node | None = None, memory: Node | None = Non
     arrays = {item.quantity.name: np.asarray(item.values) for item in node.values if np.ndim(item.values) == 2}
     parts: dict[str, Any] = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
     control = parts.pop("control")
+    for item in (*FIELDS, *MARKS):
+        if arrays[item.name].shape != arrays["heights"].shape or arrays[item.name].dtype.kind not in "fbiu":
+            raise ValueError(f"{item.name}: it is no field like the heights")
     surface = _surface(arrays["heights"], attributes["surface"])
     if "counter_heights" in arrays:
         parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
@@ -519,7 +537,11 @@ def _field(quantity: Quantity, values: np.ndarray[Any, Any]) -> Labelled:
 
 def _values(source: Any, wanted: Iterable[Quantity]) -> dict[str, Any]:
     """Values of the ``wanted`` quantities in ``source`` by name."""
-    return {item.name: _plain(source[item.name]) for item in wanted}
+    found = {item.name: _plain(source[item.name]) for item in wanted}
+    for name, value in found.items():
+        if isinstance(value, str):
+            raise ValueError(f"{name}: it is no number")
+    return found
 
 
 def _plain(value: Any) -> Any:

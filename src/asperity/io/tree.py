@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,8 @@ import numpy as np
 
 from ..core.errors import FileFormatError, OutputError
 from ..core.quantity import Labelled, Quantity
+from ..core.system import free_memory
+from ..core.text import require_file
 from .atomic import atomic_file
 
 if TYPE_CHECKING:
@@ -107,11 +110,9 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
         If the file is missing, damaged, not NetCDF-4, not written by asperity, or of a newer format.
     """
     import h5netcdf
+    import h5py
 
-    if Path(path).exists() and not Path(path).is_file():
-        raise FileFormatError(f"result file must be a file, but {path} is a folder or device; give the .nc file in it.")
-    if not Path(path).is_file():
-        raise FileFormatError(f"result file must exist, but {path} does not; check the path.")
+    require_file(path, "result file")
     with Path(path).open("rb") as start:
         if start.read(8) != b"\x89HDF\r\n\x1a\n":
             raise FileFormatError(
@@ -119,9 +120,12 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
                 f"What a file with heights holds is shown by: asperity info {path}"
             )
     try:
-        with h5netcdf.File(path, "r", decode_vlen_strings=True) as file:
-            tree = _read(file, without)
-    except MemoryError:
+        require_sound_heaps(path)
+        with h5py.File(path, "r") as content:
+            _require_own(content, set(), [free_memory()])
+            with h5netcdf.File(content, "r", decode_vlen_strings=True) as file:
+                tree = _read(file, without)
+    except (MemoryError, FileFormatError):
         raise
     except Exception as error:  # the library raises many types on foreign or damaged bytes
         raise FileFormatError(
@@ -135,6 +139,61 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
             f"result file must be of format {FORMAT_VERSION} or older, but {path} is of {version}; update asperity."
         )
     return tree
+
+
+def require_sound_heaps(path: str | Path) -> None:
+    """Refuse an HDF5 file with a heap of texts in which the library (2.0 and before) would read for ever.
+
+    A collection ``GCOL`` is a chain of objects; a free one of size zero, as in a damaged file, leads to itself.
+
+    Raises
+    ------
+    FileFormatError
+        As said.
+    """
+    with Path(path).open("rb") as file, closing(mmap(file.fileno(), 0, access=ACCESS_READ)) as content:
+        start = content.find(b"GCOL\x01\0\0\0")
+        while start >= 0:
+            end = start + int.from_bytes(content[start + 8 : start + 16], "little")
+            place = start + 16
+            while place + 16 <= min(end, len(content)):
+                index = int.from_bytes(content[place : place + 2], "little")
+                size = int.from_bytes(content[place + 8 : place + 16], "little")
+                if index == 0 and size == 0:
+                    raise FileFormatError(f"result file must be a whole NetCDF-4 file, but {path} is damaged.")
+                place += size if index == 0 else 16 + -(-size // 8) * 8
+            start = content.find(b"GCOL\x01\0\0\0", start + 8)
+
+
+def _require_own(group: Any, seen: set[Any], room: list[float]) -> None:
+    """Refuse links out of the file, data kept in other files, groups within themselves, and more data than there is memory.
+
+    ``room`` is what is left of the memory in bytes.
+
+    Raises
+    ------
+    FileFormatError
+        As said.
+    """
+    import h5py
+
+    for name in group:
+        link = group.get(name, getlink=True)
+        if not isinstance(link, h5py.HardLink):
+            raise FileFormatError(f"result file must hold its data itself, but {name!r} is a link to {link.path!r}.")
+        item = group[name]
+        place = h5py.h5o.get_info(item.id).addr
+        if place in seen:
+            raise FileFormatError(f"result file must hold its groups once, but {name!r} is there twice.")
+        seen.add(place)
+        if isinstance(item, h5py.Group):
+            _require_own(item, seen, room)
+        elif isinstance(item, h5py.Dataset):
+            if item.external or item.is_virtual:
+                raise FileFormatError(f"result file must hold its data itself, but {name!r} lies in another file.")
+            room[0] -= item.size * item.dtype.itemsize if item.shape is not None else 0.0
+            if room[0] < 0.0:
+                raise FileFormatError(f"result file must fit into the memory that is free, but {name!r} does not.")
 
 
 def datatree(tree: Node) -> xarray.DataTree:

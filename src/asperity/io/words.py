@@ -16,6 +16,7 @@ from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Quantity
+from ..core.text import printable
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
@@ -403,7 +404,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
 def text(thing: object) -> str:
     """What ``repr`` says of a ``thing``: one line of a layered body, at most a screen of anything else."""
     if isinstance(thing, Layered):
-        return f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>"
+        return printable(f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
     return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(said)}" for label, said in rows)])
@@ -411,7 +412,7 @@ def text(thing: object) -> str:
 
 def _cut(said: str) -> str:
     """Text of one line of a screen."""
-    line = " ".join(said.split())
+    line = printable(" ".join(said.split()))
     return line if len(line) <= LINE else f"{line[: LINE - 1]}…"
 
 

@@ -10,6 +10,7 @@ from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core import require
 from ..core.grid import Grid
+from ..core.text import printable
 from ..io.words import heading_and_rows
 from ..stress.field import StressField
 from ..surfaces.surface import Surface
@@ -50,8 +51,8 @@ def card(thing: object) -> str:
     size, projection = _shape(thing, "")
     picture = png(lambda ax: _draw(thing, "", ax), size, projection=projection, dpi=SMALL)
     cells = "".join(
-        f"<tr><th style='text-align:left;font-weight:normal;color:#55606c'>{escape(label)}</th>"
-        f"<td style='text-align:left'>{escape(said)}</td></tr>"
+        f"<tr><th style='text-align:left;font-weight:normal;color:#55606c'>{escape(printable(label))}</th>"
+        f"<td style='text-align:left'>{escape(printable(said))}</td></tr>"
         for label, said in rows
     )
     return (

@@ -7,17 +7,19 @@ from collections.abc import Iterable
 from importlib import resources
 from typing import Any
 
+from ..core.text import printable
 from ..plots.picture import Figure
 
 
 def rendered(template: str, **values: Any) -> str:
-    """Text of the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped."""
+    """Text of the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, control characters too."""
     import jinja2
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_source),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
+        finalize=lambda value: printable(value, keep="\n\t") if type(value) is str else value,
         trim_blocks=True,
         lstrip_blocks=True,
     )

@@ -23,6 +23,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, problems
+from ..core.system import free_memory
 from ..io.schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
 from ..io.schemas.problem import (
     EFFECTIVE,
@@ -337,9 +338,19 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
     return made
 
 
+BYTES_OF_A_POINT = 100.0
+"""Memory of a point of a generated surface: noise, spectrum and what transforms and solvers take of them, at the least."""
+
+
 def table_grid(table: GeneratedSurface) -> Grid:
     """Grid of a generated surface."""
     (nx, ny), (length_x, length_y) = table.points, checked_size(table.size, "a generated surface", table.points)
+    needed, free = BYTES_OF_A_POINT * nx * ny, free_memory()
+    if needed > free:
+        raise InputError(
+            f"points of the surface must fit into the memory, but {nx} x {ny} need about {needed / 2**30:.3g} GiB where "
+            f"{free / 2**30:.3g} GiB are free; give fewer."
+        )
     return Grid((nx, ny), (length_x / nx, length_y / ny))
 
 

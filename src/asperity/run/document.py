@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -19,6 +20,7 @@ from pydantic import Field, create_model
 
 from ..core.errors import FileFormatError, InputError
 from ..core.settings import Settings, validated
+from ..core.text import read_text
 from ..io.atomic import atomic_file
 from ..io.schemas.problem import ProblemDocument
 from ..parts.registry import parts
@@ -98,18 +100,7 @@ def read_table(path: str | os.PathLike[str], what: str = "problem document") -> 
     FileFormatError
         If the file is missing, unreadable, or neither TOML nor JSON.
     """
-    file = Path(path)
-    try:
-        text = file.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise FileFormatError(f"{what} must exist, but {file} does not; check the path.") from None
-    except IsADirectoryError:
-        raise FileFormatError(f"{what} must be a file, but {file} is a folder; name the file in it.") from None
-    except UnicodeDecodeError:
-        raise FileFormatError(f"{what} must be text in UTF-8, but {file} is not; save it as UTF-8.") from None
-    except OSError as error:
-        raise FileFormatError(f"{what} {file} must be readable, but is not: {error.strerror}.") from None
-    return _parsed(text, _form(file), f"{what} {file}")
+    return _parsed(read_text(Path(path), what), _form(Path(path)), f"{what} {path}")
 
 
 def checked(
@@ -236,15 +227,33 @@ def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
     return table.model_copy(update=changed) if changed else table
 
 
+DEEPEST = 16
+"""Tables within tables and lists; documents of this package have eight. Parsers take time that grows with the square of it."""
+
+_LONG_KEY = re.compile(r"""(?<![\w"'-])[\w"'-]+(?:[ \t]*\.[ \t]*[\w"'-]+){16,}""")
+
+
 def _form(path: Path) -> str:
     return "json" if path.suffix.lower() == ".json" else "toml"
 
 
 def _parsed(text: str, form: str, where: str) -> dict[str, Any]:
     try:
+        if _LONG_KEY.search(text):
+            raise ValueError(f"it has a key of more than {DEEPEST} parts")
         table = json.loads(text) if form == "json" else tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise FileFormatError(f"{where} must be valid {form.upper()}, but is not: {error}.") from None
     if not isinstance(table, dict):
         raise FileFormatError(f"{where} must hold a table of keys, but holds {type(table).__name__}.")
+    level: list[Any] = [table]
+    for _ in range(DEEPEST):
+        level = [
+            item
+            for node in level
+            for item in (node.values() if isinstance(node, dict) else node)
+            if isinstance(item, dict | list)
+        ]
+    if level:
+        raise FileFormatError(f"{where} must be nested at most {DEEPEST} deep, but is deeper.")
     return table

@@ -8,6 +8,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
 from ..io.results import (
@@ -20,6 +21,7 @@ from ..io.results import (
     status_attributes,
     status_from,
     stored_tree,
+    whole,
 )
 from ..io.stress_files import field_from, field_node
 from ..io.tree import Node, datatree, write_tree
@@ -83,7 +85,14 @@ def load_outcome(path: str | Path) -> Outcome:
     """
     tree = stored_tree(path)
     answer = result_in(tree, path)
-    contact, groups = contact_of(answer), tree.children
+    contact = contact_of(answer)
+    with whole(path):
+        return _outcome(tree, contact)
+
+
+def _outcome(tree: Node, contact: ContactResult) -> Outcome:
+    """Outcome of a ``tree`` that holds the ``contact``."""
+    groups = tree.children
     steps = groups.get("path")
     course = None if steps is None or "control" not in steps else path_from(steps, contact)
     if OF_OUTCOME not in tree.attributes:
@@ -135,14 +144,14 @@ def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
 
 def _words(described: Mapping[str, Any]) -> Words:
     tables = tuple(
-        (str(heading), Table(tuple(table["headings"]), tuple(map(tuple, table["cells"]))))
+        (str(heading), Table(tuple(map(str, table["headings"])), tuple(tuple(map(str, row)) for row in table["cells"])))
         for heading, table in described["tables"]
     )
     rows = {name: [(str(label), str(text)) for label, text in described[name]] for name in ("headline", "rows")}
     return Words(
-        sentence=described["sentence"],
+        sentence=str(described["sentence"]),
         tables=tables,
-        remarks=tuple(described["remarks"]),
-        alarming=described["alarming"],
+        remarks=tuple(map(str, described["remarks"])),
+        alarming=bool(described["alarming"]),
         **rows,
     )

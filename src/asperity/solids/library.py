@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Self
 
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
+from ..core.text import read_text
 from .elastic import INCOMPRESSIBLE, Elastic, Strength
 
 
@@ -83,14 +84,7 @@ class Record:
         built_in = cls._parsed(text, file)
         if path is None:
             return built_in
-        try:
-            text = Path(path).read_text(encoding="utf-8")
-        except FileNotFoundError:
-            raise FileFormatError(f"{cls.noun} file must exist, but {path} does not; check the path.") from None
-        except (OSError, UnicodeDecodeError) as error:
-            message = f"{cls.noun} file must be a readable text file in UTF-8, but {path} is not: {error}."
-            raise FileFormatError(message) from None
-        own = cls._parsed(text, str(path))
+        own = cls._parsed(read_text(path, f"{cls.noun} file"), str(path))
         taken = {key for record in own for key in record.keys}
         kept = (
             replace(record, aliases=tuple(alias for alias in record.aliases if _normal(alias) not in taken))
@@ -125,7 +119,7 @@ class Record:
     def _parsed(cls, text: str, file: str) -> tuple[Self, ...]:
         try:
             document = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
+        except (ValueError, RecursionError) as error:
             raise FileFormatError(f"{cls.noun} file must be valid TOML, but {file} is not: {error}.") from None
         tables = document.get(cls.noun)
         unknown = sorted(set(document) - {cls.noun})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -48,6 +49,8 @@ class Campaign:
     study: LoadedStudy
 
     def __repr__(self) -> str:
+        from ..core.text import printable
+
         document, state = self.study.document, self.state()
         rows = {
             "kind": document.kind.replace("_", " "),
@@ -56,7 +59,9 @@ class Campaign:
             "quantities": ", ".join(document.quantities),
             "cases": f"{state.done} done, {state.failed} failed, {state.missing} missing",
         }
-        return "\n".join([f"Study {self.title}", *(f"  {label:<10}  {said}" for label, said in rows.items())])
+        return "\n".join(
+            [printable(f"Study {self.title}"), *(f"  {label:<10}  {printable(said)}" for label, said in rows.items())]
+        )
 
     @cached_property
     def plan(self) -> Plan:
@@ -173,6 +178,7 @@ def run_study(
 def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | None = None) -> Campaign:
     """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``."""
     from .documents import load_study, study_from_table, study_text
+    from .plan import BYTES_OF_A_RECORD
 
     if isinstance(study, Mapping):
         loaded, target = study_from_table(study, Path()), Path("study" if folder is None else folder)
@@ -187,8 +193,14 @@ def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | No
         )
     try:
         target.mkdir(parents=True, exist_ok=True)
+        free = shutil.disk_usage(target).free
     except OSError as error:
         raise OutputError(f"folder {target} cannot be made: {error.strerror}; choose another.") from error
+    if (needed := BYTES_OF_A_RECORD * campaign.plan.n_cases) > free:
+        raise OutputError(
+            f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but {free / 2**30:.3g} GiB are "
+            f"free at {target}; give fewer points or samples, or another folder (--out)."
+        )
     _write(target / STUDY, study_text(loaded, target))
     return campaign
 

@@ -13,6 +13,7 @@ from typing import Any
 from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..core.quantity import Quantity
+from ..core.system import free_memory
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
@@ -126,6 +127,7 @@ def make_plan(study: LoadedStudy) -> Plan:
         If a path leads nowhere, a value cannot be used, a quantity is unknown, or names clash.
     """
     document, base = study.document, Base(study.problem, study.folder)
+    _require_room(document)
     names = _names(document)
     axes = [make_axis(base, table, name) for table, name in zip(document.axes, names, strict=False)]
     if document.combine == "list" and axes:
@@ -142,6 +144,45 @@ def make_plan(study: LoadedStudy) -> Plan:
     stop = None if document.monte_carlo is None else document.monte_carlo.stop
     asked = (*document.quantities, *(() if stop is None else (stop.quantity,)))
     return Plan(document, base, tuple(axes), computed(study.problem, asked))
+
+
+MOST_POINTS = 100_000
+"""Points of an axis that is no axis of samples; each is checked before the first case, which takes about a millisecond."""
+
+BYTES_OF_A_POINT, BYTES_OF_A_CASE = 3000, 200
+"""Memory of a point of an axis, and of a case without its quantities."""
+
+BYTES_OF_A_RECORD = 1500
+"""Disk space of a case: its record, and its place in the tables."""
+
+
+def _require_room(document: StudyDocument) -> None:
+    """Refuse a study that has too many points, or does not fit into the memory, before any of them is made.
+
+    Raises
+    ------
+    InputError
+        With the numbers.
+    """
+    counts = [len(table.values) if table.values is not None else table.count or 0 for table in document.axes]
+    if document.combine == "list":
+        counts = counts[:1]
+    if document.convergence is not None:
+        counts.append(len(document.convergence.levels))
+    if document.critical_thickness is not None:
+        found = document.critical_thickness
+        counts.append(2 + (len(found.values) if found.values is not None else found.count or 0))
+    if document.sensitivity is not None:
+        counts.append(1 + 2 * len(document.sensitivity.parameters))
+    if max(counts, default=0) > MOST_POINTS:
+        raise InputError(f"axis of a study must have at most {MOST_POINTS} points, but one has {max(counts)}.")
+    cases = prod(counts) * (1 if document.monte_carlo is None else document.monte_carlo.samples)
+    needed = BYTES_OF_A_POINT * sum(counts) + cases * (BYTES_OF_A_CASE + 24 * (len(document.quantities) + 4))
+    if needed > (free := free_memory()):
+        raise InputError(
+            f"study must fit into the memory, but has {cases:.3g} cases, which need about {needed / 2**30:.3g} GiB "
+            f"where {free / 2**30:.3g} GiB are free; give fewer points or samples."
+        )
 
 
 def _names(document: StudyDocument) -> list[str]:

@@ -6,6 +6,7 @@ import importlib.util
 import json
 import math
 import os
+import re
 import time
 import zlib
 from collections.abc import Iterable, Iterator
@@ -23,14 +24,19 @@ Record: TypeAlias = dict[str, Any]
 DONE, FAILED = b"done", b"fail"
 """Second word of a line."""
 
+LONGEST = 2**20
+"""Bytes of a line; records have some thousand at most."""
+
+_KEY = re.compile("[0-9a-f]{16,64}")
+
 BETWEEN_SYNCS = 1.0
 """Seconds after which appended lines are forced to the disk; a kill of the process loses none, a power cut these."""
 
 
 def records(path: Path) -> Iterator[Record]:
     """Whole records in the file at ``path``, in the order of writing; of a case that was done again all of them."""
-    for *_, payload in _lines(path):
-        yield json.loads(payload)
+    for *_, record in _lines(path):
+        yield record
 
 
 class Finished:
@@ -43,8 +49,8 @@ class Finished:
         kinds = np.dtype([("key", np.uint64), ("value", float)])
         found = np.fromiter(
             (
-                (_short(key.decode()), math.nan if quantity is None else _value(payload, quantity))
-                for _, key, state, payload in _lines(path)
+                (_short(record["key"]), math.nan if quantity is None else record["values"].get(quantity, math.nan))
+                for _, state, record in _lines(path)
                 if not (retry and state == FAILED)
             ),
             kinds,
@@ -82,6 +88,8 @@ class Store:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._synced = time.monotonic()
+        if path.exists() and not path.is_file():
+            raise OutputError(f"results {path} cannot be written: it is no ordinary file.")
         try:
             self._file: IO[bytes] = path.open("ab")
         except OSError as error:
@@ -115,25 +123,54 @@ class Store:
 def _line(record: Record) -> bytes:
     """``key state checksum json`` and the end of the line; the checksum is of the json."""
     payload = json.dumps(record, separators=(",", ":")).encode()
-    state = DONE if record["error"] is None else FAILED
-    return b"%s %s %08x %s\n" % (record["key"].encode(), state, zlib.crc32(payload), payload)
+    return b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload)
 
 
-def _lines(path: Path) -> Iterator[tuple[int, bytes, bytes, bytes]]:
-    """End in the file, key, state and json of every whole line; any other is left out."""
-    if not path.exists():
+def _lines(path: Path) -> Iterator[tuple[int, bytes, Record]]:
+    """End in the file, state and record of every whole line; any other is left out, and its case done again."""
+    if not path.is_file():
         return
     end = 0
     with path.open("rb") as file:
-        for line in file:
+        for line in iter(lambda: file.readline(LONGEST), b""):
             end += len(line)
             parts = line.split(b" ", 3)
             if line.endswith(b"\n") and len(parts) == 4 and b"%08x" % zlib.crc32(parts[3][:-1]) == parts[2]:
-                yield end, parts[0], parts[1], parts[3][:-1]
+                record = _record(parts[3])
+                if record is not None and record["key"].encode() == parts[0] and parts[1] == _state(record):
+                    yield end, parts[1], record
 
 
-def _value(payload: bytes, quantity: str) -> float:
-    return float(json.loads(payload)["values"].get(quantity, math.nan))
+def _record(payload: bytes) -> Record | None:
+    """The record in ``payload``; None if it is none, whatever its checksum."""
+
+    def numbers(found: Any) -> bool:
+        return isinstance(found, dict) and all(
+            isinstance(item, float) or (type(item) is int and abs(item) < 2**63) for item in found.values()
+        )
+
+    def texts(found: Any) -> bool:
+        return isinstance(found, list) and all(isinstance(text, str) for text in found)
+
+    try:
+        record = json.loads(payload)
+        error, findings = record["error"], record.get("findings", [])
+        good = (
+            _KEY.fullmatch(record["key"]) is not None
+            and numbers(record["values"])
+            and numbers(record["work"])
+            and texts(record["citations"])
+            and (error is None or texts([error["type"], error["message"]]))
+            and isinstance(findings, list)
+            and all(texts(finding) and len(finding) == 3 for finding in findings)
+        )
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return None
+    return record if good else None
+
+
+def _state(record: Record) -> bytes:
+    return DONE if record["error"] is None else FAILED
 
 
 def _short(key: str) -> int:

@@ -16,6 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError, UnitError
+from ..core.system import free_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
 from .text_files import cut_short, gridded, is_table, table
@@ -530,6 +531,12 @@ def _picture(file: Path) -> Iterator[Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # remarks on metadata and on very large pictures, which maps may be
         with Image.open(file) as picture:
+            needed, free = 32.0 * picture.width * picture.height, free_memory()
+            if needed > free:
+                raise InputError(
+                    f"its {picture.width} × {picture.height} pixels need about {needed / 2**30:.1f} GiB of memory where "
+                    f"{free / 2**30:.1f} GiB are free"
+                )
             yield picture
 
 
