@@ -9,6 +9,7 @@ import typer
 from typer.core import TyperGroup
 
 from ..core.errors import AsperityError, ConvergenceError
+from ..core.text import printable
 from ..core.units import prefixed
 
 OK = 0
@@ -59,7 +60,6 @@ def diagnosis(error: Exception) -> tuple[int, str]:
 
 
 def _say(sentence: str, *, traceback: bool = False) -> None:
-    from ..core.text import printable
     from .show import error_console  # brings rich
 
     console = error_console()

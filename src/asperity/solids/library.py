@@ -176,7 +176,9 @@ def _sourced(entry: Any, kind: str, what: str) -> Sourced:
     if not isinstance(source, str) or not source.strip():
         raise InputError(f"source of {what} must be text, but is {source!r}.")
     if kind == "ratio":
-        return Sourced(require.within(entry["value"], -1.0, 0.5, what, INCOMPRESSIBLE), source)
+        ratio = entry["value"]
+        ratio = units.parse(ratio, "number", what) if isinstance(ratio, str) else ratio
+        return Sourced(require.within(ratio, -1.0, 0.5, what, INCOMPRESSIBLE), source)
     value = units.parse(entry["value"], kind, what)
     return Sourced(require.positive(value, f"{what} ({units.DIMENSIONS[kind]})"), source)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import FileFormatError, OutputError
+from ..core.text import printable
 
 if TYPE_CHECKING:
     import xarray
@@ -49,8 +50,6 @@ class Campaign:
     study: LoadedStudy
 
     def __repr__(self) -> str:
-        from ..core.text import printable
-
         document, state = self.study.document, self.state()
         rows = {
             "kind": document.kind.replace("_", " "),
