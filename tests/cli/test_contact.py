@@ -227,3 +227,23 @@ control = { force = "1 kN" }
     assert result.exit_code == 0, result.stderr
     assert "free line, hard wall" in result.stdout
     assert "force                                                    1 kN" in result.stdout
+
+
+def test_many_files_are_one_study_with_a_row_for_each(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    other, broken, out = tmp_path / "other.txt", tmp_path / "broken.txt", tmp_path / "all"
+    np.savetxt(other, 2.0 * np.loadtxt(matrix))
+    broken.write_text("no heights", encoding="utf-8")
+    found = run("contact", matrix, other, broken, *SCALE, *BODY, *LOAD, "--threads", 1, "--out", out)
+    assert found.exit_code == 1, found.stderr
+    alone = run("contact", matrix, *SCALE, *BODY, *LOAD)
+    largest = next(
+        line.split("pressure")[1].strip() for line in alone.stdout.splitlines() if "maximum pressure" in line
+    )
+    row = next(line for line in found.stdout.splitlines() if matrix.name in line)
+    assert largest.split()[0] in row
+    assert "2 done, 1 failed" in found.stdout
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert all(file.name in page for file in (matrix, other, broken))
+    assert run("status", out).exit_code == 0, "paths start at the folder"
+    refused = run("contact", matrix, other, *SCALE, *BODY, *LOAD, "--csv", tmp_path / "a.csv")
+    assert "--csv must be left out with many files" in refused.stderr

@@ -103,3 +103,19 @@ def test_own_materials(run: Runner, tmp_path: Path) -> None:
     own.write_text('[material."jelly"]\nyoungs_modulus = "1 MPa"\npoisson_ratio = 0.49\n')
     assert "jelly" in run("materials", "--file", own).stdout
     assert run("materials", "--file", tmp_path / "none.toml").exit_code == 2
+
+
+def test_many_files_are_one_table(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    (tmp_path / "broken.txt").write_text("no heights", encoding="utf-8")
+    files = (matrix, tmp_path / "broken.txt")
+    found = run("info", *files, *SCALE, "--report", tmp_path / "page.html")
+    assert found.exit_code == 1
+    assert [line.split()[0] for line in found.stdout.splitlines() if " – " in line or "32 × 24" in line] == [
+        "rough.txt",
+        "broken.txt",
+    ]
+    assert "32 × 24" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    machine = run("info", *files, *SCALE, "--json")
+    assert [record["shape"] for record in json.loads(machine.stdout)] == [[32, 24]]
+    assert "broken.txt" in machine.stderr
+    assert run("info", *files, *SCALE, "--full").exit_code == 2

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 import json
+import os
 import subprocess
 import sys
+from pathlib import Path
 
-import pytest
 from cli.conftest import Runner
 from heavy_imports import HEAVY
 
-COMMANDS = (
-    *("contact", "demo", "info", "materials", "liquids", "plot", "export", "cite", "generate"),
-    *("run", "status", "collect"),
-)
+from asperity.cli.main import COMMANDS as PROGRAM
 
 
 def test_help_imports_nothing_heavy() -> None:
@@ -54,12 +53,43 @@ def test_module_is_the_program() -> None:
 def test_help_lists_every_command(run: Runner) -> None:
     result = run("--help")
     assert result.exit_code == 0
-    assert all(command in result.stdout for command in COMMANDS)
+    assert all(command in result.stdout for command in PROGRAM)
     assert "130 interrupted" in " ".join(result.stdout.split())
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(run: Runner, command: str) -> None:
-    result = run(command, "--help")
-    assert result.exit_code == 0
-    assert "Usage: asperity" in result.stdout or f"Usage: root {command}" in result.stdout
+def test_every_command_has_help(run: Runner) -> None:
+    for name, (module, line) in PROGRAM.items():
+        command = getattr(importlib.import_module(f"asperity.cli.{module}"), name)
+        assert command.__doc__.partition("\n")[0] == line, "the list of commands and the page agree"
+        page = " ".join(run(name, "-h").stdout.split())
+        assert f"Usage: root {name}" in page or f"Usage: asperity {name}" in page, name
+
+
+def test_advanced_options_are_left_to_help_all(run: Runner) -> None:
+    brief, whole = run("contact", "-h").stdout, run("contact", "--help-all").stdout
+    for option in ("--pressure", "--body", "--friction", "--out"):
+        assert option in brief
+    for option in ("--despike", "--max-iterations", "--stress-nc", "--datum"):
+        assert option not in brief
+        assert option in whole
+    assert "--help-all" in brief
+    assert "Advanced: " in whole
+    assert "ASPERITY_THREADS" in run("-h").stdout
+
+
+def test_quiet_prints_nothing_but_warnings(run: Runner, matrix: Path) -> None:
+    found = run(
+        "contact", matrix, "--size", "8um x 6um", "--height-unit", "nm", "--body", "DLC", "--pressure", "1MPa", "-q"
+    )
+    assert (found.exit_code, found.stdout) == (0, "")
+    assert "warning (resolution)" in found.stderr
+    assert run("materials", "--quiet").stdout == ""
+
+
+def test_shells_complete_commands_and_options() -> None:
+    for words, wanted in (("asperity ma", "materials"), ("asperity contact --pres", "--pressure")):
+        told = {"_ASPERITY_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+        done = subprocess.run(
+            [sys.executable, "-m", "asperity"], env={**os.environ, **told}, capture_output=True, text=True, timeout=60
+        )
+        assert wanted in done.stdout.split(), done.stderr

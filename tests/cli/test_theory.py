@@ -229,3 +229,12 @@ def test_ranges() -> None:
     assert read_range(PRESSURES, "-1GPa..1GPa", points=3, linear=False) == pytest.approx([-1e9, 0.0, 1e9])
     assert read_range(PRESSURES, "-100GPa..-1GPa", points=3, linear=False) == pytest.approx([-1e11, -1e10, -1e9])
     assert np.all(read_range(PRESSURES, "1GPa, 2GPa", points=3, linear=False) == [1e9, 2e9])
+
+
+def test_a_curve_is_drawn(run: Runner, tmp_path: Path) -> None:
+    hertz = ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm")
+    assert run(*hertz, "--load", "1N..100N", "--plot", tmp_path / "a.png").exit_code == 0
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert (
+        "--plot must be given together with a range" in run(*hertz, "--load", "1N", "--plot", tmp_path / "b.png").stderr
+    )

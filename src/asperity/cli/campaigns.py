@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import Annotated
+from tempfile import TemporaryDirectory
+from types import MappingProxyType
+from typing import Annotated, Any
 
 import typer
 from rich.progress import BarColumn, Progress, TextColumn
 
-from ..report.study import axis_rows, derived_table, failure_table, finding_table, summary, write_study_files
+from ..io.schemas.study import DEFAULT_QUANTITIES
+from ..report.study import (
+    axis_rows,
+    case_table,
+    derived_table,
+    failure_table,
+    finding_table,
+    summary,
+    write_study_files,
+)
+from ..run.document import ProblemDocument, relocated
 from ..studies.campaign import Campaign, open_study, prepare_study
+from ..studies.places import problem_table
 from ..studies.run import Watch
 from .failures import INTERRUPTED, NOT_CONVERGED, OK
-from .show import console, error_console, print_files, say, table, watching
+from .show import console, error_console, print_files, say, short_names, table, watching
 
 Folder = Annotated[
     Path, typer.Argument(help="Folder of the results, or the study document they lie beside.", metavar="FOLDER")
@@ -49,18 +63,52 @@ def run(
     monte_carlo = campaign.study.document.monte_carlo
     most = "at most " if monte_carlo is not None and monte_carlo.stop is not None else ""
     say(f"{campaign.title}: {most}{campaign.plan.n_cases} cases, results in {campaign.folder}")
-    try:
-        with watched(campaign.title) as watch:
-            done = campaign.run(workers=workers, dask=dask, retry=retry, watch=watch)
-    except KeyboardInterrupt:
-        say(f"Interrupted. Finished cases are kept; resume with: asperity run {study}", "yellow")
-        raise typer.Exit(INTERRUPTED) from None
-    say(f"computed {done.done} cases, {done.failed} of them failed; {done.found} were there already")
+    _run(campaign, f"asperity run {study}", workers=workers, dask=dask, retry=retry)
     raise typer.Exit(_report(campaign))
 
 
+def _run(campaign: Campaign, again: str, **options: Any) -> None:
+    """Compute what is missing; ``again`` is the command that resumes it."""
+    try:
+        with watched(campaign.title) as watch:
+            done = campaign.run(watch=watch, **options)
+    except KeyboardInterrupt:
+        say(f"Interrupted. Finished cases are kept; resume with: {again}", "yellow")
+        raise typer.Exit(INTERRUPTED) from None
+    say(f"computed {done.done} cases, {done.failed} of them failed; {done.found} were there already")
+
+
+def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | None) -> int:
+    """Solve ``document`` for each of the ``files`` as a study in the folder ``out``, or one of no duration; the exit code."""
+    with TemporaryDirectory() if out is None else nullcontext(out) as name:
+        place = Path(name)
+        paths = [str(file.absolute()) if out is None else os.path.relpath(file, place) for file in files]
+        parts = [quantity for part, quantity in SHOWN_OF_PARTS.items() if getattr(document, part) is not None]
+        study = {
+            "version": 1,
+            "title": document.title or f"{len(files)} files",
+            "problem": problem_table(relocated(document, Path(), place)),
+            "quantities": [*DEFAULT_QUANTITIES, *parts],
+            "axes": [{"path": "surface.path", "name": "file", "values": paths}],
+        }
+        campaign = prepare_study(study, place, start=place)
+        _run(campaign, "the same command")
+        found = case_table(campaign, campaign.dataset())
+        rows = [(name, *row[1:]) for name, row in zip(short_names(files), found.cells, strict=False)]
+        console().print(table(campaign.title, rows, found.headings))
+        if out is not None:
+            return _report(campaign)
+        _print_causes(campaign)
+        say("Add --out DIR for the report and the table of all files.", "dim")
+        return NOT_CONVERGED if campaign.state().failed else OK
+
+
+SHOWN_OF_PARTS = MappingProxyType({"film": "meniscus_force", "stress": "max_von_mises"})
+"""Quantity of a part that is shown beside the usual ones where the document asks for it."""
+
+
 def status(folder: Folder) -> None:
-    """Say how far a campaign is, also while it runs."""
+    """Tell how far a campaign is, also while it runs."""
     campaign = open_study(folder)
     state = campaign.state()
     console().print(table(campaign.title, axis_rows(campaign)))
@@ -69,7 +117,7 @@ def status(folder: Folder) -> None:
 
 
 def collect(folder: Folder) -> None:
-    """Write what a campaign has found so far: NetCDF, CSV, pictures and a report, into its folder."""
+    """Write what a campaign has found so far: NetCDF, CSV, pictures and a report."""
     raise typer.Exit(_report(open_study(folder)))
 
 

@@ -93,7 +93,7 @@ def compare(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Compare every theory of rough contact with the boundary-element solution, on one surface.
+    """Compare every theory of rough contact with the numerical solution, on one surface.
 
     Examples: asperity compare scan.di --body DLC --out run;
     asperity compare scan.di --body steel --pressures 1MPa..1GPa --loads 20 --theories persson,bush-gibson-thomas

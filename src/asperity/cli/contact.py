@@ -23,6 +23,7 @@ from ..run.build import build
 from ..run.document import ProblemDocument, checked, dumps, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
 from ..run.stored import save_outcome
+from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .failures import NOT_CONVERGED, OK
 from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid
@@ -90,7 +91,12 @@ def files_in(given: Given, *, force: bool) -> dict[str, Path]:
 @offers(_options)
 def contact(
     given: Given,
-    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    file: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            help="File with the heights of the rough surface; of many, one table and report with a row for each."
+        ),
+    ] = None,
     from_: Document = None,
     out: Out = None,
     force: Force = False,
@@ -112,21 +118,28 @@ def contact(
         ),
     ] = None,
 ) -> None:
-    """Press a rough surface against another body: contact area, pressure and gap; menisci and stresses if asked for.
+    """Press rough surfaces against a body: contact area, pressure, gap; menisci and stresses.
 
     Examples: asperity contact scan.di --body DLC --periodise --pressure 50kPa --hardness body --out run;
     asperity contact scan.di --body DLC:5nm/steel --periodise --pressure 50MPa --friction 0.3 --section y=max --out run;
-    asperity contact scan.di --body DLC --periodise --pressure 1MPa --liquid water --humidity 80% --friction 0.3
+    asperity contact scan.di --body DLC --periodise --pressure 1MPa --liquid water --humidity 80% --friction 0.3;
+    asperity contact scans/*.di --body DLC --periodise --pressure 50MPa --out all
 
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
     130: interrupted by Ctrl-C (nothing is left half-written).
     """
-    table, names, base = asked_table(file, from_, given)
+    table, names, base = asked_table(file[0] if file else None, from_, given)
     files = files_in(given, force=force)
     volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
     table = with_parts(table, given, (*(with_ or ()), *(["plastic_load"] if plastic_load else ()), *volume))
     where = f"problem document {from_}" if from_ else "command line"
     document = checked(table, where, names | part_names(given, everything=from_ is None))
+    if file and len(file) > 1:
+        if files:
+            raise InputError(
+                f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out with many files: --out DIR holds the table of all."
+            )
+        raise typer.Exit(solve_files(document, file, out))
     raise typer.Exit(_perform(document, base, out, files, force=force))
 
 

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from ..core.errors import InputError
+from ..core.errors import AsperityError, InputError
 from ..core.units import parse, percent, show
 from ..io.atomic import require_new_file
 from ..io.records import roughness_record
 from ..io.words import surface_text
+from ..parts.part import Table
 from ..plots.contact import save_surface_plot
 from ..plots.surface import save_roughness_plots
-from ..report.roughness import quantity_rows, write_roughness_report
+from ..report.roughness import quantity_rows, write_files_report, write_roughness_report
 from ..surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from ..surfaces.characterise.slopes import rms_slope
 from ..surfaces.characterise.summary import Characterisation, characterise
@@ -25,8 +28,9 @@ from ..surfaces.formats import ChannelInfo, chosen
 from ..surfaces.read import channels
 from ..surfaces.surface import Surface
 from .declared import Given, offers
+from .failures import NOT_CONVERGED, OK
 from .options import levelled_as, read_surface, reading_options
-from .show import console, print_files, say, table
+from .show import console, print_files, say, short_names, silence, table
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ class Asked:
 @offers(reading_options)
 def info(
     given: Given,
-    file: Annotated[Path, typer.Argument(help="File with heights.")],
+    files: Annotated[list[Path], typer.Argument(help="File with heights; many give one table.", metavar="FILE")],
     full: Annotated[bool, typer.Option("--full", help="All roughness quantities, not only the first four.")] = False,
     level: Annotated[
         str,
@@ -62,12 +66,19 @@ def info(
     plots: Annotated[Path | None, typer.Option("--plots", help="Write all pictures into this folder.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
-    """Tell what is in a file: channels, size, pixel, units, missing points, roughness.
+    """Tell what is in files with heights: channels, size, pixel, units, roughness.
+
+    Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html
 
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, if not told otherwise.
     """
     asked = Asked(report, plot, plots, force)
     _check(asked)
+    if len(files) > 1:
+        if full or plot or plots:
+            raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
+        raise typer.Exit(_many(files, given, level, asked, as_json=as_json))
+    file = files[0]
     radius = None if tip_radius is None else parse(tip_radius, "length", "--tip-radius")
     surface = read_surface(file, given)
     found, (flat, removed) = channels(file), levelled_as(surface, level)
@@ -83,6 +94,44 @@ def info(
     if written and not as_json:
         say(f"Pictures and pages show the heights after {_levelling(removed)}.", "dim")
         print_files(written)
+
+
+HEADINGS = ("file", "points", "size", "missing", "Sq", "Sa", "Sz", "Sdq", "levelled")
+
+
+def _many(files: Sequence[Path], given: Given, level: str, asked: Asked, *, as_json: bool) -> int:
+    """Print one row for each file, and write them as a page; the exit code tells whether all could be read."""
+    rows, records, lost = [], [], []
+    for file, name in zip(files, short_names(files), strict=True):
+        try:
+            surface = read_surface(file, given)
+            flat, removed = levelled_as(surface, level)
+        except AsperityError as error:
+            lost.append(f"{file}: {error}")
+            rows.append((name, *("–" for _ in HEADINGS[1:])))
+            continue
+        records.append(_record(file, channels(file), surface, flat, None) | {"levelled": removed})
+        size = " × ".join(show(side, "m", 3) for side in surface.size)
+        roughness = [show(value, unit, 3) for value, unit, _ in _roughness(flat).values()]
+        missing = percent(surface.n_missing / surface.grid.n_points)
+        rows.append((name, " × ".join(map(str, surface.shape)), size, missing, *roughness, removed))
+    if as_json:
+        console().out(json.dumps(records, indent=2), highlight=False)
+    else:
+        console().print(table(f"{len(files)} files", rows, HEADINGS))
+    with silence() if as_json else nullcontext():  # JSON stays alone on stdout
+        for text in lost:
+            say(f"warning: {text}", "yellow", warning=True)
+    if asked.report is not None:
+        write_files_report(
+            Table(HEADINGS, tuple(rows)),
+            asked.report,
+            f"{len(files)} files, {len(lost)} not read.",
+            overwrite=asked.force,
+        )
+        if not as_json:
+            print_files([asked.report])
+    return NOT_CONVERGED if lost else OK
 
 
 def _check(answer: Asked) -> None:

@@ -8,7 +8,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -91,6 +91,12 @@ def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...]
     for row in filled:
         made.add_row(*row)
     return made
+
+
+def short_names(files: Sequence[Path]) -> list[str]:
+    """Names of ``files`` in a table: without their folders where these do not tell them apart."""
+    names = [file.name for file in files]
+    return names if len(set(names)) == len(names) else [str(file) for file in files]
 
 
 def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:

@@ -12,6 +12,7 @@ from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import surface_rows
+from ..parts.part import Table
 from ..plots.picture import drawn
 from ..plots.surface import SURFACE_PLOTS
 from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
@@ -221,6 +222,21 @@ def write_roughness_report(
     """
     with atomic_file(path, overwrite=overwrite) as file:
         file.write_text(_html(found, title or _title(found)), encoding="utf-8")
+
+
+def write_files_report(table: Table, path: str | Path, summary: str, *, overwrite: bool = False) -> None:
+    """Write a page with one ``table`` of many files; the rest as for ``write_roughness_report``."""
+    references = [("ISO25178", REFERENCES["ISO25178"])]
+    page = rendered(
+        "files.html",
+        title="Roughness of files",
+        summary=summary,
+        references=references,
+        headings=table.headings,
+        rows=table.cells,
+    )
+    with atomic_file(path, overwrite=overwrite) as file:
+        file.write_text(page, encoding="utf-8")
 
 
 def summary(found: Characterisation) -> str:

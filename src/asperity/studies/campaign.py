@@ -174,13 +174,18 @@ def run_study(
     return campaign
 
 
-def prepare_study(study: str | Path | Mapping[str, Any], folder: str | Path | None = None) -> Campaign:
-    """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``."""
+def prepare_study(
+    study: str | Path | Mapping[str, Any], folder: str | Path | None = None, *, start: Path = Path()
+) -> Campaign:
+    """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``.
+
+    Relative paths in a dictionary begin at ``start``.
+    """
     from .documents import load_study, study_from_table, study_text
     from .plan import BYTES_OF_A_RECORD
 
     if isinstance(study, Mapping):
-        loaded, target = study_from_table(study, Path()), Path("study" if folder is None else folder)
+        loaded, target = study_from_table(study, start), Path("study" if folder is None else folder)
     else:
         loaded, target = load_study(study), default_folder(Path(study)) if folder is None else Path(folder)
     campaign = Campaign(target, loaded)
