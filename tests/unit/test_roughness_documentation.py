@@ -54,6 +54,7 @@ def test_the_options_of_the_guide_exist():
 
     (console,) = blocks(ROOT / "docs" / "how-to" / "roughness.md", "console")
     known = {name.replace("_", "-") for name in inspect.signature(info).parameters} | {"json"}
+    known |= {option.name[2:] for option in info.offered()}
     assert set(re.findall(r"--([a-z-]+)", console)) <= known
 
 

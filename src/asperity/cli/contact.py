@@ -13,8 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from ..core.errors import InputError
-from ..core.parameters import Parameter
-from ..core.values import Text
+from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
@@ -26,7 +25,7 @@ from ..run.stored import save_outcome
 from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .failures import NOT_CONVERGED, OK
-from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid
+from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid, own_option
 from .show import print_files, print_problem, print_result, say, stage
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
@@ -51,8 +50,17 @@ Document = Annotated[
 ]
 
 
+PLASTIC_LOAD = own_option(
+    "--plastic-load",
+    ("asked", "plastic_load"),
+    "search the load at which 2 % of the real area is at the hardness (some 15 solves)",
+    OUTPUT,
+    values=Flag(),
+)
+
+
 def _options() -> list[Option]:
-    return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), *file_options(*FILES)]
+    return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), PLASTIC_LOAD, *file_options(*FILES)]
 
 
 FILES = MappingProxyType(
@@ -70,13 +78,7 @@ FILES = MappingProxyType(
 def file_options(*names: str) -> list[Option]:
     """Options for single files."""
     return [
-        Option(
-            f"--{name.replace('_', '-')}",
-            ("output", name),
-            Parameter(name, str, Text(), None, f"write {FILES[name]}"),
-            f"{ADVANCED}{OUTPUT}",
-            metavar=FILE,
-        )
+        own_option(f"--{name.replace('_', '-')}", ("output", name), f"write {FILES[name]}", f"{ADVANCED}{OUTPUT}", FILE)
         for name in names
     ]
 
@@ -100,14 +102,6 @@ def contact(
     from_: Document = None,
     out: Out = None,
     force: Force = False,
-    plastic_load: Annotated[
-        bool,
-        typer.Option(
-            "--plastic-load",
-            help="Search the load at which 2 % of the real area is at the hardness (some 15 solves).",
-            rich_help_panel=OUTPUT,
-        ),
-    ] = False,
     with_: Annotated[
         list[str] | None,
         typer.Option(
@@ -131,7 +125,7 @@ def contact(
     table, names, base = asked_table(file[0] if file else None, from_, given)
     files = files_in(given, force=force)
     volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
-    table = with_parts(table, given, (*(with_ or ()), *(["plastic_load"] if plastic_load else ()), *volume))
+    table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
     where = f"problem document {from_}" if from_ else "command line"
     document = checked(table, where, names | part_names(given, everything=from_ is None))
     if file and len(file) > 1:

@@ -27,9 +27,9 @@ from ..surfaces.characterise.summary import Characterisation, characterise
 from ..surfaces.formats import ChannelInfo, chosen
 from ..surfaces.read import channels
 from ..surfaces.surface import Surface
-from .declared import Given, offers
+from .declared import FILE, Given, Option, offers
 from .failures import NOT_CONVERGED, OK
-from .options import levelled_as, read_surface, reading_options
+from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
 
 
@@ -43,7 +43,18 @@ class Asked:
     force: bool
 
 
-@offers(reading_options)
+def _options() -> list[Option]:
+    output = {"report": "write a page on the roughness, HTML", "plot": "write a picture of the heights, PNG"}
+    output["plots"] = "write all pictures into this folder"
+    tip = own_option("--tip-radius", ("tip_radius",), "radius of the tip: shorter waves are not fitted", None, "LENGTH")
+    return [
+        tip,
+        *(own_option(f"--{name}", ("output", name), text, None, FILE) for name, text in output.items()),
+        *reading_options(),
+    ]
+
+
+@offers(_options)
 def info(
     given: Given,
     files: Annotated[list[Path], typer.Argument(help="File with heights; many give one table.", metavar="FILE")],
@@ -56,14 +67,7 @@ def info(
             metavar="WORD",
         ),
     ] = "auto",
-    tip_radius: Annotated[
-        str | None,
-        typer.Option("--tip-radius", help="Radius of the tip: shorter waves are not fitted.", metavar="LENGTH"),
-    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
-    report: Annotated[Path | None, typer.Option("--report", help="Write a page on the roughness, HTML.")] = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", help="Write all pictures into this folder.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
     """Tell what is in files with heights: channels, size, pixel, units, roughness.
@@ -72,17 +76,19 @@ def info(
 
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, if not told otherwise.
     """
-    asked = Asked(report, plot, plots, force)
+    paths = {name: Path(path) for name, path in given.under("output").table().items()}
+    asked = Asked(paths.get("report"), paths.get("plot"), paths.get("plots"), force)
     _check(asked)
     if len(files) > 1:
-        if full or plot or plots:
+        if full or asked.plot or asked.plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
         raise typer.Exit(_many(files, given, level, asked, as_json=as_json))
     file = files[0]
-    radius = None if tip_radius is None else parse(tip_radius, "length", "--tip-radius")
+    tip = given.get("tip_radius")
+    radius = None if tip is None else parse(tip, "length", "--tip-radius")
     surface = read_surface(file, given)
     found, (flat, removed) = channels(file), levelled_as(surface, level)
-    whole = characterise(flat, tip_radius=radius) if full or report or plots else None
+    whole = characterise(flat, tip_radius=radius) if full or asked.report or asked.plots else None
     shown = whole if full else None
     if as_json:
         record = _record(file, found, surface, flat, shown) | {"levelled": removed}

@@ -47,11 +47,11 @@ def reading_options() -> tuple[Option, ...]:
     return options_of(FileSurface, ("surface",), READING, leave=("kind", "path", *AnySurface.model_fields))
 
 
-def _option(
-    name: str, path: tuple[str, ...], text: str, panel: str, metavar: str, values: Values | None = None
+def own_option(
+    name: str, path: tuple[str, ...], text: str, panel: str | None, metavar: str = "", values: Values | None = None
 ) -> Option:
     """Option of the command line alone, for what the document says in several keys."""
-    return Option(name, path, Parameter(path[-1], str, values or Text(), None, text), panel, metavar=metavar)
+    return Option(name, path, Parameter(path[-1], str, values or Text(), None, text), panel, metavar=metavar or None)
 
 
 def _step_option(name: str, step: str, key: str, what: str) -> Option:
@@ -67,7 +67,7 @@ def _step_option(name: str, step: str, key: str, what: str) -> Option:
 
 def preparation_options() -> tuple[Option, ...]:
     """Options of the steps between the file and the contact, in their order; they apply to a counter surface too."""
-    make, step = _option, _step_option
+    make, step = own_option, _step_option
     return (
         make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
         step("--despike", "despike", "threshold", "mask spikes"),
@@ -125,7 +125,7 @@ def body_options() -> tuple[Option, ...]:
             replace(option, metavar=FILE)
             for option in options_of(BodyTable, ("bodies",), BODIES, only=("materials_file",))
         ),
-        _option(
+        own_option(
             "--counter-surface",
             (*counter, "path"),
             "file with the surface of the counter body; flat by default",
@@ -134,7 +134,7 @@ def body_options() -> tuple[Option, ...]:
         ),
         *options_of(AnySurface, counter, COUNTER, only=("mirror",)),
         *options_of(Place, (*counter, "place"), COUNTER, leave=("pixel",)),
-        _option(
+        own_option(
             "--common-grid",
             (*counter, "common"),
             "bring both surfaces on one grid; so do --shift and --rotate",
