@@ -24,7 +24,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "cell_deflections": "a compiled pass takes its arrays and numbers one by one",
         "subtract_deflections": "a compiled pass takes its arrays and numbers one by one",
         "execute": "independent keyword-only choices of the callers, each with a default",
-        "contact": "options of the command beside those of the document, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",
         "Prepared.__init__": "the choices of solve, for all steps of a history",
         "solve": "independent keyword-only choices of the user, each with a default",
