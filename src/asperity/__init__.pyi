@@ -2,7 +2,6 @@ from . import theories
 from .contact import solvers
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
-from .contact.control import Approach, Force, MeanGap, MeanPressure, Unloaded
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
@@ -10,7 +9,7 @@ from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps
 from .contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
-from .contact.problem import ContactProblem, Flat
+from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Unloaded
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.progress import Progress as Bar
 
 from asperity.cli.show import OnBar, done, interruptible, shown
-from asperity.core.progress import NoProgress
+from asperity.core.status import NoProgress
 
 
 def test_silent_without_a_terminal() -> None:

@@ -20,8 +20,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ..core.progress import NoProgress, Progress
-from ..core.system import compiling
+from ..core.status import NoProgress, Progress, compiling
 from ..core.text import printable
 from ..core.units import prefixed, show
 

@@ -7,18 +7,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..core.status import Advice
-from ..core.system import free_memory
+from ..core.status import Advice, free_memory
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from ..theories.wet.meniscus import wetting_factor
-from .control import Control, Force, MeanPressure, mean_pressure
 from .couplings.menisci import Menisci
 from .laws import LayeredHardness, LimitByDepth
-from .problem import ContactProblem
+from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
 from .result import ContactResult
 
 LARGEST_SLOPE = 0.3

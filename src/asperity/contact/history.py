@@ -14,7 +14,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
-from .control import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
+from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 from .result import ContactResult
 from .state import InterfaceState
 

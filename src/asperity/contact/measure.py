@@ -1,4 +1,4 @@
-"""Measures of a contact: true area, perimeter, spots, distributions."""
+"""Measures of a contact: connected islands, true area, perimeter, spots, distributions."""
 
 from __future__ import annotations
 
@@ -6,12 +6,103 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
-from .islands import island_sizes
+
+Labels = NDArray[np.int64]
+"""Number of the island of each pixel, from 1; zero outside all."""
+
+
+def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = False) -> tuple[Labels, int]:
+    """Label the islands of ``mask`` (nx, ny) and count them.
+
+    Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across the border where the
+    map ``wraps``.
+    """
+    labels, count = _within(mask, diagonal=diagonal)
+    if count == 0 or not any(wraps):
+        return labels, count
+    whole, merged = _merged(labels, count, wraps, diagonal=diagonal)
+    return np.concatenate([[0], whole + 1])[labels], merged
+
+
+def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
+    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their labels.
+
+    The same as to count the pixels of each label, but the map is not labelled anew for islands that reach across the
+    border, which takes longer than all the rest.
+    """
+    labels, count = _within(mask, diagonal=False)
+    sizes = np.bincount(labels[mask], minlength=count + 1)[1:]
+    if count == 0 or not any(wraps):
+        return sizes
+    whole, merged = _merged(labels, count, wraps, diagonal=False)
+    joined = np.zeros(merged, dtype=np.int64)
+    np.add.at(joined, whole, sizes)
+    return joined
+
+
+def _within(mask: BoolArray, *, diagonal: bool) -> tuple[Labels, int]:
+    """Labels (nx, ny) of the islands of ``mask`` without regard to what lies across its border, and their number."""
+    from scipy.ndimage import label
+
+    found, count = label(mask, np.ones((3, 3)) if diagonal else None)
+    return np.asarray(found, dtype=np.int64), int(count)
+
+
+def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
+    """Number from 0 of the island to which each of the ``count`` labels belongs across the border, and of islands."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    first, last = _across(labels, wraps, diagonal=diagonal)
+    joined = (first > 0) & (last > 0)
+    rows, columns = first[joined] - 1, last[joined] - 1
+    links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
+    merged_count, merged = connected_components(links, directed=False)
+    return np.asarray(merged, dtype=np.int64), int(merged_count)
+
+
+def _across(labels: Labels, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, Labels]:
+    """Labels of the neighbours on both sides of the borders that wrap, (n,) each."""
+    pairs: list[tuple[Labels, Labels]] = []
+    for axis in (0, 1):
+        if not wraps[axis]:
+            continue
+        first, last = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
+        pairs.append((first, last))
+        if diagonal and wraps[1 - axis]:
+            pairs += [(first, np.roll(last, shift)) for shift in (1, -1)]
+        elif diagonal:
+            pairs += [(first[1:], last[:-1]), (first[:-1], last[1:])]
+    ends = zip(*pairs, strict=True)
+    first_side, last_side = (np.concatenate(lines) for lines in ends)
+    return first_side, last_side
+
+
+def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:
+    """Whether each island, (count,) in the order of the labels, reaches all across the map along x or along y.
+
+    Where the map wraps, an island that has pixels in every row or column goes round it or nearly so.
+    """
+    count = int(labels.max(initial=0))
+    reaching = np.zeros(count + 1, dtype=bool)
+    for axis in (0, 1):
+        if labels.shape[axis] == 1:
+            continue
+        if wraps[axis]:
+            lines = np.zeros((count + 1, labels.shape[axis]), dtype=bool)
+            lines[labels, np.indices(labels.shape)[axis]] = True
+            reaching |= lines.all(axis=1)
+        else:
+            both = np.intersect1d(labels.take(0, axis), labels.take(-1, axis))
+            reaching[both] = True
+    return reaching[1:]
+
 
 PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
 """Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""

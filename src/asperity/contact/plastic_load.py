@@ -10,10 +10,9 @@ import numpy as np
 
 from ..core import require
 from ..core.errors import InputError, NoSolutionError
-from ..core.progress import Progress
-from .control import MeanPressure
+from ..core.status import Progress
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem
+from .problem import ContactProblem, MeanPressure
 from .result import PLASTIC_FRACTION, ContactResult
 from .solve import Keep, solve
 from .solvers.protocol import Solver

@@ -13,10 +13,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
-from ..core.progress import Progress
-from ..core.status import Outcome, Status
-from .certificate import Certificate, certify
-from .control import Approach, Control, MeanGap, Unloaded, mean_pressure
+from ..core.status import Outcome, Progress, Status
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
@@ -28,9 +25,9 @@ from .couplings.sliding import SlidingCoupling
 from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem, require_magnitude
-from .result import ContactResult, assemble
-from .solvers.by_name import default_solver
+from .problem import Approach, ContactProblem, Control, MeanGap, Unloaded, mean_pressure, require_magnitude
+from .result import Certificate, ContactResult, assemble, certify
+from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
 
@@ -249,6 +246,15 @@ class Prepared:
             citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *_citations(found.values())})),
         )
         return replace(result, couplings=found)
+
+
+def default_solver(problem: ContactProblem) -> Solver:
+    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size.
+
+    Where shear changes the pressure the tolerance is 1e-12, so that the error of the normal solve (which goes with its
+    root) does not hide that the displacement by shear has settled to 1e-6.
+    """
+    return ActiveSet(tolerance=1e-12) if problem.friction is not None and problem.friction.couples else ActiveSet()
 
 
 def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds()) -> tuple[Coupling, ...]:

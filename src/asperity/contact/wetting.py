@@ -13,7 +13,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..solids.library import Liquid
 from ..theories.wet.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
-from .islands import Labels, labelled, spans
+from .measure import Labels, labelled, spans
 
 FLOODED = 0.95
 """Share of the nominal area under liquid or in contact from which an interface counts as flooded."""

@@ -10,10 +10,9 @@ from typing import Any, get_args
 import numpy as np
 
 from ..contact.boundary import Boundary
-from ..contact.control import Control
 from ..contact.couplings.driver import CouplingCheck
 from ..contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
-from ..contact.problem import Flat
+from ..contact.problem import Control, Flat
 from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError

@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ..contact.certificate import Certificate
 from ..contact.couplings.menisci import Menisci
 from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
 from ..contact.laws import Coulomb
 from ..contact.problem import ContactProblem
-from ..contact.result import WET_SCALARS, ContactResult
+from ..contact.result import WET_SCALARS, Certificate, ContactResult
 from ..contact.state import InterfaceState
 from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest

@@ -14,8 +14,8 @@ from ..core import require
 from ..core.arrays import ComplexArray, RealArray
 from ..core.errors import InputError, OutputError
 from ..core.grid import Grid
-from ..core.progress import NoProgress, Progress
 from ..core.spectral import complex_lines, line_transform, real_lines, thread_count
+from ..core.status import NoProgress, Progress
 from ..surfaces.formats import write_netcdf
 from ..surfaces.generate import EndlessSurface
 from ..surfaces.generate.gaussian import Spectrum, noise_rows

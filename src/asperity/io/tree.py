@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import FileFormatError, OutputError
 from ..core.quantity import Labelled, Quantity
-from ..core.system import free_memory
+from ..core.status import free_memory
 from ..core.text import require_file
 from .atomic import atomic_file
 

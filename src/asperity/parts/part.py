@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
-from ..core.progress import NoProgress, Progress
+from ..core.status import NoProgress, Progress
 
 if TYPE_CHECKING:
-    from ..contact.control import Control
     from ..contact.history import HistoryResult
-    from ..contact.problem import ContactProblem
+    from ..contact.problem import ContactProblem, Control
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..core.quantity import Quantity

@@ -12,18 +12,18 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
-from ..contact.control import Approach, Control, Force, MeanGap, MeanPressure
 from ..contact.history import Ramped, ramps
 from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
-from ..contact.problem import ContactProblem, Flat
-from ..contact.solvers.by_name import default_solver, solver_by_name
+from ..contact.problem import Approach, ContactProblem, Control, Flat, Force, MeanGap, MeanPressure
+from ..contact.solve import default_solver
+from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.protocol import Solver
 from ..core import units
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, problems
-from ..core.system import free_memory
+from ..core.status import free_memory
 from ..io.schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
 from ..io.schemas.problem import (
     EFFECTIVE,

@@ -14,7 +14,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
-from ..core.progress import NoProgress, Progress
+from ..core.status import NoProgress, Progress
 from ..core.tensor import StressTensor
 from ..solids.elastic import Rigid
 from .boundaries import require_held

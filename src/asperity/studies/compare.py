@@ -17,7 +17,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import AsperityError, InputError
-from ..core.progress import Progress
+from ..core.status import Progress
 from ..solids.elastic import Rigid
 from ..solids.layers import Body
 from ..surfaces.pair import composite

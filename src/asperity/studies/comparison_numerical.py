@@ -9,17 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.advice import advise, review
-from ..contact.control import MeanPressure
-from ..contact.problem import ContactProblem
+from ..contact.problem import ContactProblem, MeanPressure
 from ..contact.result import ContactResult
-from ..contact.solve import steps
-from ..contact.solvers.by_name import default_solver
+from ..contact.solve import default_solver, steps
 from ..contact.solvers.protocol import Solver
 from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import NoSolutionError
-from ..core.progress import Progress
-from ..core.status import Advice
+from ..core.status import Advice, Progress
 from .comparison import NumericalCurve
 
 

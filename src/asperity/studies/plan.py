@@ -13,7 +13,7 @@ from typing import Any
 from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..core.quantity import Quantity
-from ..core.system import free_memory
+from ..core.status import free_memory
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions

@@ -16,7 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError, UnitError
-from ..core.system import free_memory
+from ..core.status import free_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
 from .text_files import cut_short, gridded, is_table, table

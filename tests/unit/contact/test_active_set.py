@@ -12,11 +12,11 @@ from contact_cases import elastic, rough
 
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
+from asperity.contact.solve import default_solver
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
-from asperity.contact.solvers.active_set import cells, linear_system
+from asperity.contact.solvers.active_set import linear_system
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.solver import COARSEST, coarsened, nested_start
-from asperity.contact.solvers.by_name import default_solver
 from asperity.contact.solvers.protocol import relative_error
 from asperity.core.engine import SQUARE_SIDE
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -211,8 +211,8 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
     settled, nearly = solver_module._SETTLED_SET, solver_module._NEARLY_SETTLED
     for phrase in (
         f"ℓ ← {linear_system._STEP_LENGTH} / (s ĉ₀)",
-        f"$s={cells.PIXEL_SHARE}$",
-        f"({cells.PIXEL_SHARE_COARSE} with the coarse correction below)",
+        f"$s={linear_system.PIXEL_SHARE}$",
+        f"({linear_system.PIXEL_SHARE_COARSE} with the coarse correction below)",
         f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION},  at most {solver_module._UNSETTLED_STEPS} · ",
         f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
         f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",

@@ -7,14 +7,17 @@ import pytest
 
 import asperity as asp
 from asperity.contact.solvers.active_set import linear_system
-from asperity.contact.solvers.active_set.cells import CoarseCorrection, coarse_correction, hierarchies, pixel_compliance
 from asperity.contact.solvers.active_set.linear_system import (
+    CoarseCorrection,
     LinearSystem,
     NestedCells,
     RestrictedInverse,
     ScaledOperator,
     Stopping,
+    coarse_correction,
     conjugate_gradients,
+    hierarchies,
+    pixel_compliance,
     preconditioner,
 )
 from asperity.contact.solvers.active_set.solver import free_set

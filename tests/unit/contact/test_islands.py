@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asperity.contact.islands import island_sizes, labelled, spans
+from asperity.contact.measure import island_sizes, labelled, spans
 
 
 def pattern(text):

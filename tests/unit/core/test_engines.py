@@ -14,8 +14,8 @@ import pytest
 from contact_cases import elastic, rough
 
 import asperity as asp
-from asperity.contact.control import Control
 from asperity.contact.laws import InterfaceLaw
+from asperity.contact.problem import Control
 from asperity.contact.solvers.active_set.solver import free_set, local_means
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, CoarseCompliance, Engine, Hierarchy, Load, Merge

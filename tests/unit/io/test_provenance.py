@@ -9,8 +9,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 import asperity as asp
-from asperity.contact.certificate import Certificate
-from asperity.contact.result import ContactResult
+from asperity.contact.result import Certificate, ContactResult
 from asperity.core.arrays import array_digest
 from asperity.io.provenance import provenance
 from asperity.io.words import ALL_SCALARS, CERTIFICATE, FIELDS

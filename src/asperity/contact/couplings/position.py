@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.errors import NoSolutionError
-from ..control import Approach, MeanGap
+from ..problem import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
 TARGET_ERROR = 1e-9

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import NoSolutionError
-from ..control import Control, Force, MeanPressure, Unloaded, mean_pressure
 from ..operators.convolution import Operator
+from ..problem import Control, Force, MeanPressure, Unloaded, mean_pressure
 from ..solvers.protocol import ContactQP, Solution, level
 
 Memory: TypeAlias = Mapping[str, RealArray]

@@ -8,7 +8,6 @@ from typing import Any, TypeAlias
 
 from ...core import require
 from ...core.errors import InputError
-from ..problem import ContactProblem
 from .active_set.solver import ActiveSet
 from .protocol import Solver
 from .reference.conjugate_gradient import ConjugateGradient
@@ -61,12 +60,3 @@ def solver_by_name(
             )
         settings["precision"] = precision
     return make(**settings)
-
-
-def default_solver(problem: ContactProblem) -> Solver:
-    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size.
-
-    Where shear changes the pressure the tolerance is 1e-12, so that the error of the normal solve (which goes with its
-    root) does not hide that the displacement by shear has settled to 1e-6.
-    """
-    return ActiveSet(tolerance=1e-12) if problem.friction is not None and problem.friction.couples else ActiveSet()

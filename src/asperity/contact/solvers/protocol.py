@@ -11,8 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Engine
-from ...core.progress import NoProgress, Progress
-from ...core.status import Outcome, Status
+from ...core.status import NoProgress, Outcome, Progress, Status
 from ..operators import Operator
 
 

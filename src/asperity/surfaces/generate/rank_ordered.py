@@ -12,8 +12,8 @@ from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
-from ...core.progress import NoProgress, Progress
 from ...core.spectral import RealTransform, mode_sum, thread_count
+from ...core.status import NoProgress, Progress
 from ...core.values import Count, Positive, Seed
 from ..surface import Origin, Surface
 from .gaussian import Spectrum

@@ -12,7 +12,7 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.spectral import RealTransform
-from ...core.system import free_memory
+from ...core.status import free_memory
 from ...core.units import show
 from ...core.values import Length, LengthRange, Number, Points
 from ..surface import Surface

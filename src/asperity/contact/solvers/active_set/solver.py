@@ -33,8 +33,7 @@ from ..protocol import (
     scaled_error,
 )
 from ..reference.steepest_descent import descend, levelling_step
-from .cells import pixel_compliance
-from .linear_system import LinearSystem, PressureChange, Stopping, Workspace, conjugate_gradients
+from .linear_system import LinearSystem, PressureChange, Stopping, Workspace, conjugate_gradients, pixel_compliance
 
 # Plane level and error of an iterate.
 
