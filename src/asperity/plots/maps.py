@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.islands import labelled
+from ..contact.measure import labelled
 from ..contact.result import ContactResult
 from ..core.arrays import BoolArray, RealArray
 from ..core.grid import Grid
