@@ -103,10 +103,6 @@ def test_it_shows_up_at_every_door(run: Runner, matrix: Path, tmp_path: Path, en
     assert (tmp_path / "hot_map.png").read_bytes() == (tmp_path / "run" / "plots" / "hot_map.png").read_bytes()
     assert run("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "again.csv").exit_code == 0
     assert f"hot_share,{share!r},1," in (tmp_path / "again.csv").read_text(encoding="utf-8")
-    kept = (tmp_path / "run" / "result.nc").read_bytes()
-    lost = run("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "run" / "result.nc", "--force")
-    assert lost.exit_code == 2
-    assert (tmp_path / "run" / "result.nc").read_bytes() == kept
     refused = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200nm")
     assert "--hot-level must be a pressure" in refused.stderr
 

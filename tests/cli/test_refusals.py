@@ -90,3 +90,34 @@ def test_prefixes_in_messages() -> None:
     assert prefixed("is 1.5e+10 Pa, 8e-06 m, 0 m, 5 m and 20000 N") == "is 15 GPa, 8 µm, 0 m, 5 m and 20 kN"
     kept = "'1e-9 m' or 1e-12 m^4, 3e+4 Pa/m"
     assert prefixed(kept) == kept
+
+
+def test_an_output_never_replaces_the_input(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    done = run("contact", matrix, *SCALE, *BODY, *LOAD, "--out", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    result = tmp_path / "run" / "result.nc"
+    for command, file, option in (
+        (("export", result), result, "--csv"),
+        (("report", result), result, "--out"),
+        (("contact", matrix, *SCALE, *BODY, *LOAD), matrix, "--csv"),
+    ):
+        before = file.read_bytes()
+        refused = run(*command, option, file, "--force")
+        assert refused.exit_code == 2
+        assert "must not be the input" in refused.stderr
+        assert file.read_bytes() == before
+
+
+def test_odd_digits_and_long_names(run: Runner, matrix: Path) -> None:
+    for arguments in (
+        ("contact", matrix, "--channel", "²"),
+        ("contact", matrix, "--channel", "9" * 5000),
+        ("contact", matrix, "--level", "²"),
+        ("contact", "x" * 300),
+        ("contact", matrix, "--csv", "x" * 300),
+        ("info", "x" * 300),
+        ("status", "x" * 300),
+        ("plot", "x" * 300),
+    ):
+        more = (*SCALE, *BODY, *LOAD) if arguments[0] == "contact" else ()
+        assert run(*arguments, *more).exit_code == 2, arguments

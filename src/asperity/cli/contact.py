@@ -19,7 +19,7 @@ from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
 from ..report import write_report
 from ..run.build import build
-from ..run.document import ProblemDocument, checked, dumps, loads, read_table, relocated, save_document
+from ..run.document import ProblemDocument, checked, dumps, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
 from ..run.stored import save_outcome
 from .campaigns import solve_files
@@ -128,6 +128,8 @@ def contact(
     table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
     where = f"problem document {from_}" if from_ else "command line"
     document = checked(table, where, names | part_names(given, everything=from_ is None))
+    inputs = [*files_of(document, base), *([from_] if from_ else [])]
+    require_new_files([*files.values()], overwrite=force, inputs=inputs)
     if file and len(file) > 1:
         if files:
             raise InputError(

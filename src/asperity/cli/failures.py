@@ -54,6 +54,8 @@ def diagnosis(error: Exception) -> tuple[int, str]:
         return BAD_INPUT, "Not enough memory: crop the surface or resample it to fewer points."
     if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EIO):
         return BAD_INPUT, f"Output cannot be written: {error.strerror}. Free some space or choose another place."
+    if isinstance(error, OSError) and error.errno in (errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES, errno.EPERM):
+        return BAD_INPUT, f"{error.filename} cannot be used: {error.strerror}. Check name and rights."
     text = " ".join(str(error).split())[:200]
     sentence = f"Internal error, {type(error).__name__}: {text}" if text else f"Internal error, {type(error).__name__}"
     return INTERNAL_ERROR, f"{sentence}. Run again as `asperity --debug …` and report the traceback, please."

@@ -176,7 +176,7 @@ def read_surface(file: Path, given: Given) -> Surface:
 def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
     """``surface`` after levelling and what was removed: left to itself (auto) the mean of a periodic one, else the plane."""
     found = level if level != "auto" else "mean" if surface.periodic else "plane"
-    return levelled(surface, int(found) if found.isdigit() else found), found
+    return levelled(surface, int(found) if found.isdecimal() and len(found) < 10 else found), found
 
 
 CORE = ("surface", "counter_surface", "prepare")
@@ -378,7 +378,7 @@ def step_names(steps: Iterable[Mapping[str, Any]]) -> dict[str, str]:
 def _level(told: Mapping[str, Any]) -> dict[str, Any] | None:
     form = told.get("form", "plane")
     robust = {"robust": True} if told.get("robust") else {}
-    if form.isdigit():
+    if form.isdecimal() and len(form) < 10:
         return {"degree": int(form), **robust}
     require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")
     return None if form == "none" else {"form": form, **robust}

@@ -61,6 +61,7 @@ def report(
 
     Example: asperity report run/result.nc --out again.html
     """
+    require_new_files((out,), overwrite=force, inputs=(file,))
     outcome = load_outcome(file)
     title = str(outcome.stored.get("report_title", ""))
     write_report(outcome, out, document=document_in(file), title=title, overwrite=force)

@@ -32,7 +32,7 @@ def thread_count(threads: int | None = None) -> int:
         return require.integer(threads, 1, "number of threads")
     from_environment = os.environ.get("ASPERITY_THREADS")
     if from_environment is not None:
-        if not from_environment.strip().isdigit():
+        if not from_environment.strip().isdecimal() or len(from_environment) > 10:
             from_environment = "0"
         return require.integer(int(from_environment), 1, "environment variable ASPERITY_THREADS")
     if hasattr(os, "sched_getaffinity"):

@@ -228,6 +228,7 @@ class Whole(Values):
         if (
             number is None
             or number < self.least
+            or number >= 2**63  # no array is longer, and a float may not hold it
             or (self.most is not None and number > self.most)
             or (self.odd and number % 2 == 0)
         ):
@@ -373,7 +374,9 @@ class Numbers(Values):
             if match is None or "0" in (match[1].strip("0") or "0", (match[2] or match[1]).strip("0") or "0"):
                 raise InputError(f"{what} must be one or two numbers of points, such as 256x256, but is {value!r}.")
             return int(match[1]), int(match[2] or match[1])
-        whole = isinstance(value, list | tuple) and all(type(number) is int and number >= 1 for number in value)
+        whole = isinstance(value, list | tuple) and all(
+            type(number) is int and 1 <= number < 10**12 for number in value
+        )
         if not whole or len(value) != 2:
             shown = list(value) if isinstance(value, tuple) else value
             raise InputError(

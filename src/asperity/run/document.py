@@ -206,6 +206,18 @@ def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemD
     return elsewhere
 
 
+def files_of(document: ProblemDocument, folder: Path) -> list[Path]:
+    """The files that ``document`` names, whose relative paths start at ``folder``."""
+    found: list[Path] = []
+
+    def seen(path: str) -> str:
+        found.append(folder / path)
+        return path
+
+    _with_paths(document, seen)
+    return found
+
+
 def tidy(table: dict[str, Any]) -> dict[str, Any]:
     """``table`` without empty parts, the key that tells what it is first and the preparation last."""
     filled = {key: tidy(value) if isinstance(value, dict) else value for key, value in table.items()}

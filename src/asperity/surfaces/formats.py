@@ -53,7 +53,7 @@ def chosen(channels: Sequence[ChannelInfo], channel: str | int | None, path: obj
     for info in channels:
         if info.name == channel:
             return info
-    index = int(channel) if str(channel).isdigit() else -1
+    index = int(channel) if str(channel).isdecimal() and len(str(channel)) < 10 else -1
     for info in channels:
         if info.index == index:
             return info

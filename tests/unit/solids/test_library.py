@@ -236,7 +236,7 @@ def test_faulty_own_file_is_refused_in_one_sentence(
 def test_missing_unreadable_and_binary_files_are_refused(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=r"material file must exist, but .*absent\.toml does not"):
         material("DLC", library=tmp_path / "absent.toml")
-    with pytest.raises(FileFormatError, match="readable text file"):
+    with pytest.raises(FileFormatError, match="is a folder"):
         materials(tmp_path)
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"\xff\xfe\x00")
