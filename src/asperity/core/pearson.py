@@ -42,17 +42,14 @@ class Pearson:
 
     Types I and II have bounds on both sides, III, V and VI on one side, IV, VII and the normal on none.
 
+    InputError if kurtosis <= 1 + skewness², where there is no distribution, or only one of two values.
+
     Parameters
     ----------
     skewness
         Third moment.
     kurtosis
         Fourth moment, above 1 + skewness²; 3 for a Gaussian.
-
-    Raises
-    ------
-    InputError
-        If kurtosis <= 1 + skewness², where there is no distribution, or only one of two values.
     """
 
     skewness: float
@@ -119,8 +116,7 @@ class Pearson:
         low, high = self.support
         inside = (given > low) & (given < high)
         safe = np.where(inside, given, 0.0)
-        density: RealArray = np.where(inside, np.exp(self._log_density(safe, safe - low, high - safe)), 0.0)
-        return density
+        return np.where(inside, np.exp(self._log_density(safe, safe - low, high - safe)), 0.0)
 
     def cdf(self, x: ArrayLike) -> RealArray:
         """Probability of values below ``x`` (any shape), relatively accurate where it is small."""
@@ -152,10 +148,7 @@ class Pearson:
     def excess_moment(self, order: float, level: ArrayLike) -> RealArray:
         """F_m(D) = ∫_D^∞ (s - D)^m f(s) ds for the order m at each ``level`` D (any shape).
 
-        Raises
-        ------
-        InputError
-            If m is not between -1 and 4; higher moments do not exist for all types.
+        InputError if m is not between -1 and 4; higher moments do not exist for all types.
         """
         require.between(order, -1.0, 4.0, "order of the moment of the excess")
         return partial_moment(self._log_density, self.support, order, np.asarray(level, dtype=np.float64))
@@ -195,13 +188,7 @@ class Pearson:
 
 
 def require_possible(skewness: float, kurtosis: float) -> None:
-    """Refuse a pair that no distribution has.
-
-    Raises
-    ------
-    InputError
-        If kurtosis < 1 + skewness².
-    """
+    """Refuse a pair that no distribution has. InputError if kurtosis < 1 + skewness²."""
     require.finite(skewness, "skewness of the heights")
     require.finite(kurtosis, "kurtosis of the heights")
     least = 1.0 + skewness**2
@@ -294,8 +281,7 @@ def _log_ratio(x: RealArray, from_end: RealArray, distance: float) -> RealArray:
     near = np.abs(x) < 0.5 * distance
     # next to an end where the density is infinite, the ratio must not round to zero
     far = np.log(np.maximum(np.where(near, 1.0, from_end) / distance, np.finfo(np.float64).smallest_subnormal))
-    values: RealArray = np.where(near, np.log1p(np.where(near, x, 0.0) / distance), far)
-    return values
+    return np.where(near, np.log1p(np.where(near, x, 0.0) / distance), far)
 
 
 class _Beta:

@@ -20,7 +20,7 @@ def finite(value: float, what: str, fix: str = "") -> float:
     if isinstance(value, str):
         raise InputError(_sentence(what, "a number", value, "Python takes SI numbers, such as 50e6 for 50 MPa."))
     try:
-        if isinstance(value, str | bytes | bool | np.bool_):
+        if isinstance(value, bytes | bool | np.bool_):
             raise TypeError
         number = float(value)
     except (TypeError, ValueError):

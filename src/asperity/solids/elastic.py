@@ -9,13 +9,7 @@ from ..core import require
 
 @dataclass(frozen=True)
 class Strength:
-    """Hardness and tensile yield stress in Pa; ``nan`` where not known.
-
-    Raises
-    ------
-    InputError
-        If a given value is not positive.
-    """
+    """Hardness and tensile yield stress in Pa; ``nan`` where not known. InputError if a given value is not positive."""
 
     hardness: float = float("nan")
     yield_stress: float = float("nan")
@@ -34,6 +28,8 @@ INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
 class Elastic:
     """Isotropic linear-elastic half-space.
 
+    InputError if a value is outside its range, or ``strength`` is no ``Strength``.
+
     Parameters
     ----------
     youngs_modulus
@@ -44,11 +40,6 @@ class Elastic:
         Hardness and yield stress, where known.
     name, sources
         Name of the material and where its values come from.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range, or ``strength`` is no ``Strength``.
     """
 
     youngs_modulus: float

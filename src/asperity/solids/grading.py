@@ -69,24 +69,12 @@ def graded(
     Each sublayer has the values at its middle, so that the error of the compliance falls with the square of the number of
     sublayers: 1e-6 relative at 64 for a fourfold modulus and a contact as wide as the coating is thick.
 
-    Parameters
-    ----------
-    top, bottom
-        Materials at the surface and at the lower end. Poisson's ratio and, where both are known, hardness and yield stress
-        change in proportion to depth.
-    thickness
-        Of the whole coating in m, > 0.
-    grading
-        ``LinearGrading()``, ``ExponentialGrading()`` or ``PowerGrading(exponent)``.
-    sublayers
-        Number of equal layers, >= 1.
-    interface
-        Of the lowest sublayer to what lies below; the others are bonded.
+    ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where both are known,
+    hardness and yield stress change in proportion to depth; ``thickness``: of the whole coating in m, > 0;
+    ``grading``: ``LinearGrading()``, ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of
+    equal layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
 
-    Raises
-    ------
-    InputError
-        If a value is outside its range or of the wrong type.
+    InputError if a value is outside its range or of the wrong type.
     """
     require.instance(top, Elastic, "material at the top of a graded layer")
     require.instance(bottom, Elastic, "material at the bottom of a graded layer")

@@ -49,6 +49,9 @@ Base: TypeAlias = Elastic | RigidBase
 class Layer:
     """One homogeneous layer.
 
+    InputError if the material is no ``Elastic``, the thickness negative or no number, or the interface none of the
+    two.
+
     Parameters
     ----------
     material
@@ -57,11 +60,6 @@ class Layer:
         h in m, >= 0. A layer of zero thickness vanishes; under one of infinite thickness nothing matters.
     interface
         How it is joined to what lies below it: ``Bonded()`` or ``Frictionless()``.
-
-    Raises
-    ------
-    InputError
-        If the material is no ``Elastic``, the thickness negative or no number, or the interface none of the two.
     """
 
     material: Elastic
@@ -83,6 +81,8 @@ class Layer:
 class Layered(Shown):
     """Layers on a base.
 
+    InputError if a layer is no ``Layer``, or the base neither ``Elastic`` nor ``RigidBase``.
+
     Parameters
     ----------
     layers
@@ -91,11 +91,6 @@ class Layered(Shown):
         Material of the half-space below, or ``RigidBase()``.
     name
         For tables and reports.
-
-    Raises
-    ------
-    InputError
-        If a layer is no ``Layer``, or the base neither ``Elastic`` nor ``RigidBase``.
     """
 
     layers: Sequence[Layer]
@@ -176,10 +171,7 @@ def materials_of(body: Body) -> tuple[Elastic, ...]:
 def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered, float], ...]:
     """The bodies that deform, each with the sign of the tractions it carries: 1 for ``body``, -1 for ``counter_body``.
 
-    Raises
-    ------
-    InputError
-        If both are rigid.
+    InputError if both are rigid.
     """
     found = tuple(
         (solid, sign)
@@ -197,10 +189,7 @@ def contact_modulus(body: Body, counter_body: Body) -> float:
     For a layered body the material of the outermost layer counts: it governs contacts much smaller than that layer is
     thick. Larger contacts feel the layers below too; what they feel is in the compliance, not in this number.
 
-    Raises
-    ------
-    InputError
-        If both bodies are rigid.
+    InputError if both bodies are rigid.
     """
     solids = (surface_material(solid) for solid, _ in deformable(body, counter_body))
     return 1.0 / sum(1.0 / solid.plane_strain_modulus for solid in solids if solid is not None)

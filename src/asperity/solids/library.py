@@ -72,12 +72,8 @@ class Record:
         The file has tables ``[noun."name"]`` with the keys of the values, ``aliases`` and ``note``; a value is text with a
         unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by default.
 
-        Raises
-        ------
-        FileFormatError
-            If the file is missing, no text in UTF-8 or no TOML.
-        InputError
-            If a key is unknown or missing, a value cannot be used, or names are not distinct.
+        FileFormatError if the file is missing, no text in UTF-8 or no TOML; InputError if a key is unknown or missing,
+        a value cannot be used, or names are not distinct.
         """
         file = f"{cls.noun}s.toml"
         text = resources.files(__package__).joinpath("data", file).read_text(encoding="utf-8")
@@ -97,10 +93,7 @@ class Record:
     def find(cls, name: str, path: str | Path | None = None) -> Self:
         """Record with that name or alias, in any case; errors as for ``all``.
 
-        Raises
-        ------
-        InputError
-            If there is none, with the nearest names.
+        InputError if there is none, with the nearest names.
         """
         index = {key: record for record in cls.all(path) for key in record.keys}
         wanted = _normal(str(name))
@@ -220,10 +213,7 @@ def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
     and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
     "user" by default.
 
-    Raises
-    ------
-    InputError
-        If the file is missing or not TOML, or a key or value in it cannot be used.
+    InputError if the file is missing or not TOML, or a key or value in it cannot be used.
     """
     return MaterialRecord.all(path)
 
@@ -231,10 +221,7 @@ def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
 def material(name: str, *, library: str | Path | None = None) -> Elastic:
     """Half-space of the material ``name`` (or alias, in any case) from the built-in list or the file ``library``.
 
-    Raises
-    ------
-    InputError
-        If no material has that name, with the nearest names, or if the file cannot be used (see ``materials``).
+    InputError if no material has that name, with the nearest names, or if the file cannot be used (see ``materials``).
     """
     return MaterialRecord.find(name, library).body
 
@@ -242,6 +229,8 @@ def material(name: str, *, library: str | Path | None = None) -> Elastic:
 @dataclass(frozen=True)
 class Liquid:
     """What a film between surfaces needs of its liquid.
+
+    InputError if a value is not positive.
 
     Parameters
     ----------
@@ -253,11 +242,6 @@ class Liquid:
         m³/mol and Pa s; NaN where not known.
     name, sources
         Name of the liquid and where its values come from.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive.
     """
 
     surface_tension: float
@@ -275,13 +259,7 @@ class Liquid:
                 require.positive(value, what)
 
     def require_molar_volume(self) -> float:
-        """Molar volume in m³/mol.
-
-        Raises
-        ------
-        InputError
-            If it is not known.
-        """
+        """Molar volume in m³/mol. InputError if it is not known."""
         if math.isnan(self.molar_volume):
             raise InputError(
                 f"molar volume of {self.name or 'the liquid'} must be known for menisci at a humidity, but is not. "
@@ -327,10 +305,7 @@ def liquids(path: str | Path | None = None) -> tuple[LiquidRecord, ...]:
     The file has tables ``[liquid."name"]`` with ``surface_tension`` and ``temperature`` (required), ``molar_volume``,
     ``viscosity``, ``aliases`` and ``note``; values as for ``materials`` (``"72 mN/m"``).
 
-    Raises
-    ------
-    InputError
-        If the file is missing or not TOML, or a key or value in it cannot be used.
+    InputError if the file is missing or not TOML, or a key or value in it cannot be used.
     """
     return LiquidRecord.all(path)
 
@@ -338,9 +313,6 @@ def liquids(path: str | Path | None = None) -> tuple[LiquidRecord, ...]:
 def liquid(name: str, *, library: str | Path | None = None) -> Liquid:
     """Liquid ``name`` (or alias, in any case) from the built-in list or the file ``library``.
 
-    Raises
-    ------
-    InputError
-        If no liquid has that name, with the nearest names, or if the file cannot be used (see ``liquids``).
+    InputError if no liquid has that name, with the nearest names, or if the file cannot be used (see ``liquids``).
     """
     return LiquidRecord.find(name, library).liquid

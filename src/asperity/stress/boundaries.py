@@ -65,10 +65,7 @@ def require_held(tractions: Tractions, body: object) -> None:
     At every other wavelength the layers above a frictionless interface carry shear as a sheet does. In a periodic cell
     the mean would push them away; without periodicity the unloaded parts of the layers hold them.
 
-    Raises
-    ------
-    InputError
-        If the boundary is periodic and there is a mean shear traction above a frictionless interface.
+    InputError if the boundary is periodic and there is a mean shear traction above a frictionless interface.
     """
     x, y, _ = tractions.means
     mean = math.hypot(x, y)
@@ -85,10 +82,7 @@ def require_held(tractions: Tractions, body: object) -> None:
 def require_displacement(tractions: Tractions, body: object) -> None:
     """Refuse displacements that have no limit: of sheared layers that slip and are held at infinity only.
 
-    Raises
-    ------
-    InputError
-        If the boundary is not periodic and there is shear traction above a frictionless interface.
+    InputError if the boundary is not periodic and there is shear traction above a frictionless interface.
     """
     if tractions.boundary != "periodic" and tractions.sheared and stack(body).slips:
         raise InputError(
@@ -284,10 +278,7 @@ class FreePlanes:
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement (m) of ``plane``, zero at infinity.
 
-        Raises
-        ------
-        InputError
-            If it has no limit, see ``require_displacement``.
+        InputError if it has no limit, see ``require_displacement``.
         """
         require_displacement(self.tractions, self._body)
         coefficients = self._coefficients(plane)

@@ -84,6 +84,10 @@ def stress(
 ) -> StressField:
     """Stress inside a body of a contact, on planes parallel to its surface.
 
+    InputError if the body is rigid, a depth negative or below a rigid base, a position outside the grid, or layers
+    that can slip on a frictionless interface carry shear that nothing holds: a mean shear on the periodic boundary,
+    and for the displacement any on the free one.
+
     Parameters
     ----------
     result
@@ -116,13 +120,6 @@ def stress(
     rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity
     (free line: at the datum of the contact).
     Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
-
-    Raises
-    ------
-    InputError
-        If the body is rigid, a depth negative or below a rigid base, a position outside the grid, or layers that can slip
-        on a frictionless interface carry shear that nothing holds: a mean shear on the periodic boundary, and for the
-        displacement any on the free one.
     """
     loads = tractions_on(result, friction, direction, of)
     job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)

@@ -238,10 +238,7 @@ class Tresca:
 class MaxPrincipal:
     """Largest principal stress against a tensile ``strength`` in Pa, for brittle materials.
 
-    Raises
-    ------
-    InputError
-        If the strength is not positive.
+    InputError if the strength is not positive.
     """
 
     strength: float

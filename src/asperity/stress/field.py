@@ -201,13 +201,7 @@ class StressField(Stored):
         return tuple(found)
 
     def within(self, region: int | str) -> StressField:
-        """The planes of one region, by its number or name.
-
-        Raises
-        ------
-        InputError
-            If no plane lies in such a region.
-        """
+        """The planes of one region, by its number or name. InputError if no plane lies in such a region."""
         keep = [k for k, plane in enumerate(self.planes) if region in (plane.region.index, plane.region.name)]
         if not keep:
             names = ", ".join(f"{part.index} ({part.name})" for part in self.regions)
@@ -230,10 +224,7 @@ class StressField(Stored):
     def peak(self, values: RealArray, plane: int | None = None) -> Peak:
         """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place; on one ``plane`` or on all.
 
-        Raises
-        ------
-        InputError
-            If ``values`` has another shape than the components of the field.
+        InputError if ``values`` has another shape than the components of the field.
         """
         if values.shape != self.tensor.xx.shape:
             raise InputError(

@@ -53,10 +53,7 @@ class Plane:
 def stack(body: object) -> Layered:
     """``body`` as layers of finite, positive thickness on a base.
 
-    Raises
-    ------
-    InputError
-        If the body is rigid or no body: nothing is known about the stress in it.
+    InputError if the body is rigid or no body: nothing is known about the stress in it.
     """
     if isinstance(body, Elastic):
         return Layered((), body)
@@ -68,13 +65,7 @@ def stack(body: object) -> Layered:
 
 
 def regions(body: object) -> tuple[Region, ...]:
-    """Regions of ``body`` from the surface down; a rigid base is none.
-
-    Raises
-    ------
-    InputError
-        If the body is rigid or no body.
-    """
+    """Regions of ``body`` from the surface down; a rigid base is none. InputError if the body is rigid or no body."""
     layers = stack(body)
     found: list[Region] = []
     top = 0.0
@@ -98,10 +89,7 @@ def slips(layers: Layered, plane: Plane) -> bool:
 def planes(body: object, depths: Iterable[float]) -> tuple[Plane, ...]:
     """Planes at ``depths`` (m, >= 0) in increasing order; a depth of an interface gives two, above and below it.
 
-    Raises
-    ------
-    InputError
-        If a depth is negative, no number, or below a rigid base.
+    InputError if a depth is negative, no number, or below a rigid base.
     """
     if not isinstance(depths, Iterable) or isinstance(depths, str):
         raise InputError(f"depths must be a list of depths in m, such as [0.0, 5e-9], but are {depths!r}.")
@@ -144,10 +132,7 @@ def depths_through(body: object, deepest: float, *, per_region: int = 12) -> Rea
     Every layer has ``per_region`` equal intervals, so that both its faces are among the depths; the substrate has as many
     intervals down to ``deepest``, short ones first. Layers below ``deepest`` are left out.
 
-    Raises
-    ------
-    InputError
-        If the body is rigid, ``deepest`` is not positive or there is less than one interval.
+    InputError if the body is rigid, ``deepest`` is not positive or there is less than one interval.
     """
     limit = require.positive(deepest, "deepest depth (m)")
     count = require.integer(per_region, 1, "number of intervals in a region")
@@ -176,15 +161,12 @@ class Everywhere:
 class Section:
     """Vertical plane x = const or y = const through the grid line nearest to the position.
 
+    InputError if none or both are given, or one is neither a number nor "max".
+
     Parameters
     ----------
     x, y
         Exactly one of the two: position in m, or ``"max"`` for the plane through the largest pressure.
-
-    Raises
-    ------
-    InputError
-        If none or both are given, or one is neither a number nor "max".
     """
 
     x: Position | None = None
@@ -200,15 +182,12 @@ class Section:
 class DepthProfile:
     """Line into the body at the grid point nearest to (x, y), by default under the largest pressure.
 
+    InputError if a position is neither a number nor "max".
+
     Parameters
     ----------
     x, y
         Position in m, or ``"max"``.
-
-    Raises
-    ------
-    InputError
-        If a position is neither a number nor "max".
     """
 
     x: Position = "max"
@@ -244,10 +223,7 @@ class Selection:
 def selection(where: Where, grid: Grid, pressure: RealArray) -> Selection:
     """Points of ``grid`` that ``where`` asks for; "max" is where ``pressure`` is largest.
 
-    Raises
-    ------
-    InputError
-        If ``where`` is of another type, or a position lies outside the grid.
+    InputError if ``where`` is of another type, or a position lies outside the grid.
     """
     if not isinstance(where, Everywhere | Section | DepthProfile):
         raise InputError(

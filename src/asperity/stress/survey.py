@@ -118,11 +118,8 @@ class StressRequest:
     def check(self, problem: Any) -> None:
         """Refuse what ``problem`` has no stress for, before it is solved.
 
-        Raises
-        ------
-        InputError
-            If the body does not deform, a depth lies below its rigid base, a position outside the grid, or nothing would
-            hold sheared layers (see ``require_held``).
+        InputError if the body does not deform, a depth lies below its rigid base, a position outside the grid, or
+        nothing would hold sheared layers (see ``require_held``).
         """
         body, grid = getattr(problem, self.of), problem.grid
         if isinstance(body, Rigid):
@@ -351,16 +348,9 @@ def survey(
 
     The planes are computed once for the maxima, and a second time where sections or profiles go through these.
 
-    Parameters
-    ----------
-    request, result
-        What is wanted, and of what contact.
-    lines
-        Whether to keep sections and profiles, or only the maxima on the same planes.
-    threads
-        Number of threads.
-    progress
-        Told after each plane: the number of planes done, and as error the share of all that is left.
+    ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep sections and profiles, or
+    only the maxima on the same planes; ``threads``: number of threads; ``progress``: told after each plane: the number
+    of planes done, and as error the share of all that is left.
 
     Raises
     ------

@@ -18,17 +18,14 @@ from ..core.grid import Grid
 class Sliding:
     """Shear traction of a sliding contact: friction ``coefficient`` times pressure, along ``direction``.
 
+    InputError if the coefficient is negative or a value is not finite.
+
     Parameters
     ----------
     coefficient
         μ >= 0.
     direction
         Angle in rad from +x towards +y of the traction on the body, which is that in which the other body moves.
-
-    Raises
-    ------
-    InputError
-        If the coefficient is negative or a value is not finite.
     """
 
     coefficient: float
@@ -50,10 +47,7 @@ class Sliding:
 class ShearTraction:
     """Shear traction on the body given as fields (nx, ny) in Pa along +x and along +y.
 
-    Raises
-    ------
-    InputError
-        If a field is no two-dimensional array of numbers, or the two differ in shape.
+    InputError if a field is no two-dimensional array of numbers, or the two differ in shape.
     """
 
     x: RealArray
@@ -80,6 +74,8 @@ BOUNDARIES = ("periodic", "free", "free line")
 class Tractions:
     """Tractions on the surface of one body.
 
+    InputError if a field has another shape than the grid or the boundary another name.
+
     Parameters
     ----------
     grid
@@ -95,11 +91,6 @@ class Tractions:
     datum
         Only for a free line: distance in m from a line load at which the displacement of the surface is called zero; None
         takes the length of the grid.
-
-    Raises
-    ------
-    InputError
-        If a field has another shape than the grid or the boundary another name.
     """
 
     grid: Grid

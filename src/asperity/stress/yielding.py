@@ -88,17 +88,10 @@ class YieldReport:
 def first_yield(fields: StressField | Iterable[StressField], criterion: Criterion = VonMises()) -> YieldReport:
     """Where and at what multiple of the stresses a body begins to yield.
 
-    Parameters
-    ----------
-    fields
-        A stress field, or the planes of one from ``stress_planes``, of which only one is held at a time.
-    criterion
-        ``VonMises()``, ``Tresca()``, ``MaxPrincipal(strength)`` or anything alike.
+    ``fields``: a stress field, or the planes of one from ``stress_planes``, of which only one is held at a time;
+    ``criterion``: ``VonMises()``, ``Tresca()``, ``MaxPrincipal(strength)`` or anything alike.
 
-    Raises
-    ------
-    InputError
-        If there are no fields.
+    InputError if there are no fields.
     """
     parts: dict[Region, _Gathered] = {}
     for field in [fields] if isinstance(fields, StressField) else fields:
@@ -161,29 +154,17 @@ def load_at_yield(
 ) -> LoadAtYield:
     """Load at which a body begins to yield, found by computing the stress at other loads.
 
-    Parameters
-    ----------
-    field_at
-        Stress field at a given load, for example
-        ``lambda force: asp.stress(asp.solve(problem, asp.Force(force)), depths)``.
-    load
-        First guess, > 0.
-    criterion
-        As for ``first_yield``.
-    tolerance
-        Relative error of the load factor (that is, of the stress) at which to stop.
-    max_evaluations
-        Largest number of loads tried.
+    ``field_at``: stress field at a given load, for example ``lambda force: asp.stress(asp.solve(problem,
+    asp.Force(force)), depths)``; ``load``: first guess, > 0; ``criterion``: as for ``first_yield``; ``tolerance``:
+    relative error of the load factor (that is, of the stress) at which to stop; ``max_evaluations``: largest number of
+    loads tried.
+
+    NoSolutionError if no strength is known, or the load factor does not come near one.
 
     Notes
     -----
     Secants in the logarithms of load and factor, from the exponent 1/3 of a Hertz contact. The depths must hold the
     place of first yield at every load, and be fine enough for the accuracy asked for.
-
-    Raises
-    ------
-    NoSolutionError
-        If no strength is known, or the load factor does not come near one.
     """
     require.positive(tolerance, "tolerance of a load at yield")
     at, slope = math.log(require.positive(load, "first guess of the load at yield")), -1.0 / 3.0

@@ -138,10 +138,7 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
 
     Without arguments the answer holds the numbers that depend on the inputs alone.
 
-    Raises
-    ------
-    InputError
-        If the arguments are those of no way of the theory, or the theory refuses their values.
+    InputError if the arguments are those of no way of the theory, or the theory refuses their values.
 
     Examples
     --------

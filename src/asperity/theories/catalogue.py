@@ -120,10 +120,7 @@ THEORIES: dict[str, type[Described]] = {theory.name: theory for family in FAMILI
 def theory(name: str) -> type[Described]:
     """Class of the theory called ``name``.
 
-    Raises
-    ------
-    InputError
-        If there is no such theory; the message names those most like it.
+    InputError if there is no such theory; the message names those most like it.
     """
     if name not in THEORIES:
         near = nearest(name)

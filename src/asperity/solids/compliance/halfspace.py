@@ -41,10 +41,7 @@ class Compliance(Protocol):
 class HalfSpace:
     """Homogeneous half-space of plane-strain modulus E' (or, for two bodies, of contact modulus E*), in Pa.
 
-    Raises
-    ------
-    InputError
-        If the modulus is not positive.
+    InputError if the modulus is not positive.
     """
 
     modulus: float
@@ -112,10 +109,7 @@ def contact_compliance(body: Body, counter_body: Body) -> Compliance:
 
     Two homogeneous half-spaces act as one of contact modulus E*.
 
-    Raises
-    ------
-    InputError
-        If both bodies are rigid.
+    InputError if both bodies are rigid.
     """
     solids = [solid for solid, _ in deformable(body, counter_body)]
     stacks = [LayerStack(solid) for solid in solids if isinstance(solid, Layered) and solid.reduced.layers]

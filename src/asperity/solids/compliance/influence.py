@@ -20,12 +20,8 @@ _FAR = 300.0  # sides; beyond it corner differences lose more digits than the mu
 def patch_displacement(x: RealArray, y: RealArray, side_x: float, side_y: float) -> RealArray:
     """Surface displacement at (x, y) of a half-space with E' = 1 under unit pressure on a rectangle at the origin.
 
-    Parameters
-    ----------
-    x, y
-        Coordinates of the field points in m, broadcast against each other.
-    side_x, side_y
-        Full sides of the rectangle in m, > 0.
+    ``x``, ``y``: coordinates of the field points in m, broadcast against each other; ``side_x``, ``side_y``: full
+    sides of the rectangle in m, > 0.
 
     Returns
     -------

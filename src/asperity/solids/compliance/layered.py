@@ -107,14 +107,8 @@ class LayerMatrices:
 def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: float, nu: float) -> LayerMatrices:
     """Hybrid matrices of an isotropic layer, evaluated times exp(-2 alpha h) so that nothing overflows or cancels.
 
-    Parameters
-    ----------
-    alpha
-        Wavenumbers in rad/m, > 0.
-    thickness
-        h in m, >= 0, infinite allowed; broadcast against ``alpha``.
-    shear_modulus, nu
-        G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5.
+    ``alpha``: wavenumbers in rad/m, > 0; ``thickness``: h in m, >= 0, infinite allowed; broadcast against ``alpha``;
+    ``shear_modulus``, ``nu``: G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5.
     """
     alpha = np.asarray(alpha, dtype=float)
     x = np.minimum(alpha * thickness, _VANISHED)
@@ -153,16 +147,14 @@ def _sinh_cosh_minus(x: RealArray, direct: RealArray, E2: RealArray) -> RealArra
     series: RealArray = np.ones_like(y)
     for k in range(19, 3, -2):
         series = 1.0 + y / (k * (k - 1.0)) * series
-    result: RealArray = np.where(x > _SERIES, direct, E2 * x * y * series / 6.0)
-    return result
+    return np.where(x > _SERIES, direct, E2 * x * y * series / 6.0)
 
 
 def _sinh_minus_x_cosh(x: RealArray, direct: RealArray, E2: RealArray) -> RealArray:
     """(sinh x - x cosh x) exp(-2x): ``direct``, and for small x the series -(x³/3 + x⁵/30 + …)."""
     y = np.minimum(x, _SERIES) ** 2
     series = np.polynomial.polynomial.polyval(y, [2.0 * n / math.factorial(2 * n + 1) for n in range(1, 9)])
-    result: RealArray = np.where(x > _SERIES, direct, -E2 * x * y * series)
-    return result
+    return np.where(x > _SERIES, direct, -E2 * x * y * series)
 
 
 def half_space(alpha: ArrayLike, *, shear_modulus: float, nu: float) -> PlaneCompliance:
@@ -235,12 +227,8 @@ def lower_face(
 def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompliance, ...]:
     """Compliance at the top of every layer of ``stack`` and of its base, index 0 the surface, N the top of the base.
 
-    Parameters
-    ----------
-    stack
-        Layers and base; layers of zero thickness pass on the compliance below them unchanged.
-    alpha
-        Wavenumbers in rad/m, > 0.
+    ``stack``: layers and base; layers of zero thickness pass on the compliance below them unchanged; ``alpha``:
+    Wavenumbers in rad/m, > 0.
     """
     base = stack.base
     if isinstance(base, Elastic):

@@ -48,17 +48,9 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     is undefined, so that real tractions give real displacements. The mean mode is zero, its displacement being the datum,
     but for the compression and shear of layers on a rigid base.
 
-    Parameters
-    ----------
-    grid
-        Periodic cell.
-    body, counter_body
-        Bodies below and above; one of them may be rigid.
+    ``grid``: periodic cell; ``body``, ``counter_body``: bodies below and above; one of them may be rigid.
 
-    Raises
-    ------
-    InputError
-        If both bodies are rigid.
+    InputError if both bodies are rigid.
     """
     both = _relative(grid.wavenumber(), body, counter_body)
     qx, qy = grid.wavevector()
@@ -141,10 +133,7 @@ def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> In
     Tractions act on ``body``. Compliances of the two add up; their coupling between normal and tangential directions
     subtracts. The relative error is below 1e-8, as for ``patch_coefficients``.
 
-    Raises
-    ------
-    InputError
-        If both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
+    InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
     """
     total: dict[str, RealArray] = {}
     for solid, _ in deformable(body, counter_body):
@@ -201,10 +190,7 @@ def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Rea
     lifts a half-space behind it and lowers it ahead by the same amount at every distance, (1-2ν)/4G times Q (Johnson 1985,
     eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
 
-    Raises
-    ------
-    InputError
-        If both bodies are rigid.
+    InputError if both bodies are rigid.
     """
     edges = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
     total = np.zeros(grid.shape[0])

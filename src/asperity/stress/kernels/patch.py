@@ -199,14 +199,8 @@ class Patch:
 def patch_fields(x: ArrayLike, y: ArrayLike, z: ArrayLike, patch: Patch, *, shear: float, nu: float) -> ElasticFields:
     """Displacement (m/Pa) and stress (Pa/Pa) of a ``patch`` under unit traction.
 
-    Parameters
-    ----------
-    x, y, z
-        Field points in m, broadcast against each other, z >= 0.
-    patch
-        Rectangle and direction of the traction.
-    shear, nu
-        Shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``patch``: rectangle and direction of
+    the traction; ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
 
     Notes
     -----

@@ -88,10 +88,7 @@ class FullerTabor(Theory):
     ) -> Self:
         """Theory for the summits of a map, taken as Greenwood and Williamson's.
 
-        Raises
-        ------
-        InputError
-            If the roughness holds no summits, or their heights are all equal.
+        InputError if the roughness holds no summits, or their heights are all equal.
         """
         s = GreenwoodWilliamson.from_roughness(roughness, E_star)
         return cls(E_star, s.density, s.radius, s.height_deviation, work, s.mean_height, parting, spacing)
@@ -138,10 +135,8 @@ class FullerTabor(Theory):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, positive, on the branch that repels.
 
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or larger than at 40 standard deviations below the mean summit height.
+        InputError if a pressure is not positive, or larger than at 40 standard deviations below the mean summit
+        height.
         """
         unit = self.density * self.sphere.pull_off
         wanted = curve(pressure, "pressures (Pa)", positive=True) / unit

@@ -93,10 +93,7 @@ class JKR(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The stable contact under ``load`` in N, >= -1.5πwR, of any shape.
 
-        Raises
-        ------
-        InputError
-            If a load is below the pull-off force.
+        InputError if a load is below the pull-off force.
         """
         P = checked(load, "load (N)", -self.pull_off, "A larger tensile force separates the bodies.")
         adhesive = 2.0 * self.pull_off  # 3πwR
@@ -137,8 +134,7 @@ class JKR(Theory):
         pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
         with np.errstate(divide="ignore"):
             inside = 2.0 / np.pi * self.E_star * a / self.radius * s - pull / s
-        profile: RealArray = np.where(np.abs(np.asarray(r)) <= a, inside, 0.0)
-        return profile
+        return np.where(np.abs(np.asarray(r)) <= a, inside, 0.0)
 
     def _central(self, a: RealArray) -> RealArray:
         with np.errstate(divide="ignore"):
@@ -206,10 +202,7 @@ class DMT(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= -2πwR, of any shape; ``max_pressure`` is that of the contact, p0.
 
-        Raises
-        ------
-        InputError
-            If a load is below the pull-off force.
+        InputError if a load is below the pull-off force.
         """
         P = checked(load, "load (N)", -self.pull_off, "A larger tensile force separates the bodies.")
         return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
@@ -330,10 +323,7 @@ class MaugisDugdale(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The stable contact under ``load`` in N, not below minus the pull-off force, of any shape.
 
-        Raises
-        ------
-        InputError
-            If a load is below the pull-off force.
+        InputError if a load is below the pull-off force.
         """
         least = maugis_pull_off(self.transition)
         unit = np.pi * self.work * self.radius
@@ -378,5 +368,4 @@ def _ring(s: RealArray, theta: RealArray) -> RealArray:
     """s + (s² - 1) arctan s; by its series for small s, where the terms cancel to (4/3) s³."""
     small = np.minimum(s, 0.2)
     terms = [(-1.0) ** (k - 1) * (1.0 / (2 * k - 1) + 1.0 / (2 * k + 1)) * small ** (2 * k + 1) for k in range(1, 12)]
-    ring: RealArray = np.where(s < 0.2, sum(terms), s + (s**2 - 1.0) * theta)
-    return ring
+    return np.where(s < 0.2, sum(terms), s + (s**2 - 1.0) * theta)

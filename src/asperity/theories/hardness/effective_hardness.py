@@ -43,11 +43,6 @@ class EffectiveHardness(Theory):
     >>> hard = EffectiveHardness(15e9, 9e9, modulus_ratio=140 / 190)
     >>> [f"{value / 1e9:.2f}" for value in hard.at([0.0, 0.3, 1.0, 30.0])]
     ['15.00', '13.23', '10.87', '9.00']
-
-    Raises
-    ------
-    InputError
-        If a value is not positive.
     """
 
     film: Annotated[Pressure, Help("hardness of the film", of="bodies")]
@@ -71,13 +66,7 @@ class EffectiveHardness(Theory):
     )
 
     def at(self, depth_ratio: ArrayLike) -> RealArray:
-        """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0).
-
-        Raises
-        ------
-        InputError
-            If a depth is negative.
-        """
+        """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0). InputError if a depth is negative."""
         value: RealArray = self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
         return value
 
@@ -115,17 +104,14 @@ class StackHardness:
     of the top, d -> ∞ that of the base, and coatings of well separated thicknesses each other's hardness in between.
     The sum over faces is an extension of this package; one coating is what was fitted.
 
+    InputError if there is no face, the depths are not as many, positive and increasing, or neighbours do not agree.
+
     Parameters
     ----------
     faces
         The law of film and substrate at every face, from the top; the substrate of one is the film of the next.
     depths
         Depths t_k in m of the faces, increasing, > 0.
-
-    Raises
-    ------
-    InputError
-        If there is no face, the depths are not as many, positive and increasing, or neighbours do not agree.
     """
 
     faces: tuple[EffectiveHardness, ...]
@@ -156,13 +142,7 @@ class StackHardness:
         object.__setattr__(self, "_works", works)
 
     def at(self, depth: ArrayLike) -> RealArray:
-        """Hardness in Pa at ``depth`` in m (any shape, >= 0).
-
-        Raises
-        ------
-        InputError
-            If a depth is negative.
-        """
+        """Hardness in Pa at ``depth`` in m (any shape, >= 0). InputError if a depth is negative."""
         d = np.asarray(depth, dtype=float)
         value: RealArray = np.full(d.shape, self.faces[-1].substrate)
         share: RealArray = np.zeros(d.shape)

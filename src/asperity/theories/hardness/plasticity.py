@@ -137,13 +137,7 @@ class PlasticityIndex(Theory):
 
     @classmethod
     def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float, nu: float = 0.3) -> Self:
-        """Indices of the summits of a map.
-
-        Raises
-        ------
-        InputError
-            If the roughness holds no summits.
-        """
+        """Indices of the summits of a map. InputError if the roughness holds no summits."""
         summits = roughness.known(roughness.summits, "its summits", cls.name)
         return cls(E_star, 1.0 / float(summits.curvature.mean()), summits.height_deviation, hardness, nu)
 

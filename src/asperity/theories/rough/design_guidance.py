@@ -52,11 +52,6 @@ class LeastArea(Theory):
     pressure: multiply ``plasticity_index`` by the ratio of the pressures at first yield with and without it. A stiffer
     overcoat lowers the admissible index, a more compliant one raises it, unless contacts are much larger than the
     overcoat is thick. Hardness and modulus are those at the strain rate of a passing asperity.
-
-    Raises
-    ------
-    InputError
-        If a number is not positive.
     """
 
     hardness: Annotated[Pressure, Help("hardness H of the softer solid", of="bodies")]

@@ -41,10 +41,7 @@ class DiscreteSummits(SeparationTheory):
 
         A_r = π Σ R_i (z_i - h),  W = (4/3) E* Σ R_i^(1/2) (z_i - h)^(3/2).
 
-    Raises
-    ------
-    InputError
-        If heights and radii differ in length, or a radius or a number is not positive.
+    InputError if heights and radii differ in length, or a radius or a number is not positive.
     """
 
     E_star: Modulus

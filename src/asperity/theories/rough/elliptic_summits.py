@@ -383,9 +383,6 @@ def equivalent_isotropic(moments: MomentTensor) -> tuple[float, float]:
     In the limit of large separation it makes the area 1.7 % too large at m20/m02 = 2 and 18 % at 10; the mean
     (m20 + m02)/2, which ``Roughness`` holds, makes it 1.3 % and 11 % too small.
 
-    Parameters
-    ----------
-    moments
-        Moments in the principal axes of the texture: ``m11`` is left out.
+    ``moments``: moments in the principal axes of the texture: ``m11`` is left out.
     """
     return math.sqrt(moments.m20 * moments.m02), math.sqrt(moments.m40 * moments.m04)

@@ -112,12 +112,8 @@ class CrestSystem:
 def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
     """w (n,) by Newton steps on the touching crests, which crests leave and enter as the conditions say.
 
-    Raises
-    ------
-    InputError
-        If a crest is pressed beyond the range of its two terms.
-    ConvergenceError
-        If the iteration does not converge.
+    InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the iteration does not
+    converge.
     """
     w, scale = start.copy(), float(delta.max())
     for _ in range(_STEPS):
@@ -297,10 +293,8 @@ class InteractingCrests(Theory):
     the same equations. ``shape``: two terms of the ``sine``, for approaches up to about the depth, or a ``paraboloid`` of the
     same radius λ²/(2π² h), for any approach.
 
-    Raises
-    ------
-    InputError
-        If the arrays differ in length, a size is not positive, two crests lie at one place, or a choice is unknown.
+    InputError if the arrays differ in length, a size is not positive, two crests lie at one place, or a choice is
+    unknown.
     """
 
     E_star: Modulus
@@ -380,17 +374,10 @@ class InteractingCrests(Theory):
     def squared_radii(self, approach: float) -> RealArray:
         """Squares of the contact radii in m² of the crests that may touch, the highest first; 0 for those lifted off.
 
-        Parameters
-        ----------
-        approach
-            Far-field approach δ > 0 in m from first touch.
+        ``approach``: Far-field approach δ > 0 in m from first touch.
 
-        Raises
-        ------
-        InputError
-            If a crest is pressed beyond the range of its two terms.
-        ConvergenceError
-            If the iteration does not converge.
+        InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the iteration does not
+        converge.
         """
         (_, squares), *_ = self._states(np.array([require.positive(approach, "approach (m)")]))
         return squares
@@ -405,12 +392,8 @@ class InteractingCrests(Theory):
 
         Two hundred points take 0.2 s with 240 contacts at the highest pressure, 5 s with 960.
 
-        Raises
-        ------
-        InputError
-            If a pressure is not positive, or presses a crest beyond the range of its two terms.
-        ConvergenceError
-            If the iteration does not converge.
+        InputError if a pressure is not positive, or presses a crest beyond the range of its two terms;
+        ConvergenceError if the iteration does not converge.
         """
         wanted = curve(pressure, "pressures (Pa)", positive=True)
         approaches, states = self._loaded(wanted)

@@ -24,15 +24,12 @@ from ..statistics.roughness import Roughness
 class SpotSizes:
     """N(A > a) = (a_l/a)^(D/2) spots larger than a, none larger than a_l; without bound towards small ones.
 
+    InputError if the dimension is out of its range.
+
     Parameters
     ----------
     dimension
         Fractal dimension D of the profile, 1 < D < 2.
-
-    Raises
-    ------
-    InputError
-        If the dimension is out of its range.
     """
 
     dimension: float
@@ -64,13 +61,7 @@ class SpotSizes:
 
 
 def spot_areas(value: ArrayLike) -> RealArray:
-    """Return ``value`` in m² as an array, any shape, if all are positive and finite.
-
-    Raises
-    ------
-    InputError
-        If they are not.
-    """
+    """Return ``value`` in m² as an array, any shape, if all are positive and finite. InputError if they are not."""
     areas = np.asarray(value, dtype=float)
     if not (np.isfinite(areas).all() and (areas > 0.0).all()):
         raise InputError(
@@ -96,11 +87,6 @@ class MajumdarBhushan(Theory):
     Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by
     powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
     (1e-19 m²); every real spot is then elastic.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of its range.
     """
 
     dimension: Annotated[
@@ -138,10 +124,7 @@ class MajumdarBhushan(Theory):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Area and mean real pressure at ``pressure`` (n,) in Pa, > 0; the number of spots has no limit.
 
-        Raises
-        ------
-        NoSolutionError
-            If even full contact carries less.
+        NoSolutionError if even full contact carries less.
         """
         p = curve(pressure, "pressures (Pa)", positive=True)
         spots = np.array([self.largest_spot_under(load) for load in p * self.nominal_area])
@@ -192,10 +175,7 @@ class MajumdarBhushan(Theory):
     def largest_spot_under(self, load: float) -> float:
         """Area a_l in m² of the largest spot under ``load`` in N on the nominal area.
 
-        Raises
-        ------
-        NoSolutionError
-            If even full contact carries less than the load.
+        NoSolutionError if even full contact carries less than the load.
         """
         from scipy.optimize import brentq
 

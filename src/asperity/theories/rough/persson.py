@@ -58,6 +58,8 @@ class PerssonGap:
     fraction at the wavenumber q, and dū = -dU/(A_n p) (Persson 2007; Yang & Persson 2008). At low load
     p = β E* exp(-ū/u0).
 
+    InputError if a number is out of its range.
+
     Parameters
     ----------
     E_star
@@ -66,11 +68,6 @@ class PerssonGap:
         Spectrum of the composite surface.
     gamma
         0 < γ <= 1: 1 in the original form, whose gap is half too large at low load; 0.45 calibrated.
-
-    Raises
-    ------
-    InputError
-        If a number is out of its range.
     """
 
     E_star: float
@@ -122,10 +119,7 @@ class PerssonGap:
     def pressure_at(self, gap: float) -> float:
         """Mean pressure in Pa at the mean ``gap`` in m, > 0.
 
-        Raises
-        ------
-        NoSolutionError
-            If the gap is so large or so small that the pressure cannot be represented.
+        NoSolutionError if the gap is so large or so small that the pressure cannot be represented.
         """
         from scipy.optimize import brentq
 
@@ -216,10 +210,7 @@ class Persson(Theory):
     pressure less its image. Exact at full contact; below it the area is about 30 % too small at 2 % contact and 20 %
     at 20 %, against elasticity, and the same for every width of the spectrum.
 
-    Raises
-    ------
-    InputError
-        If a parameter is not positive, or the spectrum cannot be used.
+    InputError if a parameter is not positive, or the spectrum cannot be used.
     """
 
     E_star: Modulus
@@ -281,13 +272,7 @@ class Persson(Theory):
 
     @cached_property
     def gap(self) -> PerssonGap:
-        """Theory of the mean gap and the stiffness.
-
-        Raises
-        ------
-        InputError
-            If there is no spectrum.
-        """
+        """Theory of the mean gap and the stiffness. InputError if there is no spectrum."""
         if not self._has_spectrum:
             raise InputError(
                 "power spectrum must be given for the mean gap in Persson's theory, but is not: give q and psd."
@@ -400,23 +385,11 @@ def diffused_pressure(
     integral of q³ C are equal steps of time. Crank-Nicolson on ``points`` pressures after a damped start; the error
     falls with the square of both numbers. It needs no image source, and so checks the closed form of ``Persson``.
 
-    Parameters
-    ----------
-    spectrum
-        Spectrum of the composite surface.
-    E_star
-        Contact modulus E* in Pa, > 0.
-    pressure
-        Nominal pressure p_a in Pa, > 0.
-    points
-        Number of intervals of pressure, at least 20, between zero and beyond the last pressure that occurs.
-    steps
-        Number of steps of equal variance, at least 4.
+    ``spectrum``: spectrum of the composite surface; ``E_star``: contact modulus E* in Pa, > 0; ``pressure``: nominal
+    pressure p_a in Pa, > 0; ``points``: number of intervals of pressure, at least 20, between zero and beyond the last
+    pressure that occurs; ``steps``: number of steps of equal variance, at least 4.
 
-    Raises
-    ------
-    InputError
-        If a number is out of its range.
+    InputError if a number is out of its range.
     """
     from scipy.linalg import solve_banded
 
@@ -477,5 +450,4 @@ def _wavenumbers(spectrum: IsotropicSpectrum, steps: int) -> RealArray:
 
     inner = [brentq(lacking, 0.0, last, args=(number / steps,), xtol=1e-14) for number in range(1, steps)]
     spans = np.array([0.0, *inner, last])
-    values: RealArray = np.asarray(spectrum.wavenumber)[0] * np.exp(spans)
-    return values
+    return np.asarray(np.asarray(spectrum.wavenumber)[0] * np.exp(spans))

@@ -180,10 +180,7 @@ class SampledPeaks(Theory):
     (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s the curvature C is normal with mean 2s(1 - ρ1) and variance
     2(1 + ρ2 - 2ρ1²), and the slope z1 - z3 independently normal with variance 2(1 - ρ2).
 
-    Raises
-    ------
-    InputError
-        If no Gaussian profile has these correlations.
+    InputError if no Gaussian profile has these correlations.
     """
 
     rho_1: Annotated[float, Number(above=-1.0, below=1.0), "correlation of neighbouring points"]

@@ -27,13 +27,7 @@ _NODES = 48  # 16 leave 1e-9 at exponent 8, 48 rounding
 
 
 def convex(exponent: float) -> float:
-    """``exponent`` if it is that of a convex tip, >= 1.
-
-    Raises
-    ------
-    InputError
-        If it is not.
-    """
+    """``exponent`` if it is that of a convex tip, >= 1. InputError if it is not."""
     if not require.finite(exponent, "exponent of the profile") >= 1.0:
         raise InputError(
             f"exponent of the profile must be at least 1, but is {exponent:g}. Concave tips have no closed form."
@@ -105,8 +99,7 @@ class PowerLawIndenter(Theory):
         open_ = (rho > 0.0) & (rho < 1.0)
         values = scale * power_integral(np.where(open_, rho, 1.0), self.exponent)
         at_apex = np.inf if self.exponent == 1.0 else scale / (self.exponent - 1.0)
-        profile: RealArray = np.where(rho == 0.0, at_apex, values)
-        return profile
+        return np.where(rho == 0.0, at_apex, values)
 
     def _max_pressure(self, a: RealArray, approach: RealArray) -> RealArray:
         """At the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined."""

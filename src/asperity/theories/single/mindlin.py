@@ -87,10 +87,7 @@ class MindlinPoint(Theory):
     def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
         """Under ``load`` P in N, > 0, and the ``tangential`` force Q in N, 0 <= Q <= μP, of any shape.
 
-        Raises
-        ------
-        InputError
-            If Q exceeds the limit of friction.
+        InputError if Q exceeds the limit of friction.
         """
         normal = self.normal.at_load(require.positive(load, "load (N)"))
         a = float(normal.radius)
@@ -146,10 +143,7 @@ class MindlinLine(Theory):
     def stick_shift(self, load: float, tangential: float, bulk_stress: float) -> float:
         """Shift e = aσ/(4μp0) in m of the stick zone by a tension σ = ``bulk_stress`` (Pa) in one of the bodies.
 
-        Raises
-        ------
-        InputError
-            If the stick zone would reach the edge of the contact, e + c > a, where the solution is another one.
+        InputError if the stick zone would reach the edge of the contact, e + c > a, where the solution is another one.
         """
         answer = self.normal.at_load(require.positive(load, "load per length (N/m)"))
         a, c = float(answer.radius), float(self.at_load(load, tangential).stick_radius)

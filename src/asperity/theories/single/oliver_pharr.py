@@ -23,10 +23,7 @@ BERKOVICH = 24.5
 class OliverPharr(Theory):
     """Results from the initial unloading: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
 
-    Raises
-    ------
-    InputError
-        If a value is not positive, or the indenter would rebound further than it went in.
+    InputError if a value is not positive, or the indenter would rebound further than it went in.
     """
 
     load: Annotated[Force, Help("peak load W_max", of="bodies")]

@@ -244,10 +244,7 @@ class SinusoidalAsperity(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, from 0 to that of a = 0.35 λ, of any shape.
 
-        Raises
-        ------
-        InputError
-            If a load needs a larger contact, which would include the valley around the cap.
+        InputError if a load needs a larger contact, which would include the valley around the cap.
         """
         P = checked(load, "load (N)")
         widest = self.at_radius(0.35 * self.wavelength)

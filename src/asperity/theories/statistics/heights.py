@@ -92,8 +92,7 @@ class ExponentialHeights:
 
     def density(self, s: RealArray) -> RealArray:
         """Exponential density."""
-        values: RealArray = np.where(s >= 0.0, np.exp(-np.maximum(s, 0.0)), 0.0)
-        return values
+        return np.where(s >= 0.0, np.exp(-np.maximum(s, 0.0)), 0.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Γ(m + 1) exp(-D) for D >= 0 (Bhushan 1998, eq. 20), exp(-D) Γ(m + 1, -D) below."""
@@ -135,8 +134,7 @@ class UniformHeights:
 
     def density(self, s: RealArray) -> RealArray:
         """1/(2√3) within the support."""
-        values: RealArray = np.where(np.abs(s) <= math.sqrt(3.0), 0.5 / math.sqrt(3.0), 0.0)
-        return values
+        return np.where(np.abs(s) <= math.sqrt(3.0), 0.5 / math.sqrt(3.0), 0.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Closed form."""
@@ -226,17 +224,14 @@ _PANEL_NODES = 24  # in each panel of a user's density
 class HistogramHeights:
     """Heights spread evenly within the bins of a histogram; they are standardised with their own mean and deviation.
 
+    InputError if the edges do not rise, or counts are negative or all zero.
+
     Parameters
     ----------
     edges
         (n + 1,) rising edges of the bins, in any unit of length.
     counts
         (n,) how many summits each bin holds, or numbers in proportion.
-
-    Raises
-    ------
-    InputError
-        If the edges do not rise, or counts are negative or all zero.
     """
 
     edges: RealArray
@@ -263,10 +258,7 @@ class HistogramHeights:
     def from_samples(cls, heights: ArrayLike, bins: int = 50) -> Self:
         """Histogram of the measured summit ``heights`` (n,) with equal ``bins``.
 
-        Raises
-        ------
-        InputError
-            If all heights are equal.
+        InputError if all heights are equal.
         """
         values = np.asarray(heights, dtype=float)
         if not np.ptp(values) > 0.0:
@@ -284,8 +276,7 @@ class HistogramHeights:
         heights = self.counts / np.diff(self.edges)
         index = np.clip(np.searchsorted(self.edges, s, side="right") - 1, 0, heights.size - 1)
         inside = (s >= self.edges[0]) & (s <= self.edges[-1])
-        values: RealArray = np.where(inside, heights[index], 0.0)
-        return values
+        return np.where(inside, heights[index], 0.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Sum of the closed forms of the bins."""
@@ -298,6 +289,8 @@ class HistogramHeights:
 class AnyHeights:
     """Heights with a density of your own, mean zero and standard deviation one.
 
+    InputError if the breaks do not rise, or the density does not have integral 1, mean 0 and variance 1 to 1e-6.
+
     Parameters
     ----------
     function
@@ -305,11 +298,6 @@ class AnyHeights:
     breaks
         Two or more rising, finite numbers: ends of the support (or heights beyond which the density is negligible) and
         all places where the density is not smooth. More breaks make the Gauss rules between them more accurate.
-
-    Raises
-    ------
-    InputError
-        If the breaks do not rise, or the density does not have integral 1, mean 0 and variance 1 to 1e-6.
     """
 
     function: Callable[[RealArray], RealArray]
@@ -339,8 +327,7 @@ class AnyHeights:
     def density(self, s: RealArray) -> RealArray:
         """The function within the support."""
         low, high = self.support
-        values: RealArray = np.where((s >= low) & (s <= high), self.function(np.clip(s, low, high)), 0.0)
-        return values
+        return np.where((s >= low) & (s <= high), self.function(np.clip(s, low, high)), 0.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """F_m by Gauss rules over q = sqrt(s - D) between the breaks above D."""

@@ -21,17 +21,14 @@ class IsotropicSpectrum:
     bends. Convention of Jacobs, Junge & Pastewka (2017), as everywhere here: <h²> = (1/2π) ∫ q C dq; papers with
     <h²> = 2π ∫ q C dq have C smaller by (2π)².
 
+    InputError if the tables differ in length, are too short, not positive, or the wavenumbers do not ascend.
+
     Parameters
     ----------
     wavenumber
         q in rad/m, (n,), n >= 2, ascending, > 0.
     psd
         C in m⁴ at those wavenumbers, (n,), > 0.
-
-    Raises
-    ------
-    InputError
-        If the tables differ in length, are too short, not positive, or the wavenumbers do not ascend.
     """
 
     wavenumber: ArrayLike

@@ -45,10 +45,7 @@ class NayakSummits(Theory):
     With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the joint
     density p(ξ, t) = 2√3 (t² - 1 + e^(-t²)) φ₂(ξ, t; ρ), t > 0, ρ = sqrt(3/(2α)), α = m0 m4/m2².
 
-    Raises
-    ------
-    InputError
-        If a moment is not positive or α < 1.5, which no isotropic surface has.
+    InputError if a moment is not positive or α < 1.5, which no isotropic surface has.
     """
 
     m0: Annotated[float, Number("area", above=0.0), "mean square height"]

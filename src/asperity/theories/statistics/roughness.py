@@ -146,6 +146,8 @@ class Fractal:
 class Roughness:
     """The numbers of a surface that theories of rough contact are built from. None stands for what is not known.
 
+    InputError if a moment or the area is not positive.
+
     Parameters
     ----------
     m0, m2, m4
@@ -168,11 +170,6 @@ class Roughness:
         exponential autocorrelation by ln 10.
     skewness, kurtosis
         Of the surface heights; 0 and 3 for a Gaussian surface.
-
-    Raises
-    ------
-    InputError
-        If a moment or the area is not positive.
     """
 
     m0: float
@@ -220,13 +217,7 @@ class Roughness:
         return steep / gentle if gentle > 0.0 else math.inf
 
     def known(self, part: T | None, what: str, theory: str) -> T:
-        """Return ``part`` of this value, or say that the ``theory`` needs ``what``.
-
-        Raises
-        ------
-        InputError
-            If ``part`` is None.
-        """
+        """Return ``part`` of this value, or say that the ``theory`` needs ``what``. InputError if ``part`` is None."""
         if part is None:
             raise InputError(
                 f"roughness for the theory {theory} must hold {what}, but does not. "

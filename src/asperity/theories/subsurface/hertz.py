@@ -32,14 +32,8 @@ def hertz_normal(
 ) -> ElasticFields:
     """Displacement (m/Pa) and stress under the pressure sqrt(1 - r²/a²) per unit peak on r < a = ``contact_radius``.
 
-    Parameters
-    ----------
-    x, y, z
-        Field points in m, broadcast against each other, z >= 0.
-    contact_radius
-        a in m.
-    shear, nu
-        Shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``contact_radius``: a in m;
+    ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     f = _Potentials.of(x, y, z, contact_radius)
@@ -160,15 +154,9 @@ def hertz_line_normal(
 ) -> ElasticFields:
     """Displacement (m/Pa) and stress under the pressure sqrt(1 - x²/a²) per unit peak on |x| < a = ``half_width`` (m).
 
-    Parameters
-    ----------
-    x, z
-        Field points in m, broadcast against each other, z >= 0.
-    half_width
-        a in m.
-    shear, nu
-        Shear modulus G in Pa and Poisson's ratio, up to 0.5. Displacements along the force are multiples of ln r far
-        away, as those of a line force at the origin.
+    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; ``half_width``: a in m; ``shear``, ``nu``:
+    Shear modulus G in Pa and Poisson's ratio, up to 0.5. Displacements along the force are multiples of ln r far away,
+    as those of a line force at the origin.
     """
     x, z = np.broadcast_arrays(x, z)
     S, slope, T = _sums(x, z, half_width)
@@ -232,14 +220,8 @@ def hertz_ellipse_normal(
 
     On the very edge of the contact, where stresses have a kink, the error is 5e-4.
 
-    Parameters
-    ----------
-    x, y, z
-        Field points in m, broadcast against each other, z >= 0.
-    semi_axes
-        (a, b) along x and y in m, in any order of size, see ``HertzEllipse.semi_axes``.
-    nu
-        Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``semi_axes``: (a, b) along x and y
+    in m, in any order of size, see ``HertzEllipse.semi_axes``; ``nu``: Poisson's ratio, up to 0.5.
     """
     x, y, z = (np.asarray(values, dtype=float) for values in np.broadcast_arrays(x, y, z))
     f = _Potential.of(x, y, z, semi_axes)

@@ -22,12 +22,8 @@ from ..protocol import PoissonOfSolid, Theory
 def boussinesq(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
     """Displacement (m/N) and stress (Pa/N) of a unit normal force at the origin, pushing along +z into the body.
 
-    Parameters
-    ----------
-    x, y, z
-        Field points in m, broadcast against each other, z >= 0; singular at the origin.
-    shear, nu
-        Shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the origin; ``shear``,
+    ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     r = np.sqrt(x**2 + y**2 + z**2)
@@ -81,12 +77,8 @@ def cerruti(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, n
 def flamant_normal(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
     """Displacement and stress per unit normal force per length (N/m) along +z on the line x = z = 0.
 
-    Parameters
-    ----------
-    x, z
-        Field points in m, broadcast against each other, z >= 0; singular at the origin.
-    shear, nu
-        Shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the origin; ``shear``, ``nu``:
+    Shear modulus G in Pa and Poisson's ratio, up to 0.5.
     """
     x, z = np.broadcast_arrays(x, z)
     r2 = x**2 + z**2

@@ -125,10 +125,7 @@ class CylinderYield(Theory):
 def sphere_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
     """First yield of a point contact of revolution, Poisson's ratio ``nu`` (0 to 0.5), ``friction`` coefficient >= 0.
 
-    Raises
-    ------
-    InputError
-        If Poisson's ratio or the friction coefficient is out of range.
+    InputError if Poisson's ratio or the friction coefficient is out of range.
     """
     return _onsets(_sphere, nu, np.array([float(friction)]))[0]
 

@@ -28,10 +28,7 @@ ROOM_TEMPERATURE = 293.15
 def wetting_factor(angle: float, other_angle: float = 0.0) -> float:
     """cos θ1 + cos θ2 of two contact angles in rad, 0 on the side that carries a film of the liquid.
 
-    Raises
-    ------
-    InputError
-        If an angle is not between 0 and π, or the sum is not positive: such a liquid is pushed out of the gap.
+    InputError if an angle is not between 0 and π, or the sum is not positive: such a liquid is pushed out of the gap.
     """
     for value in (angle, other_angle):
         if not 0.0 <= require.finite(value, "contact angle (rad)") <= math.pi:
@@ -56,22 +53,11 @@ def kelvin_radius(
 ) -> float:
     """r_K = γ V/(R T ln(1/RH)) in m: radius of a meniscus in equilibrium with vapour, as a positive number.
 
-    Parameters
-    ----------
-    humidity
-        Relative humidity as a fraction, 0 < RH < 1. Below about 0.5 the radius of water is that of a few molecules
-        and the continuum a formality.
-    surface_tension
-        γ in N/m.
-    molar_volume
-        Of the liquid, m³/mol.
-    temperature
-        In K.
+    ``humidity``: relative humidity as a fraction, 0 < RH < 1. Below about 0.5 the radius of water is that of a few
+    molecules and the continuum a formality; ``surface_tension``: γ in N/m; ``molar_volume``: of the liquid, m³/mol;
+    ``temperature``: in K.
 
-    Raises
-    ------
-    InputError
-        If a number is out of its range.
+    InputError if a number is out of its range.
     """
     share = require.between(
         humidity, 0.0, 1.0, "relative humidity", "At saturation the liquid fills everything; give the film instead."
@@ -132,6 +118,8 @@ class MeniscusGrowth:
     The suction γ(1 + cos θ)/s drives lubrication flow through the film towards the meniscus of volume πRs²; it ends when
     the suction equals the disjoining pressure A_H/(6πh³) of the film. With y = s/s_eq and τ = t/t0, dy/dτ = (1 - y)/y².
 
+    InputError if a number is out of its range, or the film is so thin that it holds its liquid back (h >= s_eq).
+
     Parameters
     ----------
     radius
@@ -148,11 +136,6 @@ class MeniscusGrowth:
         θ in rad on the sphere.
     radius_ratio
         Outer over inner radius of the film that feeds the meniscus, > 1; only its logarithm enters.
-
-    Raises
-    ------
-    InputError
-        If a number is out of its range, or the film is so thin that it holds its liquid back (h >= s_eq).
     """
 
     radius: float

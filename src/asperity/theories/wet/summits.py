@@ -71,6 +71,8 @@ class StatisticalMeniscus:
     Every summit that reaches the film, touching the solid or not, is pulled by the full force of a sphere that touches
     it, 2πRγ(1 + cos θ): true for menisci much higher than the film. Below about one molecular layer there is none.
 
+    InputError if a number is out of its range, or the liquid does not wet.
+
     Parameters
     ----------
     contact
@@ -83,11 +85,6 @@ class StatisticalMeniscus:
         θ in rad on the summits.
     molecular_layer
         Thickness in m below which a film is no liquid.
-
-    Raises
-    ------
-    InputError
-        If a number is out of its range, or the liquid does not wet.
     """
 
     contact: GreenwoodWilliamson
@@ -150,10 +147,7 @@ def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> We
     """Equilibrium of the summits under ``pressure`` (n,) in Pa and the ``pull`` of the menisci, at the smallest
     separation.
 
-    Raises
-    ------
-    NoSolutionError
-        If the summits do not carry load and menisci at any separation.
+    NoSolutionError if the summits do not carry load and menisci at any separation.
     """
     h, loads = _separations(contact), pressure[:, None]
 
