@@ -154,10 +154,7 @@ def save_comparison_plots(
 ) -> tuple[Path, ...]:
     """Write ``figures`` of a comparison as PNG into ``folder`` (made if missing) and return their paths.
 
-    Raises
-    ------
-    OutputError
-        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     pictures = {figure.name: partial(_picture, figure) for figure in figures}
     return save_pictures(pictures, folder, overwrite=overwrite)

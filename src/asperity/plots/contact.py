@@ -187,10 +187,7 @@ KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus",
 def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
     """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
 
-    Raises
-    ------
-    InputError
-        If the contact has no film of liquid.
+    Raises InputError if the contact has no film of liquid.
     """
     stands = result.require_menisci().wetting
     kinds = np.where(stands.cut, 1.0, 0.0)
@@ -304,10 +301,7 @@ def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the standard figures of ``result`` as PNG into ``folder`` (made if missing) and return their paths.
 
-    Raises
-    ------
-    OutputError
-        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     return save_pictures(figures_of(result), folder, overwrite=overwrite)
 
@@ -315,10 +309,7 @@ def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = F
 def save_surface_plot(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
     """Write the map of heights of ``surface`` as PNG to ``path``.
 
-    Raises
-    ------
-    OutputError
-        If the file exists and ``overwrite`` is false, or cannot be written.
+    Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
     """
     with atomic_file(path, overwrite=overwrite) as file:
         file.write_bytes(png(lambda ax: plot_heights(surface, ax), map_size(surface.grid)))
@@ -425,10 +416,7 @@ PATH_PLOTS = (
 def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their paths.
 
-    Raises
-    ------
-    OutputError
-        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     pictures = {plot.name: partial(render, plot, path) for plot in PATH_PLOTS}
     return save_pictures(pictures, folder, overwrite=overwrite)

@@ -30,10 +30,7 @@ SMALL = 110
 def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
     """Draw the figure ``kind`` of ``thing`` on ``ax``, or on a new figure of pyplot.
 
-    Raises
-    ------
-    InputError
-        If the thing has no such figure.
+    Raises InputError if the thing has no such figure.
     """
     if ax is not None:
         return _draw(thing, kind, ax, **options)

@@ -271,10 +271,7 @@ def save_pictures(
 ) -> tuple[Path, ...]:
     """Write ``pictures``, made one after the other, under their names as PNG into ``folder`` (made if missing).
 
-    Raises
-    ------
-    OutputError
-        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     place = Path(folder)
     try:

@@ -82,11 +82,8 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
 
     Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross marks the largest
     magnitude, of principal stresses the largest tension. Signed stresses are white about zero. Depth is to the scale of the section unless that were less than a sixth of its length.
-
-    Raises
-    ------
-    InputError
-        If the field is no section, has a region with one plane only, or the quantity is unknown or, with ``log``, signed.
+    Raises InputError if the field is no section, has a region with one plane only, or the quantity is unknown or,
+    with ``log``, signed.
     """
     kind = _known(quantity)
     if log and (kind.name not in MAGNITUDES):
@@ -131,10 +128,7 @@ def plot_stress_profile(
 ) -> Axes:
     """Draw ``quantities`` of a depth profile against depth on ``ax``, depth downwards, with a break at each interface.
 
-    Raises
-    ------
-    InputError
-        If the field is no depth profile or a quantity is unknown.
+    Raises InputError if the field is no depth profile or a quantity is unknown.
     """
     kinds = [_known(quantity) for quantity in quantities]
     if field.dims != ("plane",):
@@ -163,10 +157,7 @@ def plot_stress_profile(
 def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *, plane: int = 0) -> Axes:
     """Draw one ``quantity`` on one ``plane`` (its position in the field) as a map on ``ax``, x to the right and y up.
 
-    Raises
-    ------
-    InputError
-        If the planes of the field are not whole, or quantity or plane is unknown.
+    Raises InputError if the planes of the field are not whole, or quantity or plane is unknown.
     """
     kind = _known(quantity)
     if field.dims != ("plane", "x", "y"):

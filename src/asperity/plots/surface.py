@@ -372,10 +372,7 @@ SURFACE_PLOTS = (
 def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the standard figures of a characterised surface as PNG into ``folder`` (made if missing).
 
-    Raises
-    ------
-    OutputError
-        If a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
     return save_pictures(
         {plot.name: partial(render, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite

@@ -97,6 +97,8 @@ def on_common_grid(
     periodic surface covers everything. The pair is periodic if both are, with equal sizes, and without rotation.
 
     The relative place of two rough bodies is a free parameter of their contact: average over several shifts.
+    Raises InputError if a value is not a number, the pixel is coarser than that of a map, or the overlap is less than
+    two pixels wide.
 
     Parameters
     ----------
@@ -111,11 +113,6 @@ def on_common_grid(
     spacing
         Pixel (dx, dy) in m; the finer of both, along each axis, if omitted. A coarser one would fold short waves: filter
         or resample first.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number, the pixel is coarser than that of a map, or the overlap is less than two pixels wide.
     """
     shift_x, shift_y = (require.finite(s, f"shift along {a} (m)") for s, a in zip(shift, "xy", strict=True))
     angle = require.finite(angle, "angle of the counter surface (rad)")

@@ -43,10 +43,7 @@ class ChannelInfo:
 def chosen(channels: Sequence[ChannelInfo], channel: str | int | None, path: object) -> ChannelInfo:
     """The ``channel`` named by text (the first of equal names) or index, the default one for None.
 
-    Raises
-    ------
-    FileFormatError
-        If there is no such channel; the message lists those that exist.
+    Raises FileFormatError if there is no such channel; the message lists those that exist.
     """
     if channel is None:
         return next(info for info in channels if info.default)
@@ -337,10 +334,7 @@ def write_netcdf(surface: Surface, path: Path) -> None:
 def read_netcdf(file: Path) -> Surface:
     """Surface that :func:`write_netcdf` wrote to ``file``, equal to the last bit.
 
-    Raises
-    ------
-    FileFormatError
-        If the file is damaged.
+    Raises FileFormatError if the file is damaged.
     """
     record = json.loads(_attributes(file)[RECORD])
     try:

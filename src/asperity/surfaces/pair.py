@@ -16,6 +16,7 @@ def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | Non
     measured looking at that body: turning it over about the y axis replaces x by Lx - x (``mirrored="x"``), about
     the x axis y by Ly - y (``mirrored="y"``). Points missing in either surface are missing in the sum, which is
     periodic only if both are; a periodic surface is mirrored about its node 0, any other about its middle.
+    Raises InputError if the grids differ, the mirror is unknown, or no point is valid in both surfaces.
 
     Parameters
     ----------
@@ -23,11 +24,6 @@ def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | Non
         Surfaces with equal numbers of points and equal pixel sizes (to 1e-6).
     mirrored
         None, ``x`` or ``y``: how the counter surface is turned over.
-
-    Raises
-    ------
-    InputError
-        If the grids differ, the mirror is unknown, or no point is valid in both surfaces.
     """
     other = counter_surface if mirrored is None else turned_over(counter_surface, axis=mirrored)
     _require_equal_grids(surface, other)
@@ -45,11 +41,7 @@ def turned_over(surface: Surface, *, axis: str = "x") -> Surface:
 
     ``axis`` ``"x"`` replaces x by Lx - x (turned about the y axis), ``"y"`` y by Ly - y. A periodic surface is mirrored
     about its node 0, any other about its middle.
-
-    Raises
-    ------
-    InputError
-        If the axis is not ``x`` or ``y``.
+    Raises InputError if the axis is not ``x`` or ``y``.
     """
     along = "xy".index(require.one_of(axis, ("x", "y"), "mirror of the counter surface"))
     flipped = np.flip(surface.heights, along)

@@ -83,10 +83,7 @@ def read(
 def channels(path: str | os.PathLike[str]) -> tuple[ChannelInfo, ...]:
     """The two-dimensional data channels of a file, in its order.
 
-    Raises
-    ------
-    FileFormatError
-        If the file is missing, unreadable, empty, damaged or of unknown format.
+    Raises FileFormatError if the file is missing, unreadable, empty, damaged or of unknown format.
     """
     file = _checked(path)
     if netcdf.is_own(file):

@@ -40,6 +40,9 @@ class Origin:
 class Surface(Drawn):
     """Heights on a regular grid, positive out of the solid (the material is below).
 
+    Raises InputError if heights are not a real 2-D array, hold an infinity, are missing everywhere, or a spacing is
+    not positive.
+
     Parameters
     ----------
     heights
@@ -52,11 +55,6 @@ class Surface(Drawn):
         (nx, ny), True where the point is missing. Points with NaN height are added to it.
     origin
         Source, channel, instrument and history.
-
-    Raises
-    ------
-    InputError
-        If heights are not a real 2-D array, hold an infinity, are missing everywhere, or a spacing is not positive.
     """
 
     heights: RealArray

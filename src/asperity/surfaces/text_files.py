@@ -29,11 +29,7 @@ def table(file: Path) -> RealArray:
 
     Between columns there are blanks, tabs, semicolons or commas. Decimal commas are accepted where the columns are
     separated by something else.
-
-    Raises
-    ------
-    ValueError
-        If a line does not hold as many numbers as the others.
+    Raises ValueError if a line does not hold as many numbers as the others.
     """
     lines = file.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     first = _first_row(lines) or 0
@@ -58,10 +54,7 @@ def cut_short(file: Path) -> int:
 def gridded(points: RealArray) -> tuple[RealArray, None, tuple[float, float]]:
     """Heights [x, y] of a list of ``points`` (n, 3) on a regular grid, None, and its spacing; NaN where a point is missing.
 
-    Raises
-    ------
-    InputError
-        If the points do not lie on a regular grid, or two on one node.
+    Raises InputError if the points do not lie on a regular grid, or two on one node.
     """
     (i, dx), (j, dy) = (_nodes(points[:, axis], "xy"[axis]) for axis in (0, 1))
     nx, ny = int(i.max()) + 1, int(j.max()) + 1

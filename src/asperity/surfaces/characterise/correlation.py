@@ -58,10 +58,7 @@ class Autocovariance:
     def along(self, axis: str) -> tuple[RealArray, RealArray]:
         """Lags (m) from 0 along +``axis`` and R (m²) there.
 
-        Raises
-        ------
-        InputError
-            If the axis is neither x nor y.
+        Raises InputError if the axis is neither x nor y.
         """
         number = axis_index(axis)
         values = self.values[:, self.range[1]] if number == 0 else self.values[0, self.range[1] :]
@@ -72,11 +69,7 @@ class Autocovariance:
 
         Between lags R is interpolated linearly, with ``logarithmic`` its logarithm: exact for an exponential, where
         linear interpolation is up to 6 % too long at a decay length of one pixel.
-
-        Raises
-        ------
-        InputError
-            If the axis is unknown or ``drop`` not between 0 and 1.
+        Raises InputError if the axis is unknown or ``drop`` not between 0 and 1.
         """
         require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
         lags, values = self.along(axis)
@@ -180,16 +173,15 @@ class ScaleDependence:
 def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
     """S in m² at the ``lag`` (k, l) in pixels, of either sign: mean over all valid pairs; a periodic surface wraps.
 
-    Raises
-    ------
-    InputError
-        If there is no valid pair.
+    Raises InputError if there is no valid pair.
     """
     return mean_square(increments(surface, lag), "structure function")
 
 
 def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int] | None = None) -> StructureFunction:
     """Structure function of the profiles along ``axis``, averaged over all lines; needs no mean and no filling.
+
+    Raises InputError if a lag has no valid pair or is not a whole number >= 1.
 
     Parameters
     ----------
@@ -199,11 +191,6 @@ def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int]
         ``x`` or ``y``.
     lags
         Whole numbers of pixels >= 1; by default geometrically spaced, five per factor of two, up to half the map.
-
-    Raises
-    ------
-    InputError
-        If a lag has no valid pair or is not a whole number >= 1.
     """
     number = axis_index(axis)
     steps = geometric_lags(surface.shape[number] // 2) if lags is None else tuple(lags)
@@ -220,6 +207,8 @@ def scale_dependence(
 ) -> ScaleDependence:
     """Scale-dependent slope and curvature of ``surface`` along ``axis``.
 
+    Raises InputError if the map is too small for a stencil or no stencil is valid.
+
     Parameters
     ----------
     surface
@@ -231,11 +220,6 @@ def scale_dependence(
         up to a quarter of the map.
     structure
         Structure function along the axis, from which the slopes follow, if already computed.
-
-    Raises
-    ------
-    InputError
-        If the map is too small for a stencil or no stencil is valid.
     """
     number = axis_index(axis)
     chosen = geometric_lags(surface.shape[number] // 4) if steps is None else tuple(steps)
@@ -259,11 +243,7 @@ def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float 
     There the smallest scale-dependent second derivative reaches -``factor``/``tip_radius``, interpolated between the
     stencils (Sanner et al. 2022, eq. 10, with the empirical factor 1/2). 0 if the sharpest peak is blunter at every
     length, infinity if it is sharper at every length.
-
-    Raises
-    ------
-    InputError
-        If the radius or the factor is not positive, or there is no stencil.
+    Raises InputError if the radius or the factor is not positive, or there is no stencil.
     """
     require.positive(tip_radius, "radius of the tip (m)")
     require.positive(factor, "factor of the tip criterion")
@@ -340,6 +320,8 @@ def fractal_parameters(
 ) -> FractalParameters:
     """Fit the structure function of ``surface`` along ``axis`` by a power law.
 
+    Raises InputError if fewer than three lags remain, or the surface is flat.
+
     Parameters
     ----------
     surface
@@ -352,11 +334,6 @@ def fractal_parameters(
         limit.
     structure
         Structure function along the axis, if already computed; its lags in the default range are fitted.
-
-    Raises
-    ------
-    InputError
-        If fewer than three lags remain, or the surface is flat.
     """
     number = axis_index(axis)
     if lags is not None:
@@ -375,10 +352,7 @@ def fractal_parameters(
 def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParameters:
     """Least-squares line through ln S over ln τ of ``curve``; ``resolution`` η in m.
 
-    Raises
-    ------
-    InputError
-        If the curve has fewer than three lags or is zero somewhere.
+    Raises InputError if the curve has fewer than three lags or is zero somewhere.
     """
     require.positive(resolution, "resolution (m)")
     if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
@@ -412,11 +386,7 @@ def structure_coefficient(dimension: float) -> float:
     """B(D) = π (2π)^(4-2D)/[2 Γ(5-2D) sin π(2-D)], the factor of S = B G^(2(D-1)) τ^(4-2D)/ln γ.
 
     For a profile with the frequencies γ^n in cycles per length; papers that use radians omit (2π)^(4-2D).
-
-    Raises
-    ------
-    InputError
-        If not 1 < ``dimension`` < 2.
+    Raises InputError if not 1 < ``dimension`` < 2.
     """
     require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
     power = 4.0 - 2.0 * dimension
@@ -431,11 +401,7 @@ def spectrum_coefficient(dimension: float) -> float:
     """c1/C = Γ(5-2D) sin[π(2-D)]/2π of the two-sided spectrum P = c1 η^(2D-3)/ω^(5-2D), ω in rad/m.
 
     Source: Ganti & Bhushan (1995); Bhushan (1998), eq. 33b, whose printed denominator is incomplete.
-
-    Raises
-    ------
-    InputError
-        If not 1 < ``dimension`` < 2.
+    Raises InputError if not 1 < ``dimension`` < 2.
     """
     require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
     return math.gamma(5.0 - 2.0 * dimension) * math.sin(math.pi * (2.0 - dimension)) / (2.0 * math.pi)

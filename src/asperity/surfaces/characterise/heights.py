@@ -78,10 +78,7 @@ def peak_to_valley(surface: Surface) -> float:
 def skewness(surface: Surface) -> float:
     """Ssk = <z³>/Sq³, 0 for Gaussian heights (ISO 25178-2, 4.1.2).
 
-    Raises
-    ------
-    InputError
-        If all heights are equal.
+    Raises InputError if all heights are equal.
     """
     return _defined(height_parameters(surface).Ssk, "skewness")
 
@@ -89,10 +86,7 @@ def skewness(surface: Surface) -> float:
 def kurtosis(surface: Surface) -> float:
     """Sku = <z⁴>/Sq⁴, 3 for Gaussian heights (not the excess), never below 1 + Ssk² (ISO 25178-2, 4.1.3).
 
-    Raises
-    ------
-    InputError
-        If all heights are equal.
+    Raises InputError if all heights are equal.
     """
     return _defined(height_parameters(surface).Sku, "kurtosis")
 
@@ -142,11 +136,7 @@ def height_distribution(surface: Surface, bins: int | None = None) -> HeightDist
     """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the highest.
 
     By default the number of bins follows Rice's rule, 2 N^(1/3), up to 100.
-
-    Raises
-    ------
-    InputError
-        If ``bins`` is not a whole number >= 1.
+    Raises InputError if ``bins`` is not a whole number >= 1.
     """
     z = deviations(surface)
     count = (

@@ -156,11 +156,7 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
 
     ``line`` is ``least squares`` (ISO: fitted to the curve in the window) or ``secant`` (through its ends, as in many
     programs; for Gaussian heights Sk is 2 % larger and Smr1 4 % smaller).
-
-    Raises
-    ------
-    InputError
-        If the line is unknown or all heights are equal.
+    Raises InputError if the line is unknown or all heights are equal.
     """
     require.one_of(line, CORE_LINES, "core line")
     if curve.heights[0] == curve.heights[-1]:
@@ -191,10 +187,7 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
 def functional_parameters(curve: MaterialRatioCurve, line: str = "least squares") -> FunctionalParameters:
     """Parameters of ``curve``; ``line`` as for :func:`core`.
 
-    Raises
-    ------
-    InputError
-        If the line is unknown or all heights are equal.
+    Raises InputError if the line is unknown or all heights are equal.
     """
     found = core(curve, line)
     volume_10, volume_80 = curve.material_volume(0.1), curve.material_volume(0.8)

@@ -97,11 +97,7 @@ def difference_moments(surface: Surface) -> DifferenceMoments:
 
     A periodic surface wraps. Each derivative multiplies the spectrum by [sin(q d/2)/(q d/2)]²: waves shorter than about
     eight pixels are underestimated (McCool 1987).
-
-    Raises
-    ------
-    InputError
-        If there are no three valid neighbours along x or along y.
+    Raises InputError if there are no three valid neighbours along x or along y.
     """
     return DifferenceMoments(
         m0=rms_height(surface) ** 2,
@@ -117,10 +113,7 @@ def difference_moments(surface: Surface) -> DifferenceMoments:
 def slope_tensor(surface: Surface) -> SlopeTensor:
     """Mean products of the forward slopes at the nodes where both exist.
 
-    Raises
-    ------
-    InputError
-        If no node has both slopes.
+    Raises InputError if no node has both slopes.
     """
     along_x, along_y = forward_slopes(surface)
     both = np.isnan(along_x) | np.isnan(along_y) if surface.n_missing else None

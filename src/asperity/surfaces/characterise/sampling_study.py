@@ -53,11 +53,7 @@ class SamplingStudy:
         """Longest range of lengths (m) over which the means of ``name`` differ by ``tolerance`` at most.
 
         Two NaN if there is none: the quantity then depends on the scan at every length.
-
-        Raises
-        ------
-        InputError
-            If the name is unknown.
+        Raises InputError if the name is unknown.
         """
         values = self.mean[require.one_of(name, self.mean, "quantity of a study")]
         best = (0, 0)
@@ -74,6 +70,8 @@ class SamplingStudy:
 def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16, most: int = 64) -> SamplingStudy:
     """Study of windows of size L/2^k at all positions that do not overlap, at the sampling interval of the map.
 
+    Raises InputError if the form is unknown or the map has fewer points than ``smallest`` along a side.
+
     Parameters
     ----------
     surface
@@ -84,11 +82,6 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
         Least number of points along a side of a window.
     most
         Largest number of windows of one size; if there are more, evenly spread ones are taken.
-
-    Raises
-    ------
-    InputError
-        If the form is unknown or the map has fewer points than ``smallest`` along a side.
     """
     least = require.integer(smallest, 4, "least number of points along a side")
     sides = _halvings(min(surface.shape), least)
@@ -105,6 +98,8 @@ def sampling_interval_study(
 ) -> SamplingStudy:
     """Study of the map at 1, 2, 4, … times its sampling interval, over its full size.
 
+    Raises InputError if the mode or form is unknown or the map has fewer points than ``smallest`` along a side.
+
     Parameters
     ----------
     surface
@@ -117,11 +112,6 @@ def sampling_interval_study(
         Least number of points along a side.
     most
         Largest number of offsets; if there are more, evenly spread ones are taken.
-
-    Raises
-    ------
-    InputError
-        If the mode or form is unknown or the map has fewer points than ``smallest`` along a side.
     """
     require.one_of(mode, MODES, "mode of a sampling-interval study")
     least = require.integer(smallest, 4, "least number of points along a side")

@@ -23,10 +23,7 @@ AXES = ("x", "y")
 def axis_index(axis: str) -> int:
     """Array axis of the name ``x`` or ``y``.
 
-    Raises
-    ------
-    InputError
-        If it is neither.
+    Raises InputError if it is neither.
     """
     return AXES.index(require.one_of(axis, AXES, "axis of the profiles"))
 
@@ -36,11 +33,7 @@ def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
 
     A periodic surface wraps and returns (nx, ny) values; otherwise the nodes with both points inside the map. Values
     with a missing point are NaN.
-
-    Raises
-    ------
-    InputError
-        If the lag leaves no pair of points inside the map.
+    Raises InputError if the lag leaves no pair of points inside the map.
     """
     steps_x, steps_y = lag
     h = surface.heights.astype(np.float64, copy=False)
@@ -62,11 +55,7 @@ def second_differences(surface: Surface, axis: str) -> RealArray:
     """h(i+1) - 2 h(i) + h(i-1) in m along ``axis``; NaN as in :func:`increments`.
 
     A periodic surface wraps; otherwise the array is two points shorter along the axis.
-
-    Raises
-    ------
-    InputError
-        If the map has fewer than three points along the axis.
+    Raises InputError if the map has fewer than three points along the axis.
     """
     number, h = axis_index(axis), surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
@@ -82,10 +71,7 @@ def second_differences(surface: Surface, axis: str) -> RealArray:
 def mean_square(values: RealArray, what: str) -> float:
     """Mean of the squares of the numbers in ``values``, NaN left out; ``what`` names the quantity for the error.
 
-    Raises
-    ------
-    InputError
-        If there is no number.
+    Raises InputError if there is no number.
     """
     return mean_of(np.square(values), what)
 
@@ -93,10 +79,7 @@ def mean_square(values: RealArray, what: str) -> float:
 def mean_of(values: RealArray, what: str) -> float:
     """Mean of the numbers in ``values``, NaN left out; ``what`` names the quantity for the error.
 
-    Raises
-    ------
-    InputError
-        If there is no number.
+    Raises InputError if there is no number.
     """
     total = float(values.sum())
     if np.isnan(total):
@@ -144,11 +127,7 @@ def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilS
     """Differences of ``order`` 1, h(x+s) - h(x), or 2, h(x+2s) - 2h(x+s) + h(x), over ``step`` pixels along ``axis``.
 
     A stencil counts if all its points are valid; a periodic surface wraps.
-
-    Raises
-    ------
-    InputError
-        If no stencil is valid or the step is not a whole number >= 1.
+    Raises InputError if no stencil is valid or the step is not a whole number >= 1.
     """
     number = axis_index(axis)
     require.integer(step, 1, "lag of a difference (pixels)")
@@ -220,11 +199,7 @@ def rms_slope(surface: Surface) -> float:
     Scheme: forward differences [h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy, averaged over all valid pairs of each
     direction; a periodic surface wraps. Waves shorter than about eight pixels are underestimated (McCool 1987; Jacobs,
     Junge & Pastewka 2017).
-
-    Raises
-    ------
-    InputError
-        If no two neighbours along x or along y are valid.
+    Raises InputError if no two neighbours along x or along y are valid.
     """
     return math.hypot(rms_profile_slope(surface, axis="x"), rms_profile_slope(surface, axis="y"))
 
@@ -233,11 +208,7 @@ def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
     """Rms slope of the profiles along ``axis`` (square root of m2): forward differences over all valid pairs.
 
     A periodic surface wraps. Dimensionless; ``axis`` is ``x`` or ``y``.
-
-    Raises
-    ------
-    InputError
-        If the axis is unknown or no two neighbours are valid.
+    Raises InputError if the axis is unknown or no two neighbours are valid.
     """
     return math.sqrt(stencil_sums(surface, axis, 1, 1).square) / surface.grid.spacing[axis_index(axis)]
 
@@ -247,11 +218,7 @@ def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
 
     Scheme: [h(i+1) - 2 h(i) + h(i-1)]/d² over all valid triples (McCool 1987); a periodic surface wraps. Waves
     shorter than about eight pixels are underestimated.
-
-    Raises
-    ------
-    InputError
-        If the axis is unknown or no three neighbours are valid.
+    Raises InputError if the axis is unknown or no three neighbours are valid.
     """
     return math.sqrt(stencil_sums(surface, axis, 2, 1).square) / surface.grid.spacing[axis_index(axis)] ** 2
 
@@ -260,11 +227,7 @@ def rms_laplacian(surface: Surface) -> float:
     """Rms of ∂²h/∂x² + ∂²h/∂y² in 1/m: central second differences at the nodes where both exist.
 
     It is twice the rms mean curvature.
-
-    Raises
-    ------
-    InputError
-        If no node has both differences.
+    Raises InputError if no node has both differences.
     """
     along_x, along_y = (
         second_differences(surface, "x") / surface.dx**2,
@@ -279,11 +242,7 @@ def developed_area_ratio(surface: Surface) -> float:
     """Sdr, the surface area over its projection less 1 (a fraction, not %), dimensionless (ISO 25178-2, 4.4.2).
 
     The area of a cell of four valid points is the mean over its two triangulations; a periodic surface wraps.
-
-    Raises
-    ------
-    InputError
-        If no cell has four valid corners.
+    Raises InputError if no cell has four valid corners.
     """
     h = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:

@@ -30,6 +30,7 @@ class SpectralModel:
 
     Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its roll-off. Convention of
     Jacobs, Junge & Pastewka (2017). ``asperity.generate.gaussian`` accepts it as a spectrum.
+    Raises InputError if a number is out of range or the wavelengths are out of order.
 
     Parameters
     ----------
@@ -47,11 +48,6 @@ class SpectralModel:
         Shortest wave in m; 0 for no limit but the grid.
     longest_wavelength
         Longest wave in m, at least λ_r; equal to it, there is no plateau.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range or the wavelengths are out of order.
     """
 
     level: float
@@ -121,10 +117,7 @@ class SpectralModel:
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises
-        ------
-        InputError
-            If the grid holds no mode of the spectrum.
+        Raises InputError if the grid holds no mode of the spectrum.
         """
         values = self.psd(grid.wavenumber())
         if not values.any():
@@ -422,6 +415,8 @@ def fit_spectrum(
 ) -> SpectralFit:
     """Fit ``spectrum`` by the shape selected by the Bayesian information criterion.
 
+    Raises InputError if fewer than eight rings of modes hold power, or an argument is out of range.
+
     Parameters
     ----------
     spectrum
@@ -434,11 +429,6 @@ def fit_spectrum(
     model_error
         Relative error of the model, which no real surface follows exactly; 0.1 keeps the thousands of short waves of a
         measured map from dominating the fit, 0 is for surfaces generated with such a spectrum.
-
-    Raises
-    ------
-    InputError
-        If fewer than eight rings of modes hold power, or an argument is out of range.
     """
     if slopes not in (None, 1, 2):
         raise InputError(f"number of power laws of a spectrum must be 1 or 2, but is {slopes!r}.")

@@ -36,10 +36,7 @@ LOST_MODES = {"none": 1.0, "hann": 35.0 / 18.0, "radial hann": 2.0}
 def chosen_window(window: str, surface: Surface) -> str:
     """Kind of window for ``surface``: as named; ``auto`` gives none for a periodic surface and hann otherwise.
 
-    Raises
-    ------
-    InputError
-        If the name is unknown.
+    Raises InputError if the name is unknown.
     """
     require.one_of(window, ("auto", *WINDOWS), "window of a spectrum")
     if window == "auto":
@@ -128,6 +125,8 @@ class ProfileSpectrum:
 def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     """Two-dimensional power spectrum of the heights about their mean.
 
+    Raises InputError if points are missing or the window is unknown.
+
     Parameters
     ----------
     surface
@@ -135,11 +134,6 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     window
         ``auto`` (none for a periodic surface, hann otherwise), ``none``, ``hann`` (separable) or ``radial hann``.
         Without a window, the jump between opposite borders of a non-periodic map masks spectra steeper than q^-3.
-
-    Raises
-    ------
-    InputError
-        If points are missing or the window is unknown.
     """
     require_complete(surface, "transformed")
     kind = chosen_window(window, surface)
@@ -165,11 +159,7 @@ def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto")
     """Mean over all lines of the spectrum of the profiles along ``axis``, each about its own mean.
 
     ``window`` as for :func:`power_spectrum`, except ``radial hann``.
-
-    Raises
-    ------
-    InputError
-        If points are missing, the axis or window is unknown, or the lines have a single point.
+    Raises InputError if points are missing, the axis or window is unknown, or the lines have a single point.
     """
     number = axis_index(axis)
     require_complete(surface, "transformed")
@@ -263,11 +253,7 @@ def mean_square_after_levelling(
 
     E = (1/4π²) ∫ C(q) [1 - Σ_(a+b<=d) (2a+1)(2b+1) j_a²(q_x Lx/2) j_b²(q_y Ly/2)] d²q, spherical Bessel functions j, for
     the continuous window ``size`` (Lx, Ly) in m and waves between the two wavelengths in m. Accurate to about 1e-4.
-
-    Raises
-    ------
-    InputError
-        If the form is unknown or a length is not positive.
+    Raises InputError if the form is unknown or a length is not positive.
     """
     degree = DEGREES[require.one_of(form, DEGREES, "form to be removed")]
     shorter, longer = sorted(require.positive(side, "side of a window (m)") for side in size)
@@ -298,11 +284,7 @@ def expected_difference_moments(
     m2 = (1/2π) ∫ q C 2[1 - J0(qΔ)]/Δ² dq, m4 = (1/2π) ∫ q C 2[3 - 4 J0(qΔ) + J0(2qΔ)]/Δ⁴ dq over the waves between the
     two wavelengths in m. Compared with the moments of the continuous surface they show the error of the pixel size.
     ``bends``: wavelengths in m at which C has a kink, for accuracy beyond 1e-4.
-
-    Raises
-    ------
-    InputError
-        If the spacing or a wavelength is not positive.
+    Raises InputError if the spacing or a wavelength is not positive.
     """
     from scipy.special import j0
 

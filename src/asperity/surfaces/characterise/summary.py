@@ -338,6 +338,8 @@ def characterise(
     """All roughness quantities of ``surface``: ISO 25178-2 parameters, spectra, correlation, summits, fractal parameters.
 
     Nothing is levelled, filtered or cropped: prepare the surface first. Heights are measured from their mean.
+    Raises InputError if a choice is unknown or the radius is not positive. What cannot be computed for this surface
+    is NaN and explained in ``remarks``.
 
     Parameters
     ----------
@@ -351,12 +353,6 @@ def characterise(
     tip_radius
         Radius in m of the tip of the scanning probe: waves that it may have distorted are excluded from the fitted
         spectrum.
-
-    Raises
-    ------
-    InputError
-        If a choice is unknown or the radius is not positive. What cannot be computed for this surface is NaN and
-        explained in ``remarks``.
     """
     chosen_window(window, surface)
     if tip_radius is not None:

@@ -114,11 +114,7 @@ def summits(surface: Surface, neighbours: int = 8) -> Summits:
     Borders are excluded unless the surface is periodic. With 8 neighbours the density of a well resolved isotropic
     surface is 1.01 times the true one, with 4 it is 1.31 times: use 8, and 4 for comparison with the literature only.
     On a surface rough down to the pixel densities and curvatures depend on the sampling interval.
-
-    Raises
-    ------
-    InputError
-        If ``neighbours`` is neither 4 nor 8.
+    Raises InputError if ``neighbours`` is neither 4 nor 8.
     """
     if neighbours not in (4, 8):
         raise InputError(f"neighbours of a summit must be 4 or 8, but are {neighbours!r}.")
@@ -231,11 +227,7 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
     """Peaks of the profiles of ``surface``: points strictly above both neighbours along ``axis``, all three valid.
 
     A periodic surface wraps. Correlations are pair averages over the mean square of the valid heights.
-
-    Raises
-    ------
-    InputError
-        If the axis is neither x nor y.
+    Raises InputError if the axis is neither x nor y.
     """
     number = axis_index(axis)
     d, variance = surface.grid.spacing[number], rms_height(surface) ** 2

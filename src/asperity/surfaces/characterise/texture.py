@@ -54,11 +54,7 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first crossings along rays, one per degree.
 
     Rays end at half the map; R is interpolated bilinearly.
-
-    Raises
-    ------
-    InputError
-        If ``drop`` is not between 0 and 1.
+    Raises InputError if ``drop`` is not between 0 and 1.
     """
     require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
     half = tuple(

@@ -27,11 +27,6 @@ class ExponentialAutocorrelation(Declared):
     Synthesis is by circulant embedding. ``gaussian`` removes the mean of every realisation, so the expected mean square
     is σ² less the variance of the mean, as for any finite window. Source: Peng & Bhushan (2001) for the 10 % length;
     Dietrich & Newsam (1997) for the embedding.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
     """
 
     rms_height: Annotated[Length, "rms height"]
@@ -72,10 +67,7 @@ class ExponentialAutocorrelation(Declared):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises
-        ------
-        InputError
-            If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
+        Raises InputError if the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
         return embedded_psd(self, grid)
 
@@ -134,10 +126,7 @@ class GaussianAutocorrelation(Declared):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises
-        ------
-        InputError
-            If the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
+        Raises InputError if the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
         return embedded_psd(self, grid)
 

@@ -43,11 +43,7 @@ def bimodal(
     h = X where M < Φ⁻¹(share), else Y, with independent Gaussian fields X, Y and M; there are steps at the boundaries.
     With p the share, d the distance of a mean from the common one: <h²> = Σ p (σ² + d²), <h³> = Σ p (d³ + 3 d σ²),
     <h⁴> = Σ p (d⁴ + 6 d² σ² + 3 σ⁴) about the mean.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or the grid does not suit a spectrum.
+    Raises InputError if the grid does not suit a spectrum.
     """
     from scipy.special import ndtri
 
@@ -76,11 +72,7 @@ def two_process(
 
     X is the fine texture of the plateau with mean 0, Y the coarse one with mean ``offset``, independent Gaussian
     fields. The material ratio on probability paper is two straight lines; the heights are usually strongly skewed.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or the grid does not suit a spectrum.
+    Raises InputError if the grid does not suit a spectrum.
     """
     first, second = (random_field(grid, s, n) for s, n in zip((plateau, valleys), sub_seeds(seed, 2), strict=True))
     heights = (np.minimum if keep == "lower" else np.maximum)(first, second + offset)
@@ -110,11 +102,8 @@ def particles(
 
     Places are independent and uniform, so spheres overlap by chance; their number is Poisson distributed. Radii are normal,
     those not positive drawn again. The top of each stands ``exposure`` radii above the matrix at its centre.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range, there are more than ten million particles, or one is wider than the grid.
+    Raises InputError if a value is out of range, there are more than ten million particles, or one is wider than the
+    grid.
     """
     if density * grid.area > _MOST_PARTICLES:
         raise InputError(

@@ -30,11 +30,7 @@ def sphere(
     """Sphere of ``radius`` R (m), by default its paraboloid h = -r²/(2R), the profile of Hertz' theory.
 
     With ``exact`` the profile is h = -R + sqrt(R² - r²); paraboloid and sphere differ by about r²/(4R²) of the sag.
-
-    Raises
-    ------
-    InputError
-        If the radius is not positive, or with ``exact`` a node lies outside r <= R.
+    Raises InputError if the radius is not positive, or with ``exact`` a node lies outside r <= R.
     """
     r_squared = _radius_squared(grid)
     if not exact:
@@ -56,13 +52,7 @@ def elliptic_paraboloid(
     radius_x: Annotated[Length, "principal radius along x"],
     radius_y: Annotated[Length, "principal radius along y"],
 ) -> Surface:
-    """Elliptic paraboloid h = -x²/(2 Rx) - y²/(2 Ry) with principal radii ``radius_x``, ``radius_y`` (m, positive).
-
-    Raises
-    ------
-    InputError
-        If a radius is not positive.
-    """
+    """Elliptic paraboloid h = -x²/(2 Rx) - y²/(2 Ry) with principal radii ``radius_x``, ``radius_y`` (m, positive)."""
     x, y = grid.centred_coordinates()
     heights = -(x**2) / (2.0 * radius_x) - y**2 / (2.0 * radius_y)
     return _shape(grid, heights, f"elliptic paraboloid, radii {show(radius_x, 'm')} and {show(radius_y, 'm')}")
@@ -72,13 +62,7 @@ def elliptic_paraboloid(
 def cylinder(
     grid: Grid, *, radius: Annotated[Length, "radius R"], axis: Annotated[Axis, "direction along which it runs"] = "y"
 ) -> Surface:
-    """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along y.
-
-    Raises
-    ------
-    InputError
-        If the radius is not positive or the axis is not ``x`` or ``y``.
-    """
+    """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along y."""
     x, y = grid.centred_coordinates()
     across = x if axis == "y" else y
     return _shape(grid, -(across**2) / (2.0 * radius), f"parabolic cylinder along {axis}, radius {show(radius, 'm')}")
@@ -90,25 +74,13 @@ Slope: TypeAlias = Annotated[Positive, "tangent of the angle between flank and s
 
 @checked
 def cone(grid: Grid, *, slope: Slope) -> Surface:
-    """Cone h = -slope · r; ``slope`` is the tangent of the angle between flank and surface (dimensionless, positive).
-
-    Raises
-    ------
-    InputError
-        If the slope is not positive.
-    """
+    """Cone h = -slope · r; ``slope`` is the tangent of the angle between flank and surface (dimensionless, positive)."""
     return _shape(grid, -slope * np.sqrt(_radius_squared(grid)), f"cone, slope {slope:g}")
 
 
 @checked
 def wedge(grid: Grid, *, slope: Slope, axis: Annotated[Axis, "direction along which it runs"] = "y") -> Surface:
-    """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`.
-
-    Raises
-    ------
-    InputError
-        If the slope is not positive or the axis is not ``x`` or ``y``.
-    """
+    """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`."""
     x, y = grid.centred_coordinates()
     return _shape(grid, -slope * np.abs(x if axis == "y" else y), f"wedge along {axis}, slope {slope:g}")
 
@@ -124,11 +96,6 @@ def power_law(
     """Indenter h = -height · (r/radius)^n of the ``exponent`` n: 1 a cone, 2 a paraboloid, large n nearly a flat punch.
 
     ``height`` is the sag at the ``radius``, both in m and positive.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive.
     """
     heights = -height * (_radius_squared(grid) / radius**2) ** (0.5 * exponent)
     return _shape(grid, heights, f"power law, exponent {exponent:g}, height {show(height, 'm')} at {show(radius, 'm')}")
@@ -146,11 +113,7 @@ def flat_punch(
 
     The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the problem. With an
     ``edge_radius`` R_e (m) the edge is rounded within a - R_e < r <= a: h = -(R_e - sqrt[R_e² - (r - a + R_e)²]).
-
-    Raises
-    ------
-    InputError
-        If radius or depth is not positive, or the edge radius is not between 0 and both.
+    Raises InputError if radius or depth is not positive, or the edge radius is not between 0 and both.
     """
     r_squared = _radius_squared(grid)
     text = f"flat punch, radius {show(radius, 'm')}, depth {show(depth, 'm')}"
@@ -174,11 +137,7 @@ def sinusoid(
     """Wave h = amplitude · [cos(2πx/λ) - 1] along ``axis``, periodic; amplitude and wavelength λ in m, positive.
 
     Against a flat the gap is amplitude · [1 - cos(2πx/λ)] (Johnson 1985, section 13.2).
-
-    Raises
-    ------
-    InputError
-        If a value is not positive, or the grid is not a whole number of wavelengths sampled at least twice each.
+    Raises InputError if the grid is not a whole number of wavelengths sampled at least twice each.
     """
     wave = _wave(grid, wavelength, "xy".index(axis))
     text = f"sinusoid along {axis}, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
@@ -195,11 +154,7 @@ def bisinusoid(
     """Egg-box h = amplitude · [cos(2πx/λ) + cos(2πy/λ) - 2], periodic; amplitude and wavelength λ in m, positive.
 
     Source: Johnson, Greenwood & Higginson (1985), with the highest points at zero.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive, or a side of the grid is not a whole number of wavelengths.
+    Raises InputError if a side of the grid is not a whole number of wavelengths.
     """
     heights = amplitude * (_wave(grid, wavelength, 0) + _wave(grid, wavelength, 1) - 2.0)
     text = f"bisinusoid, amplitude {show(amplitude, 'm')}, wavelength {show(wavelength, 'm')}"
@@ -260,11 +215,7 @@ def laser_bumps(
 
     h = h_rim exp[-(r - r_rim)²/w²] - d exp(-r²/w0²), r from the nearest centre. A description to be fitted to measured
     bumps, not a law. Heights are measured from the surface between the bumps.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range, or a side of the grid is not a whole number of pitches.
+    Raises InputError if a side of the grid is not a whole number of pitches.
     """
     height, width, rim, crater = rim_height, rim_width, rim_radius, depth
     radius = crater_radius or rim or width
@@ -290,11 +241,7 @@ def dimples(
 
     ``sharpness`` p >= 1: 1 is a Gaussian, large values have steep walls and a flat bottom. ``radius`` a and ``depth`` in m;
     ``pitch`` as for :func:`laser_bumps`. The highest level is zero.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range, or a side of the grid is not a whole number of pitches.
+    Raises InputError if a side of the grid is not a whole number of pitches.
     """
     x, y = _from_centres(grid, pitch)
     with np.errstate(over="ignore"):  # far outside a sharp dimple
@@ -320,11 +267,7 @@ def grooves(
 
     Within half a ``width`` of its middle a groove is ``vee`` shaped, ``round`` (a parabola) or a ``cosine`` that meets the
     surface smoothly; depth at the middle. ``pitch`` >= ``width``, all in m. A groove lies at the middle of the grid.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range, or the side across the grooves is not a whole number of pitches.
+    Raises InputError if the side across the grooves is not a whole number of pitches.
     """
     if width > pitch * (1.0 + 1e-9):
         raise InputError(f"width of the grooves must not exceed their pitch ({pitch:g} m), but is {width:g} m.")

@@ -58,6 +58,9 @@ class FilterKernel:
 def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: float | None = None) -> FilterKernel:
     """Kernel of the digital filter for surfaces of ``spectrum`` with pixels ``spacing`` (dx, dy) in m.
 
+    Raises InputError if the range is unknown, or the kernel decays so slowly that dropping changes the
+    autocorrelation by 1e-2.
+
     Parameters
     ----------
     spectrum
@@ -67,11 +70,6 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
     reach
         Distance in m beyond which the weights are dropped (the rest is scaled to the same mean square);
         ``spectrum.correlation_range`` if omitted.
-
-    Raises
-    ------
-    InputError
-        If the range is unknown, or the kernel decays so slowly that dropping changes the autocorrelation by 1e-2.
     """
     length = _reach(spectrum, reach)
     domain = _domain(spectrum, spacing, length)
@@ -184,10 +182,7 @@ class EndlessSurface:
     def window(self, shape: tuple[int, int], first: tuple[int, int] = (0, 0)) -> Surface:
         """Surface on ``shape`` (nx, ny) nodes from the node ``first`` (i, j) of the endless one on, of either sign.
 
-        Raises
-        ------
-        InputError
-            If a number is not whole or a number of points is below 1.
+        Raises InputError if a number is not whole or a number of points is below 1.
         """
         nx, ny = (require.integer(n, 1, f"number of points along {a}") for n, a in zip(shape, "xy", strict=True))
         i, j = (require.integer(n, -(2**62), f"first node along {a}") for n, a in zip(first, "xy", strict=True))
@@ -229,6 +224,7 @@ def endless(
     White noise is drawn in blocks of 64 x 64 nodes, each with its own stream of the counter-based generator Philox,
     and filtered by a kernel of finite reach. Heights of other skewness or kurtosis come from noise whose cumulants are
     raised by what the filter takes away (Chilamakuri & Bhushan 1998).
+    Raises InputError if the kernel does not die out, or no noise gives these heights through the filter.
 
     Parameters
     ----------
@@ -244,11 +240,6 @@ def endless(
         ``johnson`` or ``pearson``: of the distribution of the noise.
     reach
         Distance in m at which the kernel is cut; ``spectrum.correlation_range`` if omitted.
-
-    Raises
-    ------
-    InputError
-        If the kernel does not die out, or no noise gives these heights through the filter.
     """
     pair = require.two(spacing, "pixel of an endless surface (m)", "Write (dx, dy).")
     dx, dy = (
@@ -280,6 +271,7 @@ def digital_filter(
     The autocovariance is exact; skewness and kurtosis are those of the infinite surface, and scatter in a realisation.
     The mean is not removed. The closer the noise must come to the limit of what a distribution can be, the rarer
     and higher its spikes, and the larger this scatter.
+    Raises InputError if no noise gives these heights through the filter, or the grid does not suit the spectrum.
 
     Parameters
     ----------
@@ -291,11 +283,6 @@ def digital_filter(
         As for :func:`endless`.
     periodic
         Filter a periodic field of noise. Otherwise the surface is the window at node (0, 0) of the endless one.
-
-    Raises
-    ------
-    InputError
-        If no noise gives these heights through the filter, or the grid does not suit the spectrum.
     """
     if not periodic:
         made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis, system=system)
@@ -314,11 +301,7 @@ def input_noise(weights: RealArray, skewness: float, kurtosis: float, system: st
     """Distribution of the noise from which the filter ``weights`` make heights of this skewness and kurtosis.
 
     Third and fourth cumulants are reduced by N3 and N4, so Ssk_η = Ssk/N3 and Sku_η = 3 + (Sku - 3)/N4.
-
-    Raises
-    ------
-    InputError
-        If that noise would have a kurtosis below 1 + skewness².
+    Raises InputError if that noise would have a kurtosis below 1 + skewness².
     """
     require_possible(skewness, kurtosis)
     third, fourth = cumulant_factors(weights)

@@ -78,10 +78,7 @@ def eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
 def clipped_eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
     """Eigenvalues in m² without their negative part.
 
-    Raises
-    ------
-    InputError
-        If the grid is so small that the negative part exceeds 1e-4 of the positive one.
+    Raises InputError if the grid is so small that the negative part exceeds 1e-4 of the positive one.
     """
     values = eigenvalues(model, grid)
     if negative_part(grid, values) > CLIP_LIMIT:
@@ -238,6 +235,8 @@ def gaussian(
 
     White noise η (standard normal) is filtered: h = IFFT[FFT[η] sqrt(C/(dx dy))]. Equal seeds give equal surfaces on
     every machine and for every number of threads, up to rounding of the transform.
+    Raises InputError if the seed is not a whole number >= 0, the variant is unknown or the grid does not suit the
+    spectrum.
 
     Parameters
     ----------
@@ -260,11 +259,6 @@ def gaussian(
     periodic
         If false, a window of a periodic surface that is longer by ``spectrum.correlation_range`` (twice as long if the
         spectrum has none), so that opposite borders are independent. Its mean, tilt and rms height scatter.
-
-    Raises
-    ------
-    InputError
-        If the seed is not a whole number >= 0, the variant is unknown or the grid does not suit the spectrum.
     """
     parent = grid if periodic else parent_grid(grid, spectrum)
     psd = spectrum.lattice_psd(parent)
@@ -286,10 +280,7 @@ def gaussian(
 def parent_grid(grid: Grid, spectrum: object) -> Grid:
     """Grid of the periodic surface from which a window on ``grid`` is cut.
 
-    Raises
-    ------
-    InputError
-        If it would have more than 2^29 points.
+    Raises InputError if it would have more than 2^29 points.
     """
     reach = getattr(spectrum, "correlation_range", None)
     sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))

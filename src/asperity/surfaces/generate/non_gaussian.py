@@ -72,11 +72,8 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
 
     The lognormal curve in the plane of both divides the unbounded family (larger kurtosis; Tuenter 2001) from the
     bounded one, whose moments come by quadrature.
-
-    Raises
-    ------
-    InputError
-        If kurtosis < 1 + skewness², which no distribution has, or so close to it that only two heights remain.
+    Raises InputError if kurtosis < 1 + skewness², which no distribution has, or so close to it that only two heights
+    remain.
     """
     require_possible(skewness, kurtosis)
     if abs(skewness) < _ON_LINE:
@@ -243,10 +240,7 @@ class HeightLaw(Protocol):
 def height_law(skewness: float, kurtosis: float, system: str = "johnson") -> HeightLaw:
     """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis``, of ``johnson`` or ``pearson``.
 
-    Raises
-    ------
-    InputError
-        If no distribution has these moments, only one of two heights, or the system is unknown.
+    Raises InputError if no distribution has these moments, only one of two heights, or the system is unknown.
     """
     if require.one_of(system, get_args(System), "system of distributions of the heights") == "pearson":
         return Pearson(skewness, kurtosis)
@@ -270,10 +264,7 @@ class Marginal(Protocol):
 class HeightMoments(Declared):
     """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's or Pearson's system.
 
-    Raises
-    ------
-    InputError
-        If kurtosis < 1 + skewness², or the system is unknown.
+    Raises InputError if kurtosis < 1 + skewness², or the system is unknown.
     """
 
     skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"] = 0.0
@@ -330,11 +321,6 @@ class TwoLevels(Declared):
 
     ``separation`` of their means and ``upper_deviation`` in units of the standard deviation of the lower one. Equal
     distributions show two maxima if their means are more than two standard deviations apart.
-
-    Raises
-    ------
-    InputError
-        If the share is not between 0 and 1, or the others are not positive.
     """
 
     share: Annotated[Fraction, "share of the area"]
@@ -385,6 +371,8 @@ def translated(
     Every height has the distribution of T exactly, at any resolution; the moments of a realisation scatter about it. T
     changes the correlation of two heights by a few per cent; ``predistorted`` gives G the autocovariance from which T
     makes that of ``spectrum``. The mean is not removed.
+    Raises InputError if no distribution has these moments, or no Gaussian field has the autocovariance that the
+    translation would need.
 
     Parameters
     ----------
@@ -400,11 +388,6 @@ def translated(
         ``johnson`` or ``pearson``: of the distribution of the heights.
     predistorted
         Whether ``spectrum`` is that of the heights; otherwise of G.
-
-    Raises
-    ------
-    InputError
-        If no distribution has these moments, or no Gaussian field has the autocovariance that the translation would need.
     """
     law = height_law(skewness, kurtosis, system)
     eigenvalues = lattice_eigenvalues(spectrum, grid)

@@ -47,10 +47,7 @@ Amplitude: TypeAlias = RmsHeight | RmsSlope | PlateauPSD
 def require_amplitude(amplitude: object, what: str) -> None:
     """Refuse what is not an ``Amplitude``; ``what`` names the spectrum.
 
-    Raises
-    ------
-    InputError
-        As said.
+    Raises InputError as said.
     """
     if not isinstance(amplitude, (RmsHeight, RmsSlope, PlateauPSD)):
         raise InputError(
@@ -73,10 +70,7 @@ def amplitude_text(amplitude: Amplitude) -> str:
 def mean_square(grid: Grid, psd: RealArray) -> float:
     """Mean square height in m² of the spectrum C on the modes of ``grid`` in m⁴.
 
-    Raises
-    ------
-    InputError
-        If it is zero.
+    Raises InputError if it is zero.
     """
     square = mode_sum(grid, psd)
     if not square > 0.0:
@@ -128,10 +122,7 @@ class PowerLaws:
 def lattice_psd(law: PowerLaws, amplitude: Amplitude, grid: Grid) -> RealArray:
     """C in m⁴ on the modes of ``grid``, shape (nx, ny // 2 + 1): ``law`` at the level that meets ``amplitude`` there.
 
-    Raises
-    ------
-    InputError
-        If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
     """
     relative = law.relative(grid.wavenumber())
     relative *= lattice_level(law, amplitude, grid, [(slice(None), relative)])
@@ -142,11 +133,7 @@ def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Itera
     """C0 in m⁴ at which ``law`` meets the ``amplitude`` on ``grid``.
 
     ``parts`` are C/C0 on all modes, in pieces for consecutive columns of the half spectrum.
-
-    Raises
-    ------
-    InputError
-        If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
     """
     finest, shortest = 2.0 * max(grid.spacing), 2.0 * np.pi / law.high
     if 0.0 < shortest < finest * (1.0 - _ROUNDING):
@@ -170,10 +157,7 @@ def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Itera
 def continuous_level(law: PowerLaws, amplitude: Amplitude) -> float:
     """C0 in m⁴ of the continuous surface, from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq.
 
-    Raises
-    ------
-    InputError
-        If the integral diverges.
+    Raises InputError if the integral diverges.
     """
     if isinstance(amplitude, PlateauPSD):
         return amplitude.value

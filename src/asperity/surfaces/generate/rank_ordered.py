@@ -53,6 +53,8 @@ def rank_ordered(
     spectra that end at long waves leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history records the
     error. Spectrum and histogram do not scatter between realisations. Rounding differences between FFT libraries are
     amplified by the ranks: another library gives another realisation.
+    Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is
+    left.
 
     Parameters
     ----------
@@ -73,11 +75,6 @@ def rank_ordered(
         Steps of both kinds after which to stop although the amplitudes still improve.
     progress
         Told the relative error of the amplitudes.
-
-    Raises
-    ------
-    InputError
-        If the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
     """
     target = _target(grid, spectrum, heights)
     values = np.random.Generator(np.random.PCG64(seed)).permutation(target.heights).reshape(grid.shape)

@@ -50,6 +50,7 @@ class SelfAffine(Declared):
 
     ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
     (ensemble average), in :meth:`psd` by the integral. Source: Jacobs, Junge & Pastewka (2017), section 2.
+    Raises InputError if the wavelengths are out of order.
 
     Parameters
     ----------
@@ -60,11 +61,6 @@ class SelfAffine(Declared):
     rolloff_wavelength, shortest_wavelength, longest_wavelength
         λ_r, λ_s, λ_L in m with λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean, λ_s = 0
         keeps all modes of the grid, those in the corners of the Nyquist square too.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or the wavelengths are out of order.
     """
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
@@ -100,10 +96,7 @@ class SelfAffine(Declared):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises
-        ------
-        InputError
-            If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+        Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
         """
         return lattice_psd(self.law, self.amplitude, grid)
 
@@ -121,6 +114,7 @@ class TwoSlopes(Declared):
 
     Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
     spectrum is no fractal, and is accepted. ``amplitude`` as for ``SelfAffine``.
+    Raises InputError if the wavelengths are out of order.
 
     Parameters
     ----------
@@ -132,11 +126,6 @@ class TwoSlopes(Declared):
         λ_r and λ_c <= λ_r in m.
     shortest_wavelength, longest_wavelength
         λ_s <= λ_c and λ_L >= λ_r in m; λ_s = 0 keeps all modes of the grid, those in the corners of the Nyquist square too.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or the wavelengths are out of order.
     """
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
@@ -181,10 +170,7 @@ class TwoSlopes(Declared):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises
-        ------
-        InputError
-            If the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+        Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
         """
         return lattice_psd(self.law, self.amplitude, grid)
 
@@ -227,6 +213,8 @@ _MIXED = 2.5  # modes below are mixed with the mean by a window
 class TabulatedSpectrum:
     """Isotropic spectrum given by a table: ln C linear in ln q between the rows, constant below, zero beyond the last.
 
+    Raises InputError if the two columns are not of one length of at least 2, or hold values out of range.
+
     Parameters
     ----------
     q
@@ -237,11 +225,6 @@ class TabulatedSpectrum:
         What it is, for the history.
     citation_keys
         Papers behind it.
-
-    Raises
-    ------
-    InputError
-        If the two columns are not of one length of at least 2, or hold values out of range.
     """
 
     q: RealArray
@@ -341,6 +324,7 @@ def spectrum_of(
     of the next ones. Waves longer than the surface have that power too, waves shorter than those of its grid none. The
     shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions, and
     keeps that of every ring of wavenumbers.
+    Raises InputError if points are missing, all heights are equal, or nothing is left above the floor.
 
     Parameters
     ----------
@@ -354,11 +338,6 @@ def spectrum_of(
         Rings per factor of ten in wavenumber over which an isotropic spectrum is averaged.
     floor
         Constant C_n in m⁴ to be subtracted: white noise of the instrument, mean square height times dx dy.
-
-    Raises
-    ------
-    InputError
-        If points are missing, all heights are equal, or nothing is left above the floor.
     """
     from ..characterise.spectrum import power_spectrum
 
@@ -475,10 +454,7 @@ Columns = Callable[[slice], RealArray]
 def spectrum_columns(spectrum: Spectrum, grid: Grid, width: int) -> Columns:
     """``spectrum.lattice_psd(grid)`` in pieces; ``width`` columns at a time where a sum over all modes is needed first.
 
-    Raises
-    ------
-    InputError
-        If the spectrum is not a function of the wavenumber alone, or the grid does not suit it.
+    Raises InputError if the spectrum is not a function of the wavenumber alone, or the grid does not suit it.
     """
     if isinstance(spectrum, TabulatedSpectrum):
         table = spectrum

@@ -35,11 +35,6 @@ def weierstrass_mandelbrot(
     z = -L (G/L)^(D-2) sqrt(ln γ/M) Σ_m Σ_n γ^((D-3)n) cos[2π γ^n (x cos(πm/M) + y sin(πm/M))/L + φ_mn], m = 1…M, n = 0…n_max,
     n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
     for many ridges; prefer :func:`gaussian` unless a published case is to be repeated.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
     """
     longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
     powers = _powers(gamma, longest, shortest, ridges)
@@ -70,11 +65,6 @@ def weierstrass_mandelbrot_profile(
     """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x + φ_n)/γ^((2-D)n), n = n1…n2.
 
     γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar & Bhushan 1990).
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
     """
     longest, shortest = _limits(length, shortest_wavelength, grid.size[0], grid.spacing[0])
     first = math.floor(math.log(1.0 / longest) / math.log(gamma))

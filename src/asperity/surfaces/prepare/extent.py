@@ -32,11 +32,8 @@ def cropped(
 
     An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result is x1 - x0 to
     within one pixel. A cropped periodic surface is not periodic; level it again.
-
-    Raises
-    ------
-    InputError
-        If a range is reversed, empty after rounding, or reaches more than half a pixel outside the surface.
+    Raises InputError if a range is reversed, empty after rounding, or reaches more than half a pixel outside the
+    surface.
     """
     (first_x, last_x), (first_y, last_y) = _pixels(surface, x, 0), _pixels(surface, y, 1)
     if (last_x - first_x, last_y - first_y) == surface.shape:
@@ -95,10 +92,8 @@ def sliced(
 ) -> Surface:
     """One line of ``surface``, at ``y`` or at ``x``, as a surface (n, 1) along x.
 
-    Raises
-    ------
-    InputError
-        If none or both positions are given, the position lies outside the map, or the length is not positive.
+    Raises InputError if none or both positions are given, the position lies outside the map, or the length is not
+    positive.
     """
     if (x is None) == (y is None):
         raise InputError(f"line of a map must be given by exactly one of x and y, but is given by x={x!r}, y={y!r}.")
@@ -140,11 +135,7 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     the Nyquist lines of even sizes are split in halves). Any other surface is interpolated by a bicubic spline along
     an axis that becomes finer and averaged over pixel areas along an axis that becomes coarser (pixel areas stay in
     place). Removing short waves and averaging both reduce the rms height; neither aliases.
-
-    Raises
-    ------
-    InputError
-        If a number of points is not a whole number >= 1 or points are missing.
+    Raises InputError if a number of points is not a whole number >= 1 or points are missing.
     """
     nx, ny = points
     require_complete(surface, "resampled")
@@ -258,10 +249,7 @@ def tapered(
 ) -> Surface:
     """Periodic surface whose heights are tapered to their mean at the borders (cosine or Tukey taper).
 
-    Raises
-    ------
-    InputError
-        If the width is out of range or points are missing.
+    Raises InputError if the width is out of range or points are missing.
     """
     require_complete(surface, "tapered")
     heights = surface.heights.astype(np.float64, copy=False)
@@ -278,11 +266,7 @@ def periodised(surface: Surface) -> Surface:
     The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the map and holds
     the jumps at its borders, so that the discrete Laplacian of all interior points and the mean height are preserved. A
     periodic surface is returned unchanged. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx² and 1/dy².
-
-    Raises
-    ------
-    InputError
-        If points are missing.
+    Raises InputError if points are missing.
     """
     if surface.periodic:
         return surface

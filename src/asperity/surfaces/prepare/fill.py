@@ -25,11 +25,6 @@ def filled(surface: Surface, method: Annotated[FillMethod, "how missing points a
     ``harmonic`` solves ∇²h = 0 in every hole with the heights on its rim (zero normal slope at the border of the
     map), ``nearest`` takes the closest valid height and ``mean`` the mean of the valid heights. Fills are smooth:
     they reduce mean square slopes and curvatures near the holes.
-
-    Raises
-    ------
-    InputError
-        If the method is unknown.
     """
     if surface.n_missing == 0:
         return surface

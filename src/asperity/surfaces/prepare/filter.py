@@ -178,6 +178,8 @@ def filtered(
     nodes at the distance r from the smooth surface have the weight (1 - (r/c)²)² with c = 4.4478 times the median of
     |r|, iterated until c converges; spikes and deep valleys then do not distort their surroundings. ``sharp``: ideal
     band-pass between the cut-offs, for periodic surfaces only. Missing points stay missing.
+    Raises InputError if no cut-off is given, one is out of range, they are out of order, or a sharp filter is applied
+    to a surface that is not periodic or not complete.
 
     Parameters
     ----------
@@ -192,12 +194,6 @@ def filtered(
         Order of the local polynomial: 0 as in ISO 16610-61; 1 preserves planes and 2 quadratic forms up to the borders.
     reach
         Half width of the window in cut-offs; 1 is exact to 2e-7, 0.5 to 1 %.
-
-    Raises
-    ------
-    InputError
-        If no cut-off is given, one is out of range, they are out of order, or a sharp filter is applied to a surface
-        that is not periodic or not complete.
     """
     require.one_of(kind, KINDS, "kind of filter")
     if order not in (0, 1, 2):
@@ -308,11 +304,7 @@ def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
 
     The longer of the stencil lengths along x and y at which the sharpest peak has the curvature 1/(2 R) (Sanner et al.
     2022, eq. 10). SurfaceTopography applies the same criterion along x alone.
-
-    Raises
-    ------
-    InputError
-        If the radius is not positive or the map too small for a stencil.
+    Raises InputError if the radius is not positive or the map too small for a stencil.
     """
     radius = require.positive(tip_radius, "radius of the tip (m)")
     return max(tip_cutoff(scale_dependence(surface, axis=axis), radius) for axis in ("x", "y"))
@@ -324,11 +316,7 @@ def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]
 
     If the tip was sharp enough for every peak at every length, or the cut-off is below four pixels, which a filter does
     not resolve, the heights are unchanged; the history records the cut-off in any case.
-
-    Raises
-    ------
-    InputError
-        If the tip is blunter than the surface at every length: no wave of the map is reliable.
+    Raises InputError if the tip is blunter than the surface at every length: no wave of the map is reliable.
     """
     cutoff = reliability_cutoff(surface, radius)
     if math.isinf(cutoff):

@@ -21,10 +21,7 @@ from ..surface import Surface
 def require_complete(surface: Surface, word: str) -> None:
     """Raise an error for missing points; ``word`` is the participle of the step, such as ``"tapered"``.
 
-    Raises
-    ------
-    InputError
-        If points are missing.
+    Raises InputError if points are missing.
     """
     if surface.n_missing:
         raise InputError(
@@ -63,6 +60,7 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
     of any whole number up to 20, found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling
     is a high-pass filter: it reduces the rms height of a surface with waves as long as the map, the more the higher the
     degree. A periodic surface stays periodic only if no more than the mean is removed.
+    Raises InputError if the form is unknown or the valid points do not determine it (all on one line, for example).
 
     Parameters
     ----------
@@ -73,11 +71,6 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
     robust
         Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until the
         excluded points no longer change: for surfaces whose peaks or pits would tilt the plane.
-
-    Raises
-    ------
-    InputError
-        If the form is unknown or the valid points do not determine it (all on one line, for example).
     """
     degree, name = _degree(form)
     used = ~surface.mask
@@ -158,11 +151,6 @@ def despiked(
 
     The limit is ``threshold`` standard deviations of these distances, estimated robustly from their median (1.4826
     MAD). Fill the points afterwards, or leave them missing. Heights are never clipped.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
     """
     distance = np.abs(surface.heights.astype(np.float64) - _local_median(surface, window))
     valid = ~surface.mask
@@ -185,11 +173,6 @@ def line_corrected(
 
     The offset of a line is the cumulative sum of the medians of the differences between successive lines. Height
     variations only across the lines are removed as well; spectra and slopes along the lines are unchanged.
-
-    Raises
-    ------
-    InputError
-        If the axis is not ``x`` or ``y``.
     """
     lines = surface.heights.astype(np.float64)
     lines = lines if axis == "x" else lines.T  # lines[:, j] is one scan line
