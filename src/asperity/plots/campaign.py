@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.quantity import Labelled
-from .picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, scale
+from .picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, legend_above, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -146,8 +146,7 @@ def plot_sensitivities(
     ax.axvline(middle, color=BLACK, linewidth=0.8)
     ax.set_yticks(rows, [names[number] for number in order])
     ax.set_xlabel(_text(y.quantity.label, along))
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3)
-    return ax
+    return legend_above(ax)
 
 
 def _set_scales(ax: Axes, x: RealArray, y: RealArray) -> None:
@@ -166,9 +165,7 @@ def _labelled(ax: Axes, x: tuple[str, Scale], y: tuple[str, Scale], *, legend: b
     ax.set(xlabel=_text(*x), ylabel=_text(*y))
     ax.grid(visible=True, color=NO_CONTACT, linewidth=0.6)
     ax.set_axisbelow(True)
-    if legend:
-        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
-    return ax
+    return legend_above(ax) if legend else ax
 
 
 def _text(label: str, unit: Scale) -> str:

@@ -43,6 +43,7 @@ from .picture import (
     Plot,
     Scale,
     drawn,
+    legend_above,
     map_size,
     png,
     render,
@@ -87,8 +88,7 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     low, high = ax.get_ylim()
     say_exaggeration(ax, "heights", grid.size[0], (high - low) * height.factor)
     _draw_pressure(x, result.pressure[:, row], ax)
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.04), ncols=3, borderaxespad=0.3, borderpad=0.2)
-    return ax
+    return legend_above(ax, 3, 1.04)
 
 
 def _row(result: ContactResult) -> int:
@@ -142,7 +142,7 @@ def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
     cap = result.problem.law.pressure_cap()
     if result.plastic.any() and not isinstance(cap, np.ndarray) and not isinstance(result.problem.law, LimitByDepth):
         _mark(ax, float(in_unit(cap)), f"hardness {{:.3g}} {in_unit.symbol}", VERMILLION, ":")
-    return _with_legend(ax)
+    return legend_above(ax)
 
 
 def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
@@ -152,7 +152,7 @@ def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
     if not _histogram(gap, in_unit, ax, "gap", "full contact"):
         return ax
     _mark(ax, float(in_unit(result.mean_gap)), f"mean over the whole area {{:.3g}} {in_unit.symbol}", BLACK, "--")
-    return _with_legend(ax)
+    return legend_above(ax)
 
 
 def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: str) -> bool:
@@ -170,11 +170,6 @@ def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: 
 
 def _mark(ax: Axes, at: float, label: str, color: str, linestyle: str) -> None:
     ax.axvline(at, color=color, linestyle=linestyle, label=label.format(at))
-
-
-def _with_legend(ax: Axes) -> Axes:
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
-    return ax
 
 
 # Map of the menisci of a wet contact.
@@ -358,8 +353,7 @@ def plot_energies(path: HistoryResult, ax: Axes) -> Axes:
         ax.plot(step, in_j(energy), color=colour, linestyle=line, marker=".", markersize=3.0, label=label)
     ax.set(xlabel="step", ylabel=f"energy ({in_j.symbol})", xlim=(0.5, step[-1] + 0.5))
     ax.locator_params(axis="x", integer=True)
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
-    return ax
+    return legend_above(ax)
 
 
 def _from_touch(path: HistoryResult, values: RealArray) -> RealArray:
@@ -382,7 +376,7 @@ def _draw_legs(x: RealArray, y: RealArray, path: HistoryResult, ax: Axes) -> Non
         ax.plot(x[part], y[part], color=colour, marker=".", markersize=3.5, label=name, linestyle=line)
     ax.set_xlim(left=min(0.0, float(np.min(x))))
     ax.set_ylim(bottom=0.0)
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.3, borderpad=0.2)
+    legend_above(ax, 4)
 
 
 # The figures of a load path.

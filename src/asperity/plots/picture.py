@@ -148,6 +148,12 @@ def say_exaggeration(ax: Axes, what: str, across: float, up: float) -> None:
         )
 
 
+def legend_above(ax: Axes, columns: int = 2, height: float = 1.0) -> Axes:
+    """``ax`` with its legend above, where it hides nothing."""
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, height), ncols=columns, borderaxespad=0.3, borderpad=0.2)
+    return ax
+
+
 def apart(places: list[float], room: float) -> list[float]:
     """Increasing ``places`` between 0 and 1, moved as far as needed to be ``room`` apart and half of it from the ends."""
     room = min(room, 1.0 / max(len(places), 1))
@@ -168,7 +174,7 @@ def style() -> Iterator[None]:
         yield
 
 
-# A drawn figure with what a report says of it.
+# A drawn figure with its texts.
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ from .picture import (
     VERMILLION,
     Figure,
     apart,
+    legend_above,
     literal,
     make_room,
     map_size,
@@ -86,7 +87,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     with ``log``, signed.
     """
     kind = _known(quantity)
-    if log and (kind.name not in MAGNITUDES):
+    if log and kind.name not in MAGNITUDES:
         raise InputError(f"stress to draw on a logarithmic scale must be a magnitude, but {quantity} has either sign.")
     if len(field.dims) != 2 or len(field.planes) < 2:
         raise InputError("field of a stress section must have the axes plane and x or y; compute it on a Section(...).")
@@ -98,7 +99,7 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     levels = _levels(in_unit(values), kind, log=log)
     contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
     beside = _draw_interfaces(field, ax, depth_unit)
-    _mark_peak(field, ax, values if (kind.name in TENSIONS) else np.abs(values), (axis, length, depth_unit))
+    _mark_peak(field, ax, values if kind.name in TENSIONS else np.abs(values), (axis, length, depth_unit))
     ax.set(
         xlabel=f"{axis} ({length.symbol})" + ("" if field.single_row else f", at {other} = {show(at, 'm')}"),
         ylabel=f"depth ({depth_unit.symbol})",
@@ -150,8 +151,7 @@ def plot_stress_profile(
         ylim=(float(depth_unit(field.depth[-1])) or 1.0, 0.0),
     )
     # above, where it hides neither curves nor interfaces
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=min(3, len(kinds)), borderaxespad=0.3, borderpad=0.2)
-    return ax
+    return legend_above(ax, min(3, len(kinds)))
 
 
 def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *, plane: int = 0) -> Axes:
@@ -170,14 +170,12 @@ def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *
     side = "" if section.side in ("surface", "inside") else f", {section.side} the interface"
     place = "surface" if section.side == "surface" else f"depth {show(section.depth, 'm')}{side}"
     label = f"{kind.label}, {place}"
-    colours = SIGNED_MAP if (kind.name not in MAGNITUDES) else UNSIGNED_MAP
+    colours = SIGNED_MAP if kind.name not in MAGNITUDES else UNSIGNED_MAP
     return plot_field(
         values,
         grid,
         ax,
-        Look(
-            "Pa", label, colours, from_zero=not (kind.name not in MAGNITUDES), about_zero=(kind.name not in MAGNITUDES)
-        ),
+        Look("Pa", label, colours, from_zero=kind.name in MAGNITUDES, about_zero=kind.name not in MAGNITUDES),
     )
 
 
@@ -209,16 +207,16 @@ def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
     """
     from matplotlib.ticker import MaxNLocator
 
-    high = float(values.max()) if (kind.name in TENSIONS) else 0.0
+    high = float(values.max()) if kind.name in TENSIONS else 0.0
     high = high if high > 0.0 else float(np.abs(values).max()) or 1.0
     if log:
         return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
     steps = np.array(
-        MaxNLocator(LEVELS, symmetric=(kind.name not in MAGNITUDES)).tick_values(
-            -high if (kind.name not in MAGNITUDES) else 0.0, high
+        MaxNLocator(LEVELS, symmetric=kind.name not in MAGNITUDES).tick_values(
+            -high if kind.name not in MAGNITUDES else 0.0, high
         )
     )
-    return steps[np.abs(steps) > 1e-9 * high] if (kind.name not in MAGNITUDES) else steps
+    return steps[np.abs(steps) > 1e-9 * high] if kind.name not in MAGNITUDES else steps
 
 
 def _contours(
@@ -228,8 +226,8 @@ def _contours(
     from matplotlib.colors import BoundaryNorm
 
     line, depth_unit, values = drawn
-    colours = SIGNED_MAP if (kind.name not in MAGNITUDES) else UNSIGNED_MAP
-    extend, low = ("min", -np.inf) if (kind.name in TENSIONS) else ("neither", levels[0])
+    colours = SIGNED_MAP if kind.name not in MAGNITUDES else UNSIGNED_MAP
+    extend, low = ("min", -np.inf) if kind.name in TENSIONS else ("neither", levels[0])
     norm = BoundaryNorm(levels, 256)
     contours = None
     for part in _parts(field):
@@ -283,7 +281,7 @@ def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str,
     )
 
 
-# The figures of the stresses that a document asks for: sections, depth profiles, maps of planes.
+# The figures of the stresses of a document: sections, depth profiles, maps of planes.
 
 
 SECTION_SIZE = (6.4, 3.4)
@@ -331,12 +329,12 @@ def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[
         title = kind.title if field.single_row else f"{kind.title} at {axis} = {at}"
         name = f"stress_section_{number}_{quantity}"
         said = "depth downwards, interfaces as lines, a cross at the largest "
-        said += "tension." if (kind.name in TENSIONS) else "magnitude."
+        said += "tension." if kind.name in TENSIONS else "magnitude."
         if kind.name not in MAGNITUDES:
             tension = " Red is tension, blue compression, the darkest blue beyond the scale."
-            said += tension if (kind.name in TENSIONS) else " Red and blue are the two directions."
+            said += tension if kind.name in TENSIONS else " Red and blue are the two directions."
         near = close_up(field, quantity, wraps=wraps)
-        log = near is not None and not (kind.name not in MAGNITUDES)
+        log = near is not None and kind.name in MAGNITUDES
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
         yield Figure(name, title, f"Vertical plane, {said}{scale}", png(draw, SECTION_SIZE))

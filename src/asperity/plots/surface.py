@@ -29,6 +29,7 @@ from .picture import (
     VERMILLION,
     Plot,
     Scale,
+    legend_above,
     render,
     save_pictures,
     scale,
@@ -57,7 +58,7 @@ def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
         ax.plot(in_unit(heights), normal, color=BLACK, label="normal, same Sq")
         ax.set_title(f"Ssk {found.heights.Ssk:z.2f}   Sku {found.heights.Sku:.2f}", loc="right")
     ax.set_xlim(edges[0], edges[-1])
-    return _with_legend(ax)
+    return legend_above(ax)
 
 
 def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
@@ -135,11 +136,6 @@ def _fill_reduced(ax: Axes, width: float, heights: tuple[float, float], *, at_le
     if not at_left:
         corners = [(100.0 - x, y) for x, y in corners]
     ax.fill(*zip(*corners, strict=True), color=SKY, alpha=0.5, linewidth=0.0)
-
-
-def _with_legend(ax: Axes) -> Axes:
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.3, borderpad=0.2)
-    return ax
 
 
 # A surface seen from the side in space, and its summits seen from above.

@@ -43,7 +43,7 @@ RELATIVE_ERRORS = {
 """Standard error relative to the number, by path of the number; that of Sq is its scatter from map to map."""
 
 SHARES = ("functional.Smr1", "functional.Smr2", "hybrid.Sdr", "sampling.Sq_error")
-"""Numbers that are told in per cent."""
+"""Numbers given in per cent."""
 
 HEADLINE = (
     "heights.Sq",

@@ -47,7 +47,7 @@ def write_report(
     Parameters
     ----------
     answer
-        A result, or the outcome of a document with all its parts; converged or not: if not, the report says so first.
+        A result, or the outcome of a document with all its parts; converged or not: if not, that stands first.
     path
         HTML file to write.
     advice
@@ -100,7 +100,7 @@ def _html(outcome: Outcome, advice: Sequence[Advice], document: str | None, titl
 
 
 def _section(part: Part, words: Words, figures: Sequence[Figure]) -> dict[str, Any]:
-    """What one part says and draws, for the template."""
+    """Words and figures of one part, for the template."""
     return {"name": part.name, "title": part.title, "words": words, "figures": shown(figures)}
 
 

@@ -137,7 +137,7 @@ def _library(file: Path) -> Iterator[Any]:
 
 
 def _require_signature(reader: Any, file: Path) -> None:
-    """Refuse a format without signature unless the name of the file vouches for it.
+    """Refuse a format without signature unless the ending of the file names it.
 
     The library takes any bytes whose number is twice a square for an SRTM terrain tile (.hgt).
     """
@@ -463,7 +463,7 @@ def _grey_levels(file: Path) -> _Plain:
         if picture.mode in ("RGB", "RGBA", "P"):
             colours = np.asarray(picture.convert("RGB"))
             if (colours != colours[:, :, :1]).any():
-                raise InputError("it is a colour picture, and heights cannot be told from colours; export it in grey")
+                raise InputError("it is a colour picture, and colours are no heights; export it in grey")
             return _Plain(np.flipud(colours[:, :, 0].astype(np.float64)).T, 255.0)
         if picture.mode not in _FULL_SCALE:
             raise InputError(f"its pixels are of type {picture.mode}; use 8 or 16 bit grey or floating point")

@@ -85,32 +85,31 @@ QUANTITIES = (
     _number("summits.eight.mean_radius", "<1/κ>", "mean of summit radii", "m", "larger than 1/<κ>", _SUMMITS),
     _number("summits.eight.bandwidth", "ηRσ_s", "density x radius x deviation", "1", "about 0.03 to 0.05 for most surfaces", "Greenwood & Williamson (1966)"),
     _number("summits.four.density", "η_4", "density of summits above 4 neighbours", "m**-2", "for comparison with the literature; 30 % too many on smooth surfaces", _SUMMITS),
-    _number("peaks_x.density", "N_x", "peaks per length along x", "m**-1", "points of profiles above both neighbours", _PEAKS),
-    _number("peaks_x.mean_height", "z̄_p,x", "mean peak height along x", "m", "above the mean plane", _PEAKS),
-    _number("peaks_x.height_deviation", "σ_p,x", "standard deviation of peak heights along x", "m", "normalised by their number", _PEAKS),
-    _number("peaks_x.mean_curvature", "<κ_p,x>", "mean peak curvature along x", "m**-1", "second difference over the squared pixel", _PEAKS),
-    _number("peaks_x.zero_crossings", "", "crossings of the mean plane per length along x", "m**-1", "neighbours on opposite sides", _PEAKS),
-    _number("peaks_x.rho_1", "ρ1,x", "correlation of neighbours along x", "1", "pair average over the mean square height", _PEAKS),
-    _number("peaks_x.rho_2", "ρ2,x", "correlation of next neighbours along x", "1", "pair average over the mean square height", _PEAKS),
-    _number("peaks_y.density", "N_y", "peaks per length along y", "m**-1", "points of profiles above both neighbours", _PEAKS),
-    _number("peaks_y.mean_height", "z̄_p,y", "mean peak height along y", "m", "above the mean plane", _PEAKS),
-    _number("peaks_y.height_deviation", "σ_p,y", "standard deviation of peak heights along y", "m", "normalised by their number", _PEAKS),
-    _number("peaks_y.mean_curvature", "<κ_p,y>", "mean peak curvature along y", "m**-1", "second difference over the squared pixel", _PEAKS),
-    _number("peaks_y.zero_crossings", "", "crossings of the mean plane per length along y", "m**-1", "neighbours on opposite sides", _PEAKS),
-    _number("peaks_y.rho_1", "ρ1,y", "correlation of neighbours along y", "1", "pair average over the mean square height", _PEAKS),
-    _number("peaks_y.rho_2", "ρ2,y", "correlation of next neighbours along y", "1", "pair average over the mean square height", _PEAKS),
-    _number("fractal_x.dimension", "D_x", "fractal dimension of profiles along x", "1", "2 - (slope of ln S over ln τ)/2 from 4 pixels (2 if need be) to a tenth of the map or S = Sq²", _FRACTAL),
-    _number("fractal_x.dimension_error", "", "standard error of D along x", "1", "of the straight line, not of the sampling", _FRACTAL),
-    _number("fractal_x.amplitude", "C_x", "fractal amplitude along x", "m", "S = C η^(2D-3) τ^(4-2D), η = pixel", _FRACTAL),
-    _number("fractal_x.roughness", "G_x", "fractal roughness along x", "m", "of the Weierstrass-Mandelbrot profile with γ = 1.5; NaN if not self-affine", "Majumdar & Bhushan (1990)"),
-    _number("fractal_x.first_lag", "", "shortest lag of the fit along x", "m", "beginning of the fitted range", _FRACTAL),
-    _number("fractal_x.last_lag", "", "longest lag of the fit along x", "m", "end of the fitted range", _FRACTAL),
-    _number("fractal_y.dimension", "D_y", "fractal dimension of profiles along y", "1", "2 - (slope of ln S over ln τ)/2 from 4 pixels (2 if need be) to a tenth of the map or S = Sq²", _FRACTAL),
-    _number("fractal_y.dimension_error", "", "standard error of D along y", "1", "of the straight line, not of the sampling", _FRACTAL),
-    _number("fractal_y.amplitude", "C_y", "fractal amplitude along y", "m", "S = C η^(2D-3) τ^(4-2D), η = pixel", _FRACTAL),
-    _number("fractal_y.roughness", "G_y", "fractal roughness along y", "m", "of the Weierstrass-Mandelbrot profile with γ = 1.5; NaN if not self-affine", "Majumdar & Bhushan (1990)"),
-    _number("fractal_y.first_lag", "", "shortest lag of the fit along y", "m", "beginning of the fitted range", _FRACTAL),
-    _number("fractal_y.last_lag", "", "longest lag of the fit along y", "m", "end of the fitted range", _FRACTAL),
+    *(
+        item
+        for axis in "xy"
+        for item in (
+            _number(f"peaks_{axis}.density", f"N_{axis}", f"peaks per length along {axis}", "m**-1", "points of profiles above both neighbours", _PEAKS),
+            _number(f"peaks_{axis}.mean_height", f"z̄_p,{axis}", f"mean peak height along {axis}", "m", "above the mean plane", _PEAKS),
+            _number(f"peaks_{axis}.height_deviation", f"σ_p,{axis}", f"standard deviation of peak heights along {axis}", "m", "normalised by their number", _PEAKS),
+            _number(f"peaks_{axis}.mean_curvature", f"<κ_p,{axis}>", f"mean peak curvature along {axis}", "m**-1", "second difference over the squared pixel", _PEAKS),
+            _number(f"peaks_{axis}.zero_crossings", "", f"crossings of the mean plane per length along {axis}", "m**-1", "neighbours on opposite sides", _PEAKS),
+            _number(f"peaks_{axis}.rho_1", f"ρ1,{axis}", f"correlation of neighbours along {axis}", "1", "pair average over the mean square height", _PEAKS),
+            _number(f"peaks_{axis}.rho_2", f"ρ2,{axis}", f"correlation of next neighbours along {axis}", "1", "pair average over the mean square height", _PEAKS),
+        )
+    ),
+    *(
+        item
+        for axis in "xy"
+        for item in (
+            _number(f"fractal_{axis}.dimension", f"D_{axis}", f"fractal dimension of profiles along {axis}", "1", "2 - (slope of ln S over ln τ)/2 from 4 pixels (2 if need be) to a tenth of the map or S = Sq²", _FRACTAL),
+            _number(f"fractal_{axis}.dimension_error", "", f"standard error of D along {axis}", "1", "of the straight line, not of the sampling", _FRACTAL),
+            _number(f"fractal_{axis}.amplitude", f"C_{axis}", f"fractal amplitude along {axis}", "m", "S = C η^(2D-3) τ^(4-2D), η = pixel", _FRACTAL),
+            _number(f"fractal_{axis}.roughness", f"G_{axis}", f"fractal roughness along {axis}", "m", "of the Weierstrass-Mandelbrot profile with γ = 1.5; NaN if not self-affine", "Majumdar & Bhushan (1990)"),
+            _number(f"fractal_{axis}.first_lag", "", f"shortest lag of the fit along {axis}", "m", "beginning of the fitted range", _FRACTAL),
+            _number(f"fractal_{axis}.last_lag", "", f"longest lag of the fit along {axis}", "m", "end of the fitted range", _FRACTAL),
+        )
+    ),
     _number("spectrum.hurst", "H", "Hurst exponent", "1", "(a1 - 2)/2 of the fitted spectrum, where it lies between 0 and 1 to two standard errors", _SPECTRUM),
     _number("spectrum.hurst_error", "", "standard error of H", "1", "Fisher information of the Whittle likelihood", _SPECTRUM),
     _number("spectrum.exponent_1", "a1", "exponent of the spectrum", "1", "C ~ q^-a1 beyond the roll-off", _SPECTRUM),

@@ -195,6 +195,12 @@ def _shape(grid: Grid, heights: RealArray, text: str, *, periodic: bool = False)
     return Surface(np.broadcast_to(heights, grid.shape), dx, dy, periodic=periodic, origin=origin)
 
 
+Pitches: TypeAlias = Annotated[
+    tuple[Length, Length], "distances of the centres along x and y; the size holds a whole number of them"
+]
+"""Pitches of a lattice."""
+
+
 # Regular textures: laser bumps, dimples, pillars and grooves, repeated on a lattice of centres.
 
 
@@ -202,9 +208,7 @@ def _shape(grid: Grid, heights: RealArray, text: str, *, periodic: bool = False)
 def laser_bumps(
     grid: Grid,
     *,
-    pitch: Annotated[
-        tuple[Length, Length], "distances of the centres along x and y; the size holds a whole number of them"
-    ],
+    pitch: Pitches,
     rim_height: Annotated[Length, "height h_rim of the rim"],
     rim_radius: Annotated[NonNegativeLength, "radius r_rim of the rim; 0 makes a dome"],
     rim_width: Annotated[Length, "width w of the rim"],
@@ -229,9 +233,7 @@ def laser_bumps(
 def dimples(
     grid: Grid,
     *,
-    pitch: Annotated[
-        tuple[Length, Length], "distances of the centres along x and y; the size holds a whole number of them"
-    ],
+    pitch: Pitches,
     radius: Annotated[Length, "radius a"],
     depth: Annotated[Length, "depth at the centre"],
     sharpness: Annotated[float, Number(least=1.0), "exponent p: 1 for Gaussian walls, more for steeper ones"] = 1.0,
@@ -275,7 +277,7 @@ def grooves(
     u = np.minimum(np.abs(_from_nearest(grid, pitch, across)) / (0.5 * width), 1.0)
     profile = {"vee": 1.0 - u, "round": 1.0 - u**2, "cosine": 0.5 * (1.0 + np.cos(np.pi * u))}[section]
     text = f"{section} grooves along {axis}, {show(width, 'm')} wide, {show(depth, 'm')} deep, pitch {show(pitch, 'm')}"
-    return _made(grid, -depth * profile, text)
+    return _shape(grid, -depth * profile, text, periodic=True)
 
 
 def _from_centres(grid: Grid, pitch: tuple[float, float]) -> tuple[RealArray, RealArray]:
@@ -298,10 +300,4 @@ def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
 
 
 def _texture(grid: Grid, heights: RealArray, text: str, pitch: tuple[float, float]) -> Surface:
-    return _made(grid, heights, f"{text}, pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}")
-
-
-def _made(grid: Grid, heights: RealArray, text: str) -> Surface:
-    dx, dy = grid.spacing
-    origin = Origin(source=text.split(",")[0], history=(f"generated: {text}",))
-    return Surface(np.broadcast_to(heights, grid.shape), dx, dy, periodic=True, origin=origin)
+    return _shape(grid, heights, f"{text}, pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}", periodic=True)

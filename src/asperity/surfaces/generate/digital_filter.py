@@ -271,18 +271,8 @@ def digital_filter(
     The autocovariance is exact; skewness and kurtosis are those of the infinite surface, and scatter in a realisation.
     The mean is not removed. The closer the noise must come to the limit of what a distribution can be, the rarer
     and higher its spikes, and the larger this scatter.
+    A window lies at node (0, 0) of the endless surface; a periodic one needs no ``correlation_range`` of its spectrum.
     Raises InputError if no noise gives these heights through the filter, or the grid does not suit the spectrum.
-
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    spectrum
-        As for :func:`endless`; a periodic surface needs no ``correlation_range``.
-    seed, skewness, kurtosis, system
-        As for :func:`endless`.
-    periodic
-        Filter a periodic field of noise. Otherwise the surface is the window at node (0, 0) of the endless one.
     """
     if not periodic:
         made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis, system=system)

@@ -240,13 +240,9 @@ def gaussian(
 
     Parameters
     ----------
-    grid
-        Nodes of the surface.
-    spectrum
-        ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and ``describe``; the
-        surface cites the papers in its ``citation_keys``, if it has any.
-    seed
-        Whole number >= 0.
+    grid, spectrum, seed
+        Nodes; ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and ``describe`` (and
+        ``citation_keys``); whole number >= 0.
     variant
         ``random``: noise at the nodes (PCG64, in the order of the array); amplitudes and phases are random, so a mode has
         the power C only on average and the rms height of one realisation scatters. ``fixed``: the same phases with all

@@ -45,10 +45,7 @@ Amplitude: TypeAlias = RmsHeight | RmsSlope | PlateauPSD
 
 
 def require_amplitude(amplitude: object, what: str) -> None:
-    """Refuse what is not an ``Amplitude``; ``what`` names the spectrum.
-
-    Raises InputError as said.
-    """
+    """Raise InputError for what is not an ``Amplitude``; ``what`` names the spectrum."""
     if not isinstance(amplitude, (RmsHeight, RmsSlope, PlateauPSD)):
         raise InputError(
             f"amplitude of a {what} spectrum must be an RmsHeight, RmsSlope or PlateauPSD, "

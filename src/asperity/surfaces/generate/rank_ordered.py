@@ -53,28 +53,9 @@ def rank_ordered(
     spectra that end at long waves leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history records the
     error. Spectrum and histogram do not scatter between realisations. Rounding differences between FFT libraries are
     amplified by the ranks: another library gives another realisation.
-    Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is
-    left.
-
-    Parameters
-    ----------
-    grid
-        Nodes of the surface.
-    spectrum
-        Any spectrum; it fixes the rms height.
-    heights
-        ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and
-        ``describe``.
-    seed
-        Whole number >= 0 (PCG64).
-    last
-        Which step ends: ``heights`` makes the distribution exact, ``spectrum`` the amplitudes.
-    tolerance
-        Error of the amplitudes of the waves at which to stop, relative to their rms.
-    max_iterations
-        Steps of both kinds after which to stop although the amplitudes still improve.
-    progress
-        Told the relative error of the amplitudes.
+    ``heights`` are ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and
+    ``describe``; ``progress`` receives the relative error of the amplitudes.
+    Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
     """
     target = _target(grid, spectrum, heights)
     values = np.random.Generator(np.random.PCG64(seed)).permutation(target.heights).reshape(grid.shape)

@@ -6,6 +6,7 @@ m0 = (1/A) Σ C(q) over the modes of a periodic map, → (1/4π²) ∫ C d²q; C
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -44,50 +45,31 @@ if TYPE_CHECKING:
 __all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class SelfAffine(Declared):
-    """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s, zero elsewhere.
+class _PowerLawSpectrum(ABC):
+    """What spectra of power laws share."""
 
-    ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
-    (ensemble average), in :meth:`psd` by the integral. Source: Jacobs, Junge & Pastewka (2017), section 2.
-    Raises InputError if the wavelengths are out of order.
-
-    Parameters
-    ----------
-    amplitude
-        ``RmsHeight``, ``RmsSlope`` or ``PlateauPSD``.
-    hurst
-        Hurst exponent H, 0 < H <= 1.
-    rolloff_wavelength, shortest_wavelength, longest_wavelength
-        λ_r, λ_s, λ_L in m with λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean, λ_s = 0
-        keeps all modes of the grid, those in the corners of the Nyquist square too.
-    """
-
-    amplitude: Annotated[Amplitude, "what fixes C0"]
-    hurst: Annotated[Hurst, "Hurst exponent H"]
-    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
-    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"]
-    longest_wavelength: Annotated[
-        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
-    ] = math.inf
+    amplitude: Amplitude
+    rolloff_wavelength: float
+    shortest_wavelength: float
+    longest_wavelength: float
     citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        require_amplitude(self.amplitude, "self-affine")
-        waves = (self.shortest_wavelength, self.rolloff_wavelength, self.longest_wavelength)
-        _require_ascending(waves, "shortest <= roll-off <= longest", "self-affine")
+    @property
+    @abstractmethod
+    def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Wavenumbers (rad/m) at which the spectrum bends, and the exponents with which it falls beyond each."""
 
     @cached_property
     def law(self) -> PowerLaws:
         """Shape of the spectrum."""
         low, high = _limits(self.longest_wavelength, self.shortest_wavelength)
-        return PowerLaws((2.0 * np.pi / self.rolloff_wavelength,), (2.0 + 2.0 * self.hurst,), low, high)
+        return PowerLaws(*self.bends, low, high)
 
     @property
     def correlation_range(self) -> float:
         """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the longest wave."""
-        return _correlation_range(self.rolloff_wavelength, self.longest_wavelength)
+        twice = 2.0 * self.rolloff_wavelength
+        return twice if math.isinf(self.longest_wavelength) else max(twice, self.longest_wavelength)
 
     def psd(self, q: RealArray | float) -> RealArray:
         """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape)."""
@@ -100,6 +82,36 @@ class SelfAffine(Declared):
         """
         return lattice_psd(self.law, self.amplitude, grid)
 
+
+@dataclass(frozen=True, kw_only=True)
+class SelfAffine(_PowerLawSpectrum, Declared):
+    """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s, zero elsewhere.
+
+    ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
+    (ensemble average), in :meth:`psd` by the integral. Source: Jacobs, Junge & Pastewka (2017), section 2.
+    λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean, λ_s = 0 keeps all modes of the grid, those in
+    the corners of the Nyquist square too. Raises InputError if the wavelengths are out of order.
+    """
+
+    amplitude: Annotated[Amplitude, "what fixes C0"]
+    hurst: Annotated[Hurst, "Hurst exponent H"]
+    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
+    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"]
+    longest_wavelength: Annotated[
+        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
+    ] = math.inf
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_amplitude(self.amplitude, "self-affine")
+        waves = (self.shortest_wavelength, self.rolloff_wavelength, self.longest_wavelength)
+        _require_ascending(waves, "shortest <= roll-off <= longest", "self-affine")
+
+    @property
+    def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Roll-off (rad/m) and the exponent beyond."""
+        return (2.0 * np.pi / self.rolloff_wavelength,), (2.0 + 2.0 * self.hurst,)
+
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         waves = (
@@ -109,23 +121,12 @@ class SelfAffine(Declared):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TwoSlopes(Declared):
+class TwoSlopes(_PowerLawSpectrum, Declared):
     """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2 up to q_s.
 
     Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
     spectrum is no fractal, and is accepted. ``amplitude`` as for ``SelfAffine``.
-    Raises InputError if the wavelengths are out of order.
-
-    Parameters
-    ----------
-    amplitude
-        ``RmsHeight``, ``RmsSlope`` or ``PlateauPSD``.
-    exponents
-        (a1, a2), positive: C falls as q^-a1 between λ_r and λ_c, as q^-a2 below λ_c.
-    rolloff_wavelength, crossover_wavelength
-        λ_r and λ_c <= λ_r in m.
-    shortest_wavelength, longest_wavelength
-        λ_s <= λ_c and λ_L >= λ_r in m; λ_s = 0 keeps all modes of the grid, those in the corners of the Nyquist square too.
+    λ_s <= λ_c <= λ_r <= λ_L. Raises InputError if the wavelengths are out of order.
     """
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
@@ -138,7 +139,6 @@ class TwoSlopes(Declared):
     longest_wavelength: Annotated[
         float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
     ] = math.inf
-    citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -151,28 +151,10 @@ class TwoSlopes(Declared):
         )
         _require_ascending(waves, "shortest <= crossover <= roll-off <= longest", "two-slope")
 
-    @cached_property
-    def law(self) -> PowerLaws:
-        """Shape of the spectrum."""
-        low, high = _limits(self.longest_wavelength, self.shortest_wavelength)
-        bends = (2.0 * np.pi / self.rolloff_wavelength, 2.0 * np.pi / self.crossover_wavelength)
-        return PowerLaws(bends, tuple(self.exponents), low, high)
-
     @property
-    def correlation_range(self) -> float:
-        """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the longest wave."""
-        return _correlation_range(self.rolloff_wavelength, self.longest_wavelength)
-
-    def psd(self, q: RealArray | float) -> RealArray:
-        """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape)."""
-        return continuous_level(self.law, self.amplitude) * self.law.relative(np.asarray(q, dtype=float))
-
-    def lattice_psd(self, grid: Grid) -> RealArray:
-        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
-
-        Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
-        """
-        return lattice_psd(self.law, self.amplitude, grid)
+    def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Roll-off and crossover (rad/m) and the exponents beyond."""
+        return (2.0 * np.pi / self.rolloff_wavelength, 2.0 * np.pi / self.crossover_wavelength), tuple(self.exponents)
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
@@ -191,10 +173,6 @@ def _require_ascending(waves: tuple[float, ...], order: str, what: str) -> None:
 def _limits(longest: float, shortest: float) -> tuple[float, float]:
     """Smallest and largest wavenumber in rad/m."""
     return 2.0 * np.pi / longest, math.inf if shortest == 0.0 else 2.0 * np.pi / shortest
-
-
-def _correlation_range(rolloff: float, longest: float) -> float:
-    return 2.0 * rolloff if math.isinf(longest) else max(2.0 * rolloff, longest)
 
 
 def _ends(shortest: float, longest: float) -> str:
@@ -324,20 +302,8 @@ def spectrum_of(
     of the next ones. Waves longer than the surface have that power too, waves shorter than those of its grid none. The
     shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions, and
     keeps that of every ring of wavenumbers.
+    ``window`` is that of ``power_spectrum``, ``per_decade`` the rings per factor of ten in wavenumber of an isotropic spectrum.
     Raises InputError if points are missing, all heights are equal, or nothing is left above the floor.
-
-    Parameters
-    ----------
-    surface
-        Complete surface.
-    isotropic
-        Average over directions; otherwise keep them, with the scatter that the single modes of one surface have.
-    window
-        As for ``power_spectrum``.
-    per_decade
-        Rings per factor of ten in wavenumber over which an isotropic spectrum is averaged.
-    floor
-        Constant C_n in m⁴ to be subtracted: white noise of the instrument, mean square height times dx dy.
     """
     from ..characterise.spectrum import power_spectrum
 
