@@ -179,13 +179,14 @@ def _plain(value: Any) -> Any:
 
 def _called(key: str, names: Mapping[str, str]) -> str:
     """What the user calls the dotted ``key``: its name, or that of the list or table it is in and its place there."""
-    if key in names:
-        return names[key]
-    match = re.fullmatch(r"(.+?)(?:\[(\d+)\]|\.(\w+))", key)
-    if match is None:
-        return key
-    whole = _called(match[1], names)
-    return key if whole == match[1] else f"part {match[2]} of {whole}" if match[2] else f"{match[3]} of {whole}"
+    parts, whole = [], key
+    while whole not in names:
+        match = re.fullmatch(r"(.+)(?:\[(\d+)\]|\.(\w+))", whole)
+        if match is None:
+            return key
+        parts.append(f"part {match[2]} of" if match[2] else f"{match[3]} of")
+        whole = match[1]
+    return " ".join([*parts, names[whole]])
 
 
 def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> str:
