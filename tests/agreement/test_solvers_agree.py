@@ -24,6 +24,7 @@ from catalogue import (
     pair_id,
     solved,
 )
+from refusals import refused
 
 from asperity import MeanGap
 from asperity.contact.solvers import ContactQP, FixedMean, Solution, Solver, run
@@ -118,7 +119,7 @@ def pressure_bound(qp: ContactQP, matrix: np.ndarray, p: np.ndarray, best: np.nd
 
 @pytest.mark.parametrize(("solver", "case"), UNSUPPORTED, ids=str)
 def test_unsupported_cases_are_refused_with_a_way_out(solver: str, case: str) -> None:
-    with pytest.raises(InputError, match=r"must have at most .* Use "):
+    with refused(InputError, "grid of Lemke's method"):
         solved(next(c for c in CASES if c.name == case), SOLVERS[solver])
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from contact_cases import elastic, square_grid
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.solvers import ActiveSet
@@ -97,11 +98,11 @@ def test_the_first_passage_is_found_though_the_share_falls_again():
 
 def test_a_plastic_load_needs_a_limit():
     posed = asp.ContactProblem(sphere(8, 1.0).surface, elastic(1.0), boundary=asp.Free())
-    with pytest.raises(asp.InputError, match="must limit the pressure, but is hard wall"):
+    with refused(asp.InputError, "law of a contact with a plastic load"):
         asp.plastic_load(posed)
 
 
 @pytest.mark.parametrize("share", [-0.1, 1.0, float("nan")])
 def test_the_share_must_be_a_share(share):
-    with pytest.raises(asp.InputError, match="share of the real area"):
+    with refused(asp.InputError, "share of the real area"):
         asp.plastic_load(sphere(8, 1.0), fraction=share)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.theories.hardness import effective_hardness
@@ -79,5 +80,5 @@ def test_values_must_be_positive(values, message):
 
 
 def test_depth_must_not_be_negative():
-    with pytest.raises(InputError, match=r"at least 0, but is -0\.1"):
+    with refused(InputError, "depth of an indentation", "0", "0.1"):
         EffectiveHardness(2.0, 1.0, 1.0).at([-0.1])

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.rough.greenwood_williamson import (
@@ -110,7 +111,7 @@ def test_onset_of_plastic_flow(row):
 
 
 def test_there_is_no_onset_where_everything_flows():
-    with pytest.raises(NoSolutionError, match="plastic share"):
+    with refused(NoSolutionError, "plastic share 0.02"):
         separation_at_plastic_onset(1e3)
 
 
@@ -155,9 +156,9 @@ def test_the_gaussian_as_a_density_of_ones_own():
 
 
 def test_densities_that_are_not_standardised_are_refused():
-    with pytest.raises(InputError, match="variance 1"):
+    with refused(InputError, "density of standardised heights", "1"):
         AnyHeights(lambda s: np.exp(-s), (0.0, 5.0, 40.0))
-    with pytest.raises(InputError, match="rising"):
+    with refused(InputError, "breaks of a density"):
         AnyHeights(GaussianHeights().density, (1.0, 0.0))
 
 
@@ -181,20 +182,20 @@ def test_histograms_of_many_samples_tend_to_their_distribution():
 
 
 def test_unusable_histograms_are_refused():
-    with pytest.raises(InputError, match="rising edges"):
+    with refused(InputError, "histogram"):
         HistogramHeights(np.array([0.0, 0.0, 1.0]), np.ones(2))
-    with pytest.raises(InputError, match="not all zero"):
+    with refused(InputError, "counts of a histogram"):
         HistogramHeights(np.array([0.0, 1.0]), np.zeros(1))
-    with pytest.raises(InputError, match="all equal"):
+    with refused(InputError, "summit heights of a histogram"):
         HistogramHeights.from_samples(np.ones(5))
 
 
 def test_unusable_parameters_are_refused():
-    with pytest.raises(InputError, match=r"radius \(m\) of greenwood"):
+    with refused(InputError, "radius (m) of greenwood-williamson"):
         GreenwoodWilliamson(1e11, 1e12, -1e-6, 1e-8)
-    with pytest.raises(InputError, match="form of greenwood"):
+    with refused(InputError, "form of greenwood-williamson-fits"):
         FittedGreenwoodWilliamson(1e11, 1e12, 1e-6, 1e-8, form="cubic")
-    with pytest.raises(InputError, match="where this theory is evaluated"):
+    with refused(InputError, "pressures"):
         GreenwoodWilliamson(1e11, 1e12, 1e-6, 1e-8, heights=HEIGHTS["uniform"]).at_pressure(1e20)
 
 

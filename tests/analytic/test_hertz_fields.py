@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
@@ -203,7 +204,7 @@ def test_a_line_contact_of_small_poisson_ratio_yields_on_the_surface():
     onset = cylinder_yield_onset(0.1)
     assert onset.at_surface
     assert onset.root_J2 == pytest.approx(0.8 / np.sqrt(3.0), rel=1e-12)
-    with pytest.raises(InputError, match="Poisson"):
+    with refused(InputError, "Poisson's ratio"):
         cylinder_yield_onset(0.6)
 
 

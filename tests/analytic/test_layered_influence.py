@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from reference_data import every_row, reference
+from refusals import refused
 from scipy import special
 from solid_cases import elastic, layered, on_half_space
 
@@ -148,7 +149,7 @@ def test_two_bodies_add_up():
 
 def test_slipping_layers_have_no_tangential_coefficients():
     body = asp.Layered([asp.Layer(elastic(2.0, 0.3), 1.0, asp.Frictionless())], elastic(1.0, 0.3))
-    with pytest.raises(asp.InputError, match="must be bonded on the free boundary"):
+    with refused(asp.InputError, "layers under a tangential traction"):
         influence_tensor(asp.Grid((4, 4), (1.0, 1.0)), body)
     assert LayerStack(body).influence(asp.Grid((4, 4), (1.0, 1.0))).min() > 0.0
 

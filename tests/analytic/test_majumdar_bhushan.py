@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 from scipy.integrate import quad
 
 import asperity as asp
@@ -103,12 +104,12 @@ def test_the_load_of_elastic_spots_is_a_power_of_the_area(dimension, exponent):
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(InputError, match="dimension of majumdar"):
+    with refused(InputError, "dimension of majumdar-bhushan"):
         MajumdarBhushan(2.0, 1e-12, 1e11, 1e9, 1e-8)
     theory = MajumdarBhushan(1.3, 1e-12, 1e11, 1e9, 1e-8)
-    with pytest.raises(NoSolutionError, match="full contact"):
+    with refused(NoSolutionError, "load (N)"):
         theory.largest_spot_under(1e9)
-    with pytest.raises(InputError, match="area of a contact spot"):
+    with refused(InputError, "area of a contact spot (m^2)"):
         theory.sizes.area(-1.0)
     assert MajumdarBhushan(1.01, 1.0, 1e11, 1e9, 1e-8).critical_area == math.inf
 
@@ -132,5 +133,5 @@ def test_the_theory_of_a_surface():
     atoms, whole = theory.validity(curve)
     assert atoms.holds.tolist() == [theory.critical_area >= 1e-19] * 2
     assert whole.holds.all()
-    with pytest.raises(InputError, match="self-affine profiles"):
+    with refused(InputError, "roughness for the theory majumdar-bhushan"):
         MajumdarBhushan.from_roughness(Roughness(1e-18, 1e-2, 1e14, area=1e-8), 1e11, hardness=1e9)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 from scipy import stats
 
 from asperity.core.errors import InputError
@@ -157,5 +158,5 @@ def test_impossible_moments_are_refused(pair):
 
 
 def test_orders_without_a_moment_are_refused():
-    with pytest.raises(InputError, match="order of the moment"):
+    with refused(InputError, "order of the moment of the excess"):
         Pearson(0.0, 4.0).excess_moment(5.0, 0.0)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
@@ -170,17 +171,17 @@ def test_diffusion_follows_the_magnification():
 
 
 def test_inputs_out_of_range_are_refused():
-    with pytest.raises(InputError, match="rms_gradient of persson must be greater than zero"):
+    with refused(InputError, "rms_gradient of persson"):
         Persson(1e9, 0.0)
-    with pytest.raises(InputError, match="ascend"):
+    with refused(InputError, "wavenumbers of a spectrum"):
         IsotropicSpectrum([2.0, 1.0], [1.0, 1.0])
-    with pytest.raises(InputError, match="leave out empty bands"):
+    with refused(InputError, "values (m^4) of a spectrum"):
         IsotropicSpectrum([1.0, 2.0], [1.0, 0.0])
-    with pytest.raises(InputError, match="two wavenumbers or more"):
+    with refused(InputError, "spectrum"):
         IsotropicSpectrum([1.0], [1.0])
-    with pytest.raises(InputError, match="without load the gap has no bound"):
+    with refused(InputError, "mean pressure (Pa)"):
         PerssonGap(1e9, spectrum("A")).mean_gap(0.0)
-    with pytest.raises(NoSolutionError, match="decay lengths"):
+    with refused(NoSolutionError, "mean gap (m)"):
         PerssonGap(1e9, spectrum("A")).pressure_at(1.0)
 
 
@@ -211,5 +212,5 @@ def test_the_theory_of_a_surface():
     )
     bare = Persson.from_roughness(Roughness(m0, m2, m4), MODULUS)
     assert np.isnan(bare.at_pressure(pressures).mean_gap).all()
-    with pytest.raises(InputError, match="give q and psd"):
+    with refused(InputError, "power spectrum"):
         _ = bare.gap

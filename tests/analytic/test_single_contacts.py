@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
@@ -65,7 +66,7 @@ def test_nearly_circular_and_very_slender_ellipses():
     assert 1.0 - axis_ratio(1.0 + 1e-7) == pytest.approx(2.0 / 3.0 * 1e-7, rel=1e-6)
     slender = axis_ratio(1e9)
     assert slender**-2 / (np.log(4.0 / slender) - 1.0) == pytest.approx(1e9, rel=1e-6)
-    with pytest.raises(InputError, match="ratio of the curvatures"):
+    with refused(InputError, "ratio of the curvatures"):
         axis_ratio(0.5)
 
 
@@ -227,7 +228,7 @@ def test_crossed_waves(row):
     outside = not LOW_LOAD < row["pbar_over_pstar"] < HIGH_LOAD
     assert bool(waves.validity(found)[1].holds[0]) == outside == bool(np.isfinite(found.area_fraction[0]))
     assert waves.area_fraction_at_high_load(1.2 * full) == 1.0
-    with pytest.raises(InputError, match="full contact"):
+    with refused(InputError, "mean pressure"):
         waves.full_contact(0.0, 0.0, 0.9 * full)
 
 
@@ -269,12 +270,12 @@ def test_tangential_loading_up_to_sliding():
     assert ratio == pytest.approx(2.0 * 0.7 / 1.7, rel=1e-13)
     r = np.linspace(0.0, 1.0, 30) * float(theory.normal.at_load(P).radius)
     assert theory.traction(r, P, 0.4 * P) == pytest.approx(0.4 * theory.normal.pressure(r, P))
-    with pytest.raises(InputError, match="slides"):
+    with refused(InputError, "tangential force"):
         theory.at_load(P, 0.41 * P)
     line = MindlinLine(1.0, 2.0, 0.4)
     a, p0 = float(line.normal.at_load(P).radius), float(line.normal.at_load(P).max_pressure)
     assert line.stick_shift(P, 0.3 * P, 0.2 * p0) == pytest.approx(0.2 * a / 1.6)
-    with pytest.raises(InputError, match="bulk stress"):
+    with refused(InputError, "bulk stress"):
         line.stick_shift(P, 0.01 * P, 1.0 * p0)
 
 

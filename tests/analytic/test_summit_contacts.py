@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.theories.rough.elliptic_summits import (
@@ -99,7 +100,7 @@ def test_plastic_share_of_onions_and_archard():
 
 
 def test_onions_archard_needs_a_correlation_length():
-    with pytest.raises(InputError, match="correlation length"):
+    with refused(InputError, "roughness for the theory onions-archard"):
         OnionsArchard.from_roughness(Roughness(1e-18, 1e-3, 1e13), 1e11)
 
 
@@ -243,9 +244,9 @@ def test_equivalent_moments_of_an_isotropic_surface_are_its_own():
 
 
 def test_impossible_moments_are_refused():
-    with pytest.raises(InputError, match=r"1\.5"):
+    with refused(InputError, "moments of an isotropic surface", "1.5"):
         BushGibsonThomas(1.0, 1.0, 1.0, 1.4)
-    with pytest.raises(InputError, match="E_star"):
+    with refused(InputError, "E_star (Pa) of greenwood-elliptic"):
         GreenwoodElliptic(0.0, 1.0, 1.0, 2.0)
-    with pytest.raises(InputError, match="gentlest"):
+    with refused(InputError, "gentlest of anisotropic-summits"):
         AnisotropicSummits(1.0, 1.0, 1.0, 0.0)

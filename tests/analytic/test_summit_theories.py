@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 from scipy.integrate import dblquad, quad
 
 import asperity as asp
@@ -127,9 +128,9 @@ def test_summits_of_generated_surfaces(rolloff, hurst):
 
 
 def test_no_isotropic_surface_has_alpha_below_three_halves():
-    with pytest.raises(InputError, match=r"1\.5"):
+    with refused(InputError, "moments of an isotropic surface", "1.5"):
         NayakSummits(1.0, 1.0, 1.4)
-    with pytest.raises(InputError, match="m4"):
+    with refused(InputError, "m4 (1/m^2) of nayak"):
         NayakSummits(1.0, 1.0, 0.0)
 
 
@@ -170,9 +171,9 @@ def test_peaks_of_white_noise_are_every_third_point():
 
 
 def test_impossible_correlations_are_refused():
-    with pytest.raises(InputError, match="correlations of a profile"):
+    with refused(InputError, "correlations of a profile"):
         SampledPeaks(0.9, 0.1)
-    with pytest.raises(InputError, match="rho_1"):
+    with refused(InputError, "rho_1 of sampled-peaks"):
         SampledPeaks(1.0, 0.9)
 
 

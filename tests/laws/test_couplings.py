@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.couplings.driver import settle
@@ -233,7 +234,7 @@ def test_menisci_that_run_away_with_friction_and_hardness_are_explained(surface)
     )
     with pytest.raises(asp.NoSolutionError, match="The contact bears no more"):
         asp.solve(weak, asp.MeanPressure(5e6))
-    with pytest.raises(asp.NoSolutionError, match="Step 2 of the history"):
+    with refused(asp.NoSolutionError, "Step 2 of the history: mean pressure"):
         asp.solve(replace(weak, film=None), asp.History([asp.MeanPressure(1e4), asp.MeanPressure(9e6)]))
 
 

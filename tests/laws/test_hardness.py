@@ -7,6 +7,7 @@ import pytest
 from contact_cases import TIGHT, elastic, rough
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
 import asperity as asp
 
@@ -109,11 +110,11 @@ def test_load_equal_to_the_hardness_yields_everywhere():
 
 @pytest.mark.parametrize("control", [asp.MeanPressure(0.41), asp.Force(0.41 * 320)])
 def test_load_above_hardness_times_area_has_no_solution(control):
-    with pytest.raises(asp.NoSolutionError, match=r"mean hardness 0\.4 Pa .* but is 0\.41 Pa"):
+    with refused(asp.NoSolutionError, "mean pressure", "0.4", "0.41"):
         asp.solve(posed(), control)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
 def test_hardness_must_be_positive_and_finite(bad):
-    with pytest.raises(asp.InputError, match="hardness"):
+    with refused(asp.InputError, "hardness (Pa)"):
         asp.Hardness(bad)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from contact_cases import rough
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.laws import LimitByDepth
@@ -65,7 +66,7 @@ def test_a_load_above_the_hardness_of_the_film_presses_through_it():
     result = solved(coated(0.1, 1.0, 0.05), 0.2)
     assert result.converged
     assert result.max_pressure > 0.2
-    with pytest.raises(asp.NoSolutionError, match=r"at most the mean hardness 0\.1 Pa"):
+    with refused(asp.NoSolutionError, "mean pressure", "0.1"):
         solved(coated(0.1, 0.15, 0.05), 0.2)
 
 
@@ -182,11 +183,11 @@ def test_yield_stresses_enter_where_both_are_known():
 def test_every_material_needs_a_hardness():
     soft = asp.Elastic(1.0, 0.3, name="soft")
     hard = asp.Elastic(1.0, 0.3, asp.Strength(hardness=1.0))
-    with pytest.raises(asp.InputError, match="hardness of soft in layer 1 must be known"):
+    with refused(asp.InputError, "hardness of soft in layer 1"):
         asp.LayeredHardness(asp.Layered([asp.Layer(soft, 1.0)], hard))
-    with pytest.raises(asp.InputError, match="hardness of soft in the base must be known"):
+    with refused(asp.InputError, "hardness of soft in the base"):
         asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], soft))
-    with pytest.raises(asp.InputError, match=r"base of a body with an effective hardness .* is rigid"):
+    with refused(asp.InputError, "base of a body with an effective hardness"):
         asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], asp.RigidBase()))
-    with pytest.raises(asp.InputError, match="of type Layered"):
+    with refused(asp.InputError, "body of an effective hardness"):
         asp.LayeredHardness(hard)  # type: ignore[arg-type]

@@ -6,6 +6,12 @@ from __future__ import annotations
 class AsperityError(Exception):
     """Base of every exception that asperity raises on purpose."""
 
+    @property
+    def subject(self) -> str:
+        """Name of the input that is wrong, such as ``"load (N)"`` or ``"control.force"``; empty if none is."""
+        before, must, _ = str(self).partition(" must ")
+        return before if must else ""
+
 
 class InputError(AsperityError, ValueError):
     """An argument, a document or a file holds a value that cannot be used."""

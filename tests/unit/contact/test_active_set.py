@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
@@ -110,7 +111,7 @@ def test_steps_leave_a_copied_state_alone_and_refuse_one_used_up() -> None:
     np.testing.assert_array_equal(kept.pressure, pressure)
     np.testing.assert_array_equal(kept.deflection, deflection)
     for use_again in (lambda: solver.step(qp, state), state.copy):
-        with pytest.raises(asp.InputError, match=r"must be the latest of its run.* state\.copy\(\)"):
+        with refused(asp.InputError, "state of the solver active_set"):
             use_again()
 
 

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from indenter_cases import cylinder
 from reference_data import reference
+from refusals import refused
 from solid_cases import on_half_space, stacks
 
 import asperity as asp
@@ -146,11 +147,11 @@ def test_rigid_base_needs_no_datum():
 def test_refusals():
     flat = asp.Surface(np.zeros((4, 3)), 1.0)
     line = asp.Surface(np.zeros((4, 1)), 1.0)
-    with pytest.raises(asp.InputError, match=r"one point along y, but has 4 x 3 points.*sliced"):
+    with refused(asp.InputError, "grid of a line contact", "4", "3"):
         asp.ContactProblem(flat, elastic(1.0), boundary=asp.FreeLine())
-    with pytest.raises(asp.InputError, match=r"datum of a line contact .* at least the length 4 of the grid, but is 3"):
+    with refused(asp.InputError, "datum of a line contact (m)", "4", "3"):
         asp.ContactProblem(line, elastic(1.0), boundary=asp.FreeLine(3.0))
-    with pytest.raises(asp.InputError, match=r"datum of a line contact .* greater than zero"):
+    with refused(asp.InputError, "datum of a line contact (m)"):
         asp.FreeLine(0.0)
     asp.ContactProblem(line, elastic(1.0), boundary=asp.FreeLine(4.0))
 

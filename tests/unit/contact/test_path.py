@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.operators import Operator
@@ -221,7 +222,7 @@ def test_a_failed_step_raises_with_its_number_and_result() -> None:
 
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
 def test_a_step_without_solution_raises_with_its_number(on_failure: Any) -> None:
-    with pytest.raises(asp.NoSolutionError, match=r"Step 2 of the history: mean pressure must be at most"):
+    with refused(asp.NoSolutionError, "Step 2 of the history: mean pressure"):
         asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures((0.1, 0.5))), on_failure=on_failure)
 
 
@@ -272,7 +273,7 @@ def test_wrong_controls_are_refused_before_any_step(controls: Any, message: str)
 
 
 def test_wrong_choice_on_failure_is_refused() -> None:
-    with pytest.raises(asp.InputError, match="on_failure must be one of raise, return"):
+    with refused(asp.InputError, "on_failure"):
         steps(problem(), pressures(LOADS), on_failure="ignore")  # type: ignore[arg-type]
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
+from refusals import refused
 
 import asperity as asp
 
@@ -30,7 +31,7 @@ def test_contact_modulus():
 
 
 def test_two_rigid_bodies_are_refused():
-    with pytest.raises(asp.InputError, match="must not both be rigid"):
+    with refused(asp.InputError, "body and counter_body"):
         asp.ContactProblem(rough((4, 4)), asp.Rigid())
 
 
@@ -38,14 +39,14 @@ def test_missing_points_are_refused_with_the_remedy():
     heights = rough((6, 6)).heights.copy()
     heights[2, 3] = np.nan
     holed = asp.Surface(heights, 1.0)
-    with pytest.raises(asp.InputError, match=r"1 are missing.*filled"):
+    with refused(asp.InputError, "surface", "1"):
         asp.ContactProblem(holed, elastic(1.0))
-    with pytest.raises(asp.InputError, match="counter_surface"):
+    with refused(asp.InputError, "counter_surface"):
         asp.ContactProblem(rough((6, 6)), elastic(1.0), counter_surface=holed)
 
 
 def test_surfaces_must_share_a_grid():
-    with pytest.raises(asp.InputError, match="equal numbers of points"):
+    with refused(asp.InputError, "the two surfaces of a pair"):
         asp.ContactProblem(rough((6, 6)), elastic(1.0), counter_surface=rough((6, 8)))
 
 
@@ -60,7 +61,7 @@ def test_wrong_types_are_named(field, value):
 
 
 def test_hardness_map_must_fit():
-    with pytest.raises(asp.InputError, match=r"shape \(4, 4\)"):
+    with refused(asp.InputError, "hardness array", "4"):
         asp.ContactProblem(rough((4, 4)), elastic(1.0), law=asp.Hardness(np.ones((3, 4))))
 
 
@@ -68,9 +69,9 @@ def test_position_beyond_full_contact_is_refused():
     problem = asp.ContactProblem(rough((8, 8)), elastic(1.0))
     profile = problem.profile()
     limit = profile.max() - profile.mean()
-    with pytest.raises(asp.NoSolutionError, match="approach must be less than"):
+    with refused(asp.NoSolutionError, "approach"):
         asp.solve(problem, asp.Approach(limit))
-    with pytest.raises(asp.NoSolutionError, match="mean gap at first touch"):
+    with refused(asp.NoSolutionError, "mean gap"):
         asp.solve(problem, asp.MeanGap(limit))
 
 
@@ -85,7 +86,7 @@ def test_unconverged_is_an_exception_that_holds_the_result_or_a_flag():
     assert returned.status.remedy
     for control in (asp.Approach(0.5), asp.MeanGap(1.0)):
         assert not asp.solve(problem, control, solver=hasty, on_failure="return").converged
-    with pytest.raises(asp.InputError, match="on_failure"):
+    with refused(asp.InputError, "on_failure"):
         asp.solve(problem, asp.MeanPressure(0.05), on_failure="ignore")
 
 
@@ -116,14 +117,14 @@ def test_prepared_operator_is_reused_and_checked():
     a, b = (asp.solve(problem, asp.MeanPressure(0.05), operator=o) for o in (operator, None))
     np.testing.assert_array_equal(a.pressure, b.pressure)
     other = asp.prepare_operator(problem.compliance, asp.Grid((8, 8), (1.0, 1.0)), problem.boundary)
-    with pytest.raises(asp.InputError, match="operator must be prepared for the grid"):
+    with refused(asp.InputError, "operator"):
         asp.solve(problem, asp.MeanPressure(0.05), operator=other)
     stiffer = asp.ContactProblem(rough((16, 16)), elastic(2.0))
     free = asp.ContactProblem(rough((16, 16)), elastic(1.0), boundary=asp.Free())
     for wrong, what in ((stiffer, "compliance"), (free, "boundary")):
-        with pytest.raises(asp.InputError, match=f"operator must be prepared for the {what}"):
+        with refused(asp.InputError, "operator", what):
             asp.solve(wrong, asp.MeanPressure(0.05), operator=operator)
-    with pytest.raises(asp.InputError, match=r"Periodic\(\), Free\(\) or FreeLine\(\), but is 'periodic'"):
+    with refused(asp.InputError, "boundary of an operator", "'periodic'"):
         asp.prepare_operator(problem.compliance, problem.grid, "periodic")
 
 
@@ -143,14 +144,14 @@ def test_a_position_that_no_load_reaches_is_flagged():
 
 def test_solver_by_its_name_only_is_refused_with_the_way_out():
     problem = asp.ContactProblem(rough((4, 4)), elastic(1.0))
-    with pytest.raises(asp.InputError, match="solver_by_name"):
+    with refused(asp.InputError, "solver", "solver_by_name"):
         asp.solve(problem, asp.MeanPressure(0.1), solver="nnls")
 
 
 def test_control_of_another_type_is_refused():
     flat = asp.ContactProblem(asp.generate.flat(asp.Grid((4, 4), (1.0, 1.0))), elastic(1.0))
     for wrong in (50e3, "50 kPa", None):
-        with pytest.raises(asp.InputError, match="control must be a MeanPressure, Force"):
+        with refused(asp.InputError, "control"):
             asp.solve(flat, wrong)
 
 
@@ -166,24 +167,24 @@ def test_solvers_check_their_settings(method, settings):
 @pytest.mark.parametrize("bad", [-1e-9, np.nan, np.inf])
 def test_impossible_state_is_refused(bad):
     sound, broken = np.zeros((4, 4)), np.full((4, 4), bad)
-    with pytest.raises(asp.InputError, match="permanent indentation"):
+    with refused(asp.InputError, "permanent indentation (m) of an interface state"):
         asp.InterfaceState.dented(broken, sound)
-    with pytest.raises(asp.InputError, match="pressure"):
+    with refused(asp.InputError, "pressure (Pa) of an interface state"):
         asp.InterfaceState.dented(sound, broken)
 
 
 @pytest.mark.parametrize("bad", ["1 GPa", True])
 def test_hardness_is_a_number(bad):
-    with pytest.raises(asp.InputError, match="hardness"):
+    with refused(asp.InputError, "hardness (Pa)"):
         asp.Hardness(bad)
 
 
 def test_law_of_another_type_is_refused():
-    with pytest.raises(asp.InputError, match="law of a ContactProblem must be"):
+    with refused(asp.InputError, "law of a ContactProblem"):
         asp.ContactProblem(rough((4, 4)), elastic(1.0), law="hard wall")
 
 
 def test_state_of_another_grid_is_refused():
     state = asp.solve(asp.ContactProblem(rough((8, 8)), elastic(1.0)), asp.MeanPressure(0.05)).state
-    with pytest.raises(asp.InputError, match="state must have the shape"):
+    with refused(asp.InputError, "permanent indentation of the state"):
         asp.solve(asp.ContactProblem(rough((8, 9)), elastic(1.0)), asp.MeanPressure(0.05), state=state)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from catalogue import rough
 from contact_cases import slid as solve_sliding
+from refusals import refused
 
 import asperity as asp
 
@@ -178,5 +179,5 @@ def test_permanent_indentation_is_kept_once_not_once_per_round():
 
 def test_refusals():
     problem = asp.ContactProblem(rough(), STEEL)
-    with pytest.raises(asp.InputError, match="friction coefficient must be at least zero"):
+    with refused(asp.InputError, "friction coefficient"):
         solve_sliding(problem, asp.MeanPressure(1e8), -0.1)

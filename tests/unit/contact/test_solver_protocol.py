@@ -9,6 +9,7 @@ import pytest
 from catalogue import CASES, EXACT, SOLVERS, Case, feasible_start, pair_id, rough, solved
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
 from asperity import Grid, InputError, NoSolutionError
 from asperity.contact.operators import PeriodicOperator
@@ -231,7 +232,7 @@ def test_lemke_proves_that_there_is_no_solution() -> None:
     heights = rough((4, 4)).heights
     beyond = FixedOffset(float(heights.mean()) - 1e-10)
     qp = ContactQP(PeriodicOperator(HalfSpace(1e11), grid), heights, np.inf, beyond, 1e-9)
-    with pytest.raises(NoSolutionError, match="end on a ray"):
+    with refused(NoSolutionError, "contact conditions"):
         run(Lemke(), qp, np.zeros((4, 4)))
 
 

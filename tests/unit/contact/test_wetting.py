@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.couplings.menisci import viscous_force
@@ -148,7 +149,7 @@ def test_viscous_shear_of_a_plane_film():
     assert viscous_force(gap, grid, found, weak, 1e-3) == pytest.approx(1e3 * 16 * 2e-16, rel=1e-12)
     unknown = LiquidFilm(surface_tension=0.03, thickness=3e-9)
     assert viscous_force(gap, grid, found, unknown, 0.0) == 0.0
-    with pytest.raises(InputError, match="viscosity of the liquid must be known"):
+    with refused(InputError, "viscosity of the liquid"):
         viscous_force(gap, grid, found, unknown, 1e-3)
 
 
@@ -160,9 +161,9 @@ def test_films_from_humidity():
     assert film.thickness == pytest.approx(0.249e-9, rel=1e-3)
     dry = LiquidFilm.at_humidity(water, 0.05, thickness=1e-9, contact_angles=(angle, angle))
     assert dry.meniscus_height == dry.thickness, "a meniscus is at least as high as the film"
-    with pytest.raises(InputError, match="molar volume of Z-Dol"):
+    with refused(InputError, "molar volume of Z-Dol"):
         LiquidFilm.at_humidity(asp.liquid("Z-Dol"), 0.5)
-    with pytest.raises(InputError, match="thickness of the film must be given for ethanol"):
+    with refused(InputError, "thickness of the film"):
         LiquidFilm.at_humidity(asp.liquid("ethanol"), 0.5)
 
 

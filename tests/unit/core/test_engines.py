@@ -12,6 +12,7 @@ import array_api_strict
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.laws import InterfaceLaw
@@ -632,7 +633,7 @@ def test_an_engine_has_a_name() -> None:
 
 
 def test_what_is_no_array_library_is_refused() -> None:
-    with pytest.raises(asp.InputError, match="module such as cupy"):
+    with refused(asp.InputError, "namespace of ArrayEngine"):
         asp.ArrayEngine("cupy")
 
 
@@ -646,10 +647,10 @@ def test_libraries_without_transforms_or_writable_arrays_are_refused() -> None:
 
     bare: Any = ModuleType("bare")
     bare.zeros = lambda n: Frozen()
-    with pytest.raises(asp.InputError, match="Fourier transforms, but is bare"):
+    with refused(asp.InputError, "namespace of ArrayEngine"):
         asp.ArrayEngine(bare)
     bare.fft = ModuleType("fft")
-    with pytest.raises(asp.InputError, match="writable arrays, but is bare"):
+    with refused(asp.InputError, "namespace of ArrayEngine"):
         asp.ArrayEngine(bare)
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity.core import require
@@ -26,7 +27,7 @@ from asperity.core.citations import REFERENCES, citation_keys, reference
 )
 def test_refusals_name_the_input_and_what_came(check, bad):
     for value in bad:
-        with pytest.raises(asp.InputError, match=r"length of rod must be .*, but is "):
+        with refused(asp.InputError, "length of rod"):
             check(value)
 
 
@@ -62,7 +63,7 @@ def test_every_key_that_is_used_has_a_reference():
     text = asp.cite(*objects)
     assert text.count("\n") == len(citation_keys(*objects)) - 1
     assert "Polonsky" in text
-    with pytest.raises(asp.InputError, match="Nobody1900"):
+    with refused(asp.InputError, "citation key"):
         reference("Nobody1900")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity import (
@@ -264,7 +265,7 @@ def test_hardness_from_body_is_that_of_the_softer_one() -> None:
     assert build(checked(table(law=law))).problem.law.pressure_cap() == pytest.approx(5e9)
     assert build(checked(table(law=law, counter_body=softer))).problem.law.pressure_cap() == pytest.approx(1e9)
     unknown = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.3}
-    with pytest.raises(InputError, match="hardness must be known for at least one body"):
+    with refused(InputError, "hardness"):
         build(checked(table(law=law, body=unknown)))
 
 
@@ -349,7 +350,7 @@ def test_hardness_of_a_coated_body_is_that_of_its_top_layer() -> None:
     coated = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3,H=2GPa"
     assert build(checked(table(law=law, body=coated))).problem.law.pressure_cap() == pytest.approx(9e9)
     unknown = "E=100GPa,nu=0.3:5nm/E=100GPa,nu=0.3,H=2GPa"
-    with pytest.raises(InputError, match="of a coated body the top layer counts"):
+    with refused(InputError, "hardness"):
         build(checked(table(law=law, body=unknown)))
 
 
@@ -365,7 +366,7 @@ def test_effective_hardness_is_that_of_the_softer_body_with_its_layers() -> None
     bare = "E=100GPa,nu=0.3,H=9GPa:0nm/E=100GPa,nu=0.3,H=2GPa"
     assert build(checked(table(law=law, body=bare))).problem.law.pressure_cap() == pytest.approx(2e9)
     unknown = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3"
-    with pytest.raises(InputError, match="in the base must be known"):
+    with refused(InputError, "hardness of the material in the base"):
         build(checked(table(law=law, body=unknown)))
 
 
@@ -381,7 +382,7 @@ def test_load_path() -> None:
             checked(table(control={"path": {key: [value, value.replace("2", "1")][: 1 + (key == "approach")]}}))
         )
         assert isinstance(case.control, kind)
-    with pytest.raises(InputError, match="must be one load or position here, but is a load path"):
+    with refused(InputError, "control"):
         build_control(checked(table(control={"path": path})).control)
 
 
@@ -393,7 +394,7 @@ def test_line_contact() -> None:
     assert problem.surface.shape == (16, 1)
     far = build(checked(table(surface=row, boundary={"kind": "line", "datum": "1 mm"}))).problem
     assert far.boundary == FreeLine(units.parse("1 mm", "length", ""))
-    with pytest.raises(InputError, match="grid of a line contact must have one point along y"):
+    with refused(InputError, "grid of a line contact"):
         build(checked(table(boundary={"kind": "line"})))
 
 
@@ -434,12 +435,12 @@ def test_stresses() -> None:
 def test_stresses_that_cannot_be_had_are_refused_before_solving() -> None:
     with pytest.raises(InputError, match="inside the counter body, which is rigid"):
         build(checked(table(stress={"inside": "counter_body"})))
-    with pytest.raises(InputError, match="y of a stress section must be at most the length 6 µm"):
+    with refused(InputError, "y of a stress section", "6"):
         build(checked(table(stress={"sections": "y=7um"})))
 
 
 def test_unknown_material_is_refused() -> None:
-    with pytest.raises(InputError, match="material must be a name in the material library"):
+    with refused(InputError, "material"):
         build(checked(table(body={"material": "unobtainium"})))
 
 
@@ -451,7 +452,7 @@ def test_solver_settings() -> None:
     assert build(checked(table())).solver.name == "active_set"
     single = build(checked(table(solver={"precision": "single"}))).solver
     assert single == ActiveSet(precision="single")
-    with pytest.raises(InputError, match="precision must not be given for the solver nnls"):
+    with refused(InputError, "precision"):
         build(checked(table(solver={"method": "nnls", "precision": "double"})))
 
 
@@ -524,7 +525,7 @@ def test_counter_surface_is_placed_on_a_common_grid(tmp_path: Path) -> None:
     )
     np.testing.assert_allclose(problem.surface.heights, expected.surface.heights, atol=1e-18)
     np.testing.assert_allclose(problem.counter_surface.heights, expected.counter_surface.heights, atol=1e-18)
-    with pytest.raises(InputError, match="two surfaces of a pair"):
+    with refused(InputError, "the two surfaces of a pair"):
         build(checked(table(surface=surface, counter_surface=counter)), tmp_path)
-    with pytest.raises(InputError, match=r"surface\.place must be left out"):
+    with refused(InputError, "problem document: surface.place"):
         checked(table(surface=surface | {"place": {}}))

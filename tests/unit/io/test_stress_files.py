@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from catalogue import oblong
+from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
@@ -113,13 +114,13 @@ def test_vtk_of_a_section(contact, tmp_path):
 
 
 def test_refusals(contact, tmp_path):
-    with pytest.raises(asp.InputError, match="at least one plane"):
+    with refused(asp.InputError, "stress field to write"):
         asp.save_stress(iter(()), tmp_path / "s.nc")
-    with pytest.raises(asp.InputError, match="depth profile"):
+    with refused(asp.InputError, "stress field for VTK"):
         asp.export_stress_vtk(asp.stress(contact, [0.0], on=asp.DepthProfile()), tmp_path / "s.vtr")
     field = asp.stress(contact, [0.0])
     asp.save_stress(field, tmp_path / "s.nc")
-    with pytest.raises(asp.OutputError, match="must not exist"):
+    with refused(asp.OutputError, "output file"):
         asp.save_stress(field, tmp_path / "s.nc")
     asp.save_stress(field, tmp_path / "s.nc", overwrite=True)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from contact_cases import wetted
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.result import WET_SCALARS
@@ -42,7 +43,7 @@ def test_a_dry_result_has_no_menisci(tmp_path: Path) -> None:
     dry = asp.solve(asp.ContactProblem(asp.Surface(heights, 10e-9), asp.Elastic(100e9, 0.3)), asp.MeanPressure(1e8))
     asp.save(dry, tmp_path / "dry.nc")
     assert asp.load(tmp_path / "dry.nc").menisci is None
-    with pytest.raises(asp.InputError, match="must have a film"):
+    with refused(asp.InputError, "problem of the result"):
         dry.require_menisci()
 
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from refusals import refused
 
 import asperity as asp
 from asperity import plots
@@ -201,17 +202,17 @@ def test_layers_of_one_name_are_one_and_names_of_thin_layers_stay_apart(ax):
 def test_refusals(contact, ax):
     section = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
     whole, profile = asp.stress(contact, [0.0]), asp.stress(contact, DEPTHS, on=asp.DepthProfile())
-    with pytest.raises(asp.InputError, match="one of sqrt_J2"):
+    with refused(asp.InputError, "stress to draw"):
         plots.plot_stress_section(section, ax, "colour")
-    with pytest.raises(asp.InputError, match="magnitude"):
+    with refused(asp.InputError, "stress to draw on a logarithmic scale"):
         plots.plot_stress_section(section, ax, "shear_xz", log=True)
-    with pytest.raises(asp.InputError, match="Section"):
+    with refused(asp.InputError, "field of a stress section"):
         plots.plot_stress_section(whole, ax)
-    with pytest.raises(asp.InputError, match="at least two planes in every region"):
+    with refused(asp.InputError, "field of a stress section"):
         plots.plot_stress_section(asp.stress(contact, [0.0, 50e-9], on=asp.Section(y="max")), ax)
-    with pytest.raises(asp.InputError, match="DepthProfile"):
+    with refused(asp.InputError, "field of a stress profile"):
         plots.plot_stress_profile(section, ax)
-    with pytest.raises(asp.InputError, match="Everywhere"):
+    with refused(asp.InputError, "field of a stress map"):
         plots.plot_stress_map(profile, ax)
-    with pytest.raises(asp.InputError, match="plane of a stress map must be 0 to 0"):
+    with refused(asp.InputError, "plane of a stress map", "0"):
         plots.plot_stress_map(whole, ax, plane=1)

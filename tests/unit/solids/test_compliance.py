@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
@@ -43,14 +44,12 @@ def test_moduli_of_an_elastic_body():
 
 
 def test_refusals():
-    with pytest.raises(asp.InputError, match="must not both be rigid"):
+    with refused(asp.InputError, "body and counter_body"):
         contact_compliance(asp.Rigid(), asp.Rigid())
     for bad in (0.0, -1.0, np.nan, np.inf):
-        with pytest.raises(asp.InputError, match="plane-strain modulus"):
+        with refused(asp.InputError, "plane-strain modulus of a half-space (Pa)"):
             HalfSpace(bad)
-    with pytest.raises(
-        asp.InputError, match=r"strength of an elastic body must be of type Strength.*Strength\(hardness"
-    ):
+    with refused(asp.InputError, "strength of an elastic body"):
         asp.Elastic(1e9, 0.3, 5e7)
     for key in ("hardness", "yield_stress"):
         with pytest.raises(asp.InputError, match=key.replace("_", " ")):

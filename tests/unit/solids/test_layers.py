@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import refused
 from solid_cases import elastic
 
 import asperity as asp
@@ -76,7 +77,7 @@ def test_contact_modulus_is_that_of_the_surface_materials():
     assert asp.contact_modulus(SOFT, body) == asp.contact_modulus(SOFT, HARD)
     stiff_as_stone = asp.Layered([], asp.RigidBase())
     assert asp.contact_modulus(stiff_as_stone, SOFT) == asp.contact_modulus(asp.Rigid(), SOFT)
-    with pytest.raises(asp.InputError, match="must not both be rigid"):
+    with refused(asp.InputError, "body and counter_body"):
         asp.contact_modulus(stiff_as_stone, asp.Rigid())
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import FileFormatError, InputError, UnitError
 from asperity.solids.library import MaterialRecord, Sourced, material, materials
@@ -135,15 +136,13 @@ def test_lookup_ignores_case_and_spacing_and_knows_aliases(name: str) -> None:
     [("alumnium", "aluminium"), ("steels", "steel"), ("DCL", "DLC")],
 )
 def test_unknown_name_proposes_the_nearest(name: str, hint: str) -> None:
-    with pytest.raises(
-        InputError, match=f"material must be .* but is '{name}'; did you mean {hint}.*asperity materials"
-    ):
+    with refused(InputError, "material", name, hint):
         material(name)
 
 
 @pytest.mark.parametrize("name", ["unobtainium-xyz", "", "???"])
 def test_unknown_name_without_neighbours_says_how_to_list(name: str) -> None:
-    with pytest.raises(InputError, match="asperity materials"):
+    with refused(InputError, "material"):
         material(name)
 
 
@@ -234,11 +233,11 @@ def test_faulty_own_file_is_refused_in_one_sentence(
 
 
 def test_missing_unreadable_and_binary_files_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=r"material file must exist, but .*absent\.toml does not"):
+    with refused(FileFormatError, "material file", "absent.toml"):
         material("DLC", library=tmp_path / "absent.toml")
-    with pytest.raises(FileFormatError, match="is a folder"):
+    with refused(FileFormatError, "material file"):
         materials(tmp_path)
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(FileFormatError, match="UTF-8"):
+    with refused(FileFormatError, "material file", "8"):
         materials(binary)

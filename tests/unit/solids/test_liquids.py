@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from refusals import refused
 
 import asperity as asp
 
@@ -35,7 +36,7 @@ def test_lubricants_are_found_by_their_names_and_say_what_is_typical_only():
 
 
 def test_unknown_liquids_are_refused_with_the_nearest_names():
-    with pytest.raises(asp.InputError, match=r"liquid must be a name in the liquid library.*did you mean.*Z-Dol"):
+    with refused(asp.InputError, "liquid"):
         asp.liquid("Z-Doll")
 
 
@@ -54,5 +55,5 @@ def test_own_liquids(tmp_path):
     file.write_text('[liquid."ours"]\nsurface_tension = "30 mN/m"\n', "utf-8")
     with pytest.raises(asp.InputError, match="temperature of liquid 'ours'"):
         asp.liquids(file)
-    with pytest.raises(asp.InputError, match="liquid file must exist"):
+    with refused(asp.InputError, "liquid file"):
         asp.liquids(tmp_path / "absent.toml")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from axisymmetric import wavenumbers
+from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES
@@ -125,7 +126,7 @@ def test_continuity_across_interfaces():
 
 
 def test_a_free_line_has_one_point_along_y():
-    with pytest.raises(asp.InputError, match="one point along y"):
+    with refused(asp.InputError, "grid of a free line"):
         Tractions(asp.Grid((4, 2), (1.0, 1.0)), np.zeros((4, 2)), asp.Sliding(0.0), "free line")
 
 
@@ -150,5 +151,5 @@ def test_a_layer_that_slips_carries_a_sheared_line_to_both_sides():
     base = StressPlanes(loads, SLIPPING, [0.8, 2.0]).whole().within(1)
     np.testing.assert_allclose(base.shear_xz[0], 0.0, atol=1e-12)
     np.testing.assert_allclose(base.shear_xy, 0.0, atol=1e-9)
-    with pytest.raises(asp.InputError, match="slip without end"):
+    with refused(asp.InputError, "displacement under shear traction"):
         StressPlanes(loads, SLIPPING, [0.4]).whole(displacement=True)

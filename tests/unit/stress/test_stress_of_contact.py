@@ -5,6 +5,7 @@ import pytest
 from axisymmetric import SphereOnLayer
 from axisymmetric import fields as hankel_fields
 from catalogue import oblong, rough, sphere
+from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
@@ -138,7 +139,7 @@ def test_labels_of_planes(rough_result):
     inner = field.within("layer 2")
     assert inner.tensor.xx.shape == (2,)
     np.testing.assert_array_equal(field.within(1).normal_xx, field.normal_xx[2:4])
-    with pytest.raises(asp.InputError, match=r"0 \(DLC\), 1 \(layer 2\), 2 \(Al-Mg\)"):
+    with refused(asp.InputError, "region of a stress field", "0", "1", "2"):
         field.within("DLC2")
 
 
@@ -248,13 +249,13 @@ def test_refusals(rough_result, arguments, message):
 
 
 def test_more_refusals():
-    with pytest.raises(asp.InputError, match="exactly one of x and y"):
+    with refused(asp.InputError, "section"):
         asp.Section()
-    with pytest.raises(asp.InputError, match="exactly one of x and y"):
+    with refused(asp.InputError, "section"):
         asp.Section(x=0.0, y=0.0)
-    with pytest.raises(asp.InputError, match="max"):
+    with refused(asp.InputError, "position of a section (m)", "middle"):
         asp.Section(x="middle")
-    with pytest.raises(asp.InputError, match="a number"):
+    with refused(asp.InputError, "x of a depth profile (m)"):
         asp.DepthProfile(x="left")
     surface = rough()
     slipping = asp.Layered([asp.Layer(asp.Elastic(1e9, 0.3), 1e-7, asp.Frictionless())], asp.Elastic(1e9, 0.3))
@@ -298,7 +299,7 @@ def test_depths_through_a_body():
     assert (np.diff(np.diff(depths[8:])) > 0.0).all()
     assert len(planes(DISK, depths)) == len(depths) + 2  # both sides of two interfaces
     np.testing.assert_allclose(asp.depths_through(DISK, 150e-9, per_region=1), [0.0, 50e-9, 150e-9])
-    with pytest.raises(asp.InputError, match="deepest depth"):
+    with refused(asp.InputError, "deepest depth (m)"):
         asp.depths_through(DISK, 0.0)
 
 

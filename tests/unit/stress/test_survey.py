@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from contact_cases import TIGHT, elastic, rough, square_grid
 from reference_data import reference
+from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
@@ -294,6 +295,6 @@ def test_what_there_is_no_stress_of_is_refused(request_: StressRequest, body: ob
 
 def test_section_of_one_point_is_refused() -> None:
     problem = asp.ContactProblem(rough((24, 1)), BASE)
-    with pytest.raises(asp.InputError, match="stress section must hold more than one point"):
+    with refused(asp.InputError, "stress section"):
         StressRequest(sections=(WantedSection("x", "max"),)).check(problem)
     StressRequest().check(problem)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from reference_data import reference
+from refusals import refused
 
 import asperity as asp
 from asperity.stress.compute import StressPlanes
@@ -158,9 +159,9 @@ def test_load_at_yield_gives_up_in_words():
         load_at_yield(
             lambda load: hertz_field(0.3, [10.0], a=8.0), 1.0, max_evaluations=3
         )  # stress that no load changes
-    with pytest.raises(asp.InputError, match="greater than zero"):
+    with refused(asp.InputError, "first guess of the load at yield"):
         load_at_yield(lambda load: hertz_field(0.3, [10.0]), 0.0)
-    with pytest.raises(asp.InputError, match="at least one plane"):
+    with refused(asp.InputError, "fields of a yield report"):
         first_yield(iter(()))
 
 
@@ -189,5 +190,5 @@ def test_peaks_on_chosen_planes():
     assert peak.depth == 5.0
     assert peak.value == field.von_mises[1].max()
     assert field.von_mises[1, int(peak.x), int(peak.y)] == peak.value
-    with pytest.raises(asp.InputError, match="shape"):
+    with refused(asp.InputError, "values of a peak"):
         field.peak(np.zeros(3))

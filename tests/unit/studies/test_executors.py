@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from refusals import refused
 from study_cases import CRASHING, LOADS, QUICK, SLOW, InProcess, plan, workers_of
 
 from asperity.core.errors import InputError
@@ -95,7 +96,7 @@ def test_an_error_of_the_executor_itself_reaches_the_caller():
 
 
 def test_no_workers_are_refused():
-    with pytest.raises(InputError, match="number of workers must be a whole number of at least 1"):
+    with refused(InputError, "number of workers", "1"):
         LocalProcesses(0)
 
 
@@ -171,5 +172,5 @@ def test_a_scheduler_that_does_not_answer_is_said(monkeypatch):
             raise OSError("Timed out trying to connect")
 
     monkeypatch.setattr(distributed, "Client", Silent)
-    with pytest.raises(InputError, match=r"Dask scheduler must answer at 'tcp://127.0.0.1:1', but does not"):
+    with refused(InputError, "Dask scheduler", "'tcp://127.0.0.1:1'"):
         next(DaskCluster("tcp://127.0.0.1:1").run(QUICK, iter([{}])))

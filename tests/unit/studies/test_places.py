@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from refusals import refused
 from study_cases import PROBLEM
 
 from asperity.core.arrays import content_digest
@@ -42,7 +43,7 @@ def test_scalars_are_found_also_where_the_document_leaves_them_out(path, unit):
     ],
 )
 def test_a_bad_path_is_refused_with_the_nearest_names(path, nearest):
-    with pytest.raises(InputError, match=f"{path!r} does not; did you mean .*{nearest}"):
+    with refused(InputError, "path", f"{path!r}", nearest):
         locate(DOCUMENT, path)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 from study_cases import LOADS, PROBLEM, SEEDS, plan
 
 from asperity.core.arrays import content_digest
@@ -23,7 +24,7 @@ def cases(**tables):
 
 @pytest.mark.parametrize("name", ["p/E", " p", "p\n"])
 def test_names_that_files_cannot_hold_are_refused_before_any_case(name: str) -> None:
-    with pytest.raises(InputError, match="must be printable, without /"):
+    with refused(InputError, "name of the axis control.mean_pressure"):
         plan(axes=[{"path": "control.mean_pressure", "values": ["1 MPa"], "name": name}])
 
 
@@ -93,7 +94,7 @@ def test_scalars_that_follow_another():
 def test_constants_can_replace_a_named_material_together():
     problem = {**PROBLEM, "body": "DLC:5nm/steel"}
     modulus = {"path": "body.base.youngs_modulus", "values": ["100 GPa"]}
-    with pytest.raises(InputError, match="gives material and youngs_modulus"):
+    with refused(InputError, "problem with body.base.youngs_modulus = '100000000000.0 Pa': body.base"):
         plan(problem=problem, axes=[modulus])
     named = plan(problem=problem, axes=[{"path": "body.base.material", "values": ["steel", "DLC"]}])
     assert [point.coordinate for point in named.axes[0].points] == ["steel", "DLC"]
@@ -174,7 +175,7 @@ def test_a_file_has_no_grid_to_refine(tmp_path):
 def test_a_problem_document_is_no_study():
     from asperity.studies.documents import study_from_table
 
-    with pytest.raises(InputError, match="must be a study, but is a problem document"):
+    with refused(InputError, "study document"):
         study_from_table(PROBLEM, Path())
 
 

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from reference_data import FOLDER, every_row, reference
+from refusals import refused
 from spectra_cases import with_fixed_amplitudes
 
 import asperity as asp
@@ -175,9 +176,9 @@ def test_effective_samples_of_white_noise_and_of_a_flat():
 
 def test_refusals():
     model = SpectralModel(level=1.0, rolloff_wavelength=1.0, exponents=(3.0,))
-    with pytest.raises(InputError, match="form"):
+    with refused(InputError, "form to be removed"):
         mean_square_after_levelling(model.psd, (1.0, 1.0), "cubic", shortest_wavelength=0.1)
-    with pytest.raises(InputError, match="side of a window"):
+    with refused(InputError, "side of a window (m)"):
         mean_square_after_levelling(model.psd, (1.0, 0.0), shortest_wavelength=0.1)
-    with pytest.raises(InputError, match="spacing"):
+    with refused(InputError, "spacing (m)"):
         expected_difference_moments(model.psd, -1.0, shortest_wavelength=0.1, longest_wavelength=1.0)

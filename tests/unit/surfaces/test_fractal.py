@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
+from refusals import refused
 from scipy.integrate import quad
 
 import asperity as asp
@@ -116,11 +117,11 @@ def test_scaling(scale, stretch):
 
 def test_refusals():
     noise = np.random.default_rng(1).standard_normal((32, 32))
-    with pytest.raises(InputError, match="three lags"):
+    with refused(InputError, "structure function"):
         fractal.fractal_parameters(asp.Surface(noise, 1.0))
-    with pytest.raises(InputError, match="positive at three lags"):
+    with refused(InputError, "structure function"):
         fractal.fractal_parameters(asp.Surface(np.zeros((200, 2)), 1.0))
-    with pytest.raises(InputError, match="fractal dimension"):
+    with refused(InputError, "fractal dimension of a profile"):
         fractal.structure_coefficient(2.0)
-    with pytest.raises(InputError, match="fractal dimension"):
+    with refused(InputError, "fractal dimension of a profile"):
         fractal.spectrum_coefficient(1.0)

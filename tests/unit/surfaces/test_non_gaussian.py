@@ -5,6 +5,7 @@ import pytest
 from ensemble import average, raw_statistics, require_accepted, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 from scipy.special import ndtr
 
 from asperity.core.errors import InputError
@@ -136,11 +137,11 @@ def test_translation_to_gaussian_heights_is_a_gaussian_surface():
 def test_translation_that_no_gaussian_field_can_give_is_refused():
     # a wave has the correlation -1 at half its length, which skewed heights never reach
     wave = TabulatedSpectrum([0.37, 0.39, 0.40], [0.0, 1.0, 1.0])
-    with pytest.raises(InputError, match="must not fall below"):
+    with refused(InputError, "autocorrelation of these heights"):
         translated(Grid((160, 4), (1.0, 1.0)), wave, seed=1, skewness=2.0, kurtosis=9.0)
     with pytest.raises(InputError, match="no Gaussian field"):
         translated(GRID, GaussianAutocorrelation(1.0, 12.0), seed=1, skewness=3.0, kurtosis=16.0)
-    with pytest.raises(InputError, match="at least 1"):
+    with refused(InputError, "kurtosis of the heights", "1"):
         translated(GRID, ROUGH, seed=1, skewness=2.0, kurtosis=4.0)
 
 
@@ -245,7 +246,7 @@ def test_two_levels_have_the_moments_of_their_mixture(share, separation, width):
 
 def test_waves_of_one_length_cannot_carry_gaussian_heights():
     wave = TabulatedSpectrum([0.37, 0.39, 0.40], [0.0, 1.0, 1.0])  # a single wave along x: kurtosis 1.5
-    with pytest.raises(InputError, match="must go together"):
+    with refused(InputError, "spectrum and distribution of the heights"):
         rank_ordered(Grid((160, 4), (1.0, 1.0)), wave, HeightMoments(0.0, 3.0), seed=1)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -144,9 +145,9 @@ def test_degrees_and_names_agree():
         np.testing.assert_array_equal(one.heights, other.heights)
         assert one.origin.history == other.origin.history
     assert "polynomial of degree 5 removed" in levelled(surface, 5).origin.history[-1]
-    with pytest.raises(InputError, match="at most 20"):
+    with refused(InputError, "degree of the form to be removed", "20"):
         levelled(surface, 21)
-    with pytest.raises(InputError, match="whole number"):
+    with refused(InputError, "degree of the form to be removed"):
         levelled(surface, -1)
 
 
@@ -221,7 +222,7 @@ def test_sharp_tip_removes_nothing():
 
 
 def test_blunt_tip_is_refused():
-    with pytest.raises(InputError, match="at every length"):
+    with refused(InputError, "radius of the tip"):
         tip_limited(gaussian(Grid((64, 64), (1.0, 1.0)), ExponentialAutocorrelation(1.0, 3.0), seed=1), 1e9)
 
 

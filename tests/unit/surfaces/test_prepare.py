@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_data import FOLDER, reference
+from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
@@ -215,11 +216,11 @@ def test_block_average_by_whole_numbers():
 
 
 def test_resampling_refuses():
-    with pytest.raises(InputError, match="Fill them first"):
+    with refused(InputError, "surface"):
         resampled(with_hole(rough(), np.s_[1, 1]), (8, 8))
-    with pytest.raises(InputError, match="points of resampled"):
+    with refused(InputError, "points of resampled()"):
         resampled(rough(), (8, 0))
-    with pytest.raises(InputError, match="must be 2 values"):
+    with refused(InputError, "points of resampled()", "2"):
         resampled(rough(), 8)
 
 
@@ -275,7 +276,7 @@ def test_mean_fill():
 def test_fill_refuses_and_leaves_complete_surfaces_alone():
     surface = rough()
     assert filled(surface) is surface
-    with pytest.raises(InputError, match="method of filled"):
+    with refused(InputError, "method of filled()"):
         filled(surface, "cubic")
 
 
@@ -338,10 +339,10 @@ def test_making_periodic_refuses_and_leaves_periodic_surfaces_alone():
     assert periodised(surface) is surface
     hole = with_hole(rough(), np.s_[2, 2])
     for make in (periodised, tapered):
-        with pytest.raises(InputError, match="Fill them first"):
+        with refused(InputError, "surface"):
             make(hole)
     for width in (0.0, 0.6, -0.1):
-        with pytest.raises(InputError, match="width of tapered"):
+        with refused(InputError, "width of tapered()"):
             tapered(surface, width)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.theories.protocol import QUANTITIES, Limit, Prediction, checked, curve, prediction
@@ -34,9 +35,9 @@ def test_text_is_refused_where_numbers_are_expected():
 
 def test_unusable_curves_are_refused():
     assert curve(3.0, "pressures (Pa)").shape == (1,)
-    with pytest.raises(InputError, match="one-dimensional"):
+    with refused(InputError, "pressures (Pa)"):
         curve(np.ones((2, 2)), "pressures (Pa)")
-    with pytest.raises(InputError, match="finite"):
+    with refused(InputError, "pressures (Pa)"):
         curve([1.0, np.nan], "pressures (Pa)")
-    with pytest.raises(InputError, match="greater than zero"):
+    with refused(InputError, "pressures (Pa)"):
         curve([1.0, 0.0], "pressures (Pa)", positive=True)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
@@ -60,7 +61,7 @@ def test_where_the_moments_come_from():
     # a measured map leaves out the wrapped differences
     assert asp.roughness_of(cut).m2 == pytest.approx(by_differences.m2, rel=0.02)
     assert math.isnan(asp.roughness_of(cut).moments.m22)
-    with pytest.raises(InputError, match="source of the moments"):
+    with refused(InputError, "source of the moments"):
         asp.roughness_of(periodic, moments="guess")
 
 
@@ -84,7 +85,7 @@ def test_missing_points_are_filled_for_the_spectrum_alone():
 
 
 def test_flat_surfaces_are_refused():
-    with pytest.raises(InputError, match="flat surface"):
+    with refused(InputError, "moment m0 (m^2)"):
         asp.roughness_of(asp.Surface(np.ones((8, 8)), 1e-9, periodic=True))
 
 
@@ -97,7 +98,7 @@ def test_principal_slopes_do_not_depend_on_the_axes():
 
 def test_what_is_missing_is_named():
     bare = asp.Roughness(1e-18, 1e-3, 1e12)
-    with pytest.raises(InputError, match="theory x must hold its summits"):
+    with refused(InputError, "roughness for the theory x"):
         bare.known(bare.summits, "its summits", "x")
 
 
@@ -109,11 +110,11 @@ def test_impossible_numbers_are_refused(fields):
 
 def test_impossible_lists_are_refused():
     one = np.ones(1)
-    with pytest.raises(InputError, match="same length"):
+    with refused(InputError, "summits"):
         SummitList(one, one, np.ones(2), one, 1.0)
-    with pytest.raises(InputError, match="curvatures"):
+    with refused(InputError, "curvatures of summits"):
         SummitList(one, one, one, -one, 1.0)
-    with pytest.raises(InputError, match="rising"):
+    with refused(InputError, "wavenumbers of a spectrum (rad/m)"):
         Spectrum(np.array([2.0, 1.0]), np.ones(2))
-    with pytest.raises(InputError, match="same length"):
+    with refused(InputError, "spectrum"):
         Spectrum(np.array([1.0, 2.0]), np.ones(3))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 from asperity.core.citations import reference
@@ -237,10 +238,10 @@ def test_what_cannot_be_asked_is_refused(name, arguments, words):
 )
 def test_names_that_are_meant_are_found(written, meant):
     assert meant in nearest(written)
-    with pytest.raises(asp.InputError, match=f"Did you mean .*{meant}"):
+    with refused(asp.InputError, "name of a theory", meant):
         theory(written)
 
 
 def test_a_name_like_no_other_is_answered_with_all():
-    with pytest.raises(asp.InputError, match=r"They are greenwood-williamson, .*kinetic-meniscus"):
+    with refused(asp.InputError, "name of a theory"):
         theory("xxxxxx")
