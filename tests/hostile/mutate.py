@@ -219,7 +219,8 @@ def in_netcdf(file: Path, random: Random) -> None:
         names: list[str] = [""]
         tree.visit(names.append)
         for _ in range(random.choice([1, 1, 2])):
-            node: Any = tree[random.choice(names) or "/"]
+            name = random.choice(names)
+            node: Any = tree[name] if name in tree else tree["/"]
             attributes = list(node.attrs)
             new = random.choice(
                 [

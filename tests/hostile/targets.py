@@ -225,8 +225,7 @@ MATERIALS = {
         "film": {"youngs_modulus": "140 GPa", "poisson_ratio": 0.3, "hardness": "9 GPa", "note": "thin"},
     }
 }
-LINES = (
-    *(("contact", "matrix.txt", *SCALE, *options) for options in CONTACT),
+SOUND = (
     (
         "contact",
         "matrix.txt",
@@ -268,6 +267,7 @@ LINES = (
     ("materials", "steel", "--json"),
     ("generate", "rough", "--points", "16x12", "--size", "8um", "--seed", "1", "--rms-height", "1nm", "--hurst", "0.8"),
 )
+LINES = (*SOUND * 20, *(("contact", "matrix.txt", *SCALE, *options) for options in CONTACT))
 
 
 READ: tuple[Arguments, ...] = (("info", DAMAGED, *SCALE), ("info", DAMAGED))

@@ -331,20 +331,34 @@ def write_netcdf(surface: Surface, path: Path) -> None:
             file.createVariable("mask", "b", ("x", "y"))[:] = surface.mask
 
 
+_DAMAGED = (
+    KeyError,
+    ValueError,
+    TypeError,
+    IndexError,
+    AttributeError,
+    OverflowError,
+    EOFError,
+    OSError,
+    RecursionError,
+)
+"""What SciPy and the reading of records raise on damaged files."""
+
+
 def read_netcdf(file: Path) -> Surface:
     """Surface that :func:`write_netcdf` wrote to ``file``, equal to the last bit.
 
     Raises FileFormatError if the file is damaged.
     """
-    record = json.loads(_attributes(file)[RECORD])
     try:
+        record = json.loads(_attributes(file)[RECORD])
         with _opened(file, "r") as data:
             values = np.array(data.variables["heights"][:])
         heights = values.astype(values.dtype.newbyteorder("="))
         history, keys = tuple(record["history"]), tuple(record["citation_keys"])
         origin = Origin(record["source"], record["channel"], record["instrument"], history, keys)
         return Surface(heights, record["dx"], record["dy"], periodic=record["periodic"], origin=origin)
-    except (KeyError, ValueError, TypeError, IndexError) as error:
+    except _DAMAGED as error:
         raise FileFormatError(f"file {file} must hold a whole surface, but is damaged ({error}).") from error
 
 
@@ -359,7 +373,7 @@ def _attributes(file: Path) -> dict[str, Any]:
     try:
         with _opened(file, "r") as data:
             found = dict(data._attributes)
-    except (ValueError, TypeError, IndexError, KeyError, EOFError):
+    except _DAMAGED:
         return {}
     return {key: value.decode("utf-8") if isinstance(value, bytes) else value for key, value in found.items()}
 

@@ -104,11 +104,11 @@ def _require_nothing_more(file: Path, channel: str | int | None, *scales: object
 def _checked(path: str | os.PathLike[str]) -> Path:
     """``path`` of a file that exists, can be opened and is not empty."""
     file = Path(path)
-    if not file.exists():
-        raise FileFormatError(f"file {file} does not exist. Check the name and the folder.")
-    if not file.is_file():
-        raise FileFormatError(f"file {file} must be a file with heights, but is a folder or device.")
     try:
+        if not file.exists():
+            raise FileFormatError(f"file {file} does not exist. Check the name and the folder.")
+        if not file.is_file():
+            raise FileFormatError(f"file {file} must be a file with heights, but is a folder or device.")
         with file.open("rb") as stream:
             start = stream.read(4096)
     except OSError as exc:

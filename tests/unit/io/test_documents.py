@@ -524,6 +524,15 @@ def test_relocated_paths_lead_to_the_same_files(tmp_path: Path) -> None:
     assert moved["body"]["materials_file"] == moved["counter_body"]["materials_file"] == "../../own.toml"
 
 
+def test_deep_keys_are_named() -> None:
+    deep: object = 1
+    for _ in range(400):
+        deep = {"a": deep}
+    with pytest.raises(InputError) as caught:
+        checked(with_(control={"force": deep}), names={"control.force": "--load"})
+    assert "--load" in str(caught.value)
+
+
 def test_schema_is_json_and_names_every_table() -> None:
     schema = json.loads(json.dumps(json_schema()))
     assert set(schema["properties"]) == {*ProblemDocument.model_fields, "friction", "film", "stress", "plastic_load"}

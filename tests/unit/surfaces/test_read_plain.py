@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 from refusals import refused
 
+import asperity as asp
 from asperity.core.errors import FileFormatError, UnitError
 from asperity.core.values import Lengths
 from asperity.surfaces.read import channels, read
@@ -226,3 +227,15 @@ def _write_bad_files(folder):
     np.save(folder / "object.npy", np.array([[{}, {}]]), allow_pickle=True)
     (folder / "broken.npy").write_bytes((folder / "cube.npy").read_bytes()[:-8])
     (folder / "noise.xyz1").write_bytes(bytes(np.random.default_rng(1).integers(0, 256, 4000, dtype=np.uint8)))
+
+
+def test_a_name_that_is_too_long_and_a_damaged_record_are_refused(tmp_path):
+    with pytest.raises(FileFormatError):
+        read("a" * 300)
+    asp.save_surface(asp.Surface(np.ones((4, 3)), 1e-6), tmp_path / "a.nc")
+    whole = (tmp_path / "a.nc").read_bytes()
+    for wrong in (whole.replace(b'"dx":', b'"dx" '), whole.replace(b"heights\0", b"\xff\xff\xff\xff\xff\xff\xff\xff")):
+        assert wrong != whole
+        (tmp_path / "a.nc").write_bytes(wrong)
+        with pytest.raises(FileFormatError):
+            read(tmp_path / "a.nc", size=SIZE, height_unit="nm")
