@@ -2,7 +2,7 @@
 
 With β1 = skewness² and β2 = kurtosis the density obeys f'/f = -(x + c1)/(c0 + c1 x + c2 x²) with c0 = (4 β2 - 3 β1)/Δ,
 c1 = sqrt(β1) (β2 + 3)/Δ, c2 = (2 β2 - 3 β1 - 6)/Δ and Δ = 10 β2 - 12 β1 - 18 (Pearson 1895, 1916). The sign of
-ϰ = c1²/(4 c0 c2) and whether it exceeds 1 tell the type.
+ϰ = c1²/(4 c0 c2) and whether it exceeds 1 decide the type.
 """
 
 from __future__ import annotations

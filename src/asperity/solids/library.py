@@ -38,7 +38,7 @@ class Sourced:
 class Record:
     """A named substance: ``name`` and ``aliases`` find it, in any case; ``note`` is its condition or a caveat.
 
-    A kind of substance adds its values as fields, None where not known, and says in ``noun`` what messages and tables of
+    A kind of substance adds its values as fields, None where not known, and has in ``noun`` what messages and tables of
     files call it, and in ``kinds`` the kind of quantity of each value, "ratio" for a Poisson's ratio.
     """
 

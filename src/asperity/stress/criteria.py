@@ -116,7 +116,7 @@ def _directions(s: StressTensor) -> RealArray:
 class _Deviator:
     """Deviator over √(J2/3): the eigenvalue ``apart`` from the others, its direction ``n``, the 2 x 2 form across it.
 
-    ``first`` says whether that eigenvalue is the largest or the smallest.
+    ``first``: whether that eigenvalue is the largest, else the smallest.
     """
 
     def __init__(self, s: StressTensor) -> None:

@@ -322,7 +322,7 @@ def _keep(peaks: dict[str, Peak], name: str, peak: Peak) -> None:
 
 
 class _Search:
-    """Search of one plane: exact values only at points whose upper bound says that they may be largest."""
+    """Search of one plane: exact values only at points whose upper bound allows them to be largest."""
 
     def __init__(self, field: StressField, blocks: Blocks) -> None:
         self._kernels = import_module(".kernels.planes", __package__)

@@ -221,7 +221,7 @@ class Selection:
 
 
 def selection(where: Where, grid: Grid, pressure: RealArray) -> Selection:
-    """Points of ``grid`` that ``where`` asks for; "max" is where ``pressure`` is largest.
+    """Points of ``grid`` at ``where``; "max" is where ``pressure`` is largest.
 
     InputError if ``where`` is of another type, or a position lies outside the grid.
     """

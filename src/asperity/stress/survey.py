@@ -396,7 +396,7 @@ def _planes(
 
 
 class _Tracked:
-    """Counts planes and tells the progress."""
+    """Count of planes done, passed on to the progress."""
 
     def __init__(self, progress: Progress, total: int) -> None:
         self._progress, self._total, self._done = progress, total, 0

@@ -220,7 +220,7 @@ def _sum(real, sign, K, loads, out):  # type: ignore[no-untyped-def]
 def _field(parity, K, loads, lines, out):  # type: ignore[no-untyped-def]
     """One field on one line, coefficients ``K`` under p, q_x, q_y times loads.
 
-    ``parity`` says whether the coefficient under p is real and whether it is odd in c, hence has another sign at -ξ.
+    ``parity``: whether the coefficient under p is real and whether it is odd in c, hence has another sign at -ξ.
     That under q_y is as odd, that under q_x is not; both are imaginary where the first is real.
     """
     real, odd = parity

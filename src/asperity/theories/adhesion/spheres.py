@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.quantity import Quantity
-from ...core.values import Length, Number, Pressure
-from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked
+from ...core.values import Length, Pressure
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, Work, bisected, checked
 from ..single.hertz import hertz_profile
 
 # Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975; Tabor 1977).
@@ -40,12 +40,24 @@ def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -
 _ALLOWED = "Adhesion {}; MaugisDugdale allows for that."
 
 
-def _tabor(theory: JKR | DMT, answer: ContactAnswer) -> float:
-    return theory.tabor
+@dataclass(frozen=True)
+class _AdhesiveSphere(Theory):
+    """Base of the two limits of adhesive spheres."""
+
+    E_star: Modulus
+    radius: Radius
+    work: Work
+    spacing: Annotated[Length, "equilibrium spacing"] = 3e-10
+    numbers: ClassVar[tuple[Quantity, ...]] = ADHESION
+
+    @property
+    def tabor(self) -> float:
+        """Tabor's parameter."""
+        return tabor_parameter(self.E_star, self.radius, self.work, self.spacing)
 
 
 @dataclass(frozen=True)
-class JKR(Theory):
+class JKR(_AdhesiveSphere):
     """Sphere with adhesion inside of the contact alone: P = Ka³/R - sqrt(6πwKa³), δ = a²/R - sqrt(2πwa/E*), K = 4E*/3.
 
     Loads may be negative down to the pull-off force -1.5πwR; approaches down to -δc (fixed grips).
@@ -57,23 +69,20 @@ class JKR(Theory):
     '2.36 µN, 4.13 µm without load'
     """
 
-    E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
-    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
-    spacing: Annotated[Length, "equilibrium spacing"] = 3e-10
     name: ClassVar[str] = "jkr"
     title: ClassVar[str] = "JKR, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1971", "Tabor1977")
     limits: ClassVar[tuple[Bound, ...]] = (
-        Bound("Tabor's parameter", _tabor, 5.0, math.inf, "Tabor1977", _ALLOWED.format("reaches beyond the contact")),
+        Bound(
+            "Tabor's parameter",
+            lambda theory, answer: theory.tabor,
+            5.0,
+            math.inf,
+            "Tabor1977",
+            _ALLOWED.format("reaches beyond the contact"),
+        ),
         CONTACT_RADIUS,
     )
-    numbers: ClassVar[tuple[Quantity, ...]] = ADHESION
-
-    @property
-    def tabor(self) -> float:
-        """Tabor's parameter; the theory holds from 5 on."""
-        return tabor_parameter(self.E_star, self.radius, self.work, self.spacing)
 
     @property
     def pull_off(self) -> float:
@@ -171,28 +180,23 @@ def contact_ratio(approach: ArrayLike) -> RealArray:
 
 
 @dataclass(frozen=True)
-class DMT(Theory):
+class DMT(_AdhesiveSphere):
     """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3."""
 
-    E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
-    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
-    spacing: Annotated[Length, "equilibrium spacing"] = 3e-10
     name: ClassVar[str] = "dmt"
     title: ClassVar[str] = "DMT, adhesive sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Derjaguin1975", "Tabor1977")
     limits: ClassVar[tuple[Bound, ...]] = (
         Bound(
-            "Tabor's parameter", _tabor, 0.0, 0.1, "Tabor1977", _ALLOWED.format("deforms the bodies around the contact")
+            "Tabor's parameter",
+            lambda theory, answer: theory.tabor,
+            0.0,
+            0.1,
+            "Tabor1977",
+            _ALLOWED.format("deforms the bodies around the contact"),
         ),
         CONTACT_RADIUS,
     )
-    numbers: ClassVar[tuple[Quantity, ...]] = ADHESION
-
-    @property
-    def tabor(self) -> float:
-        """Tabor's parameter; the theory holds up to 0.1."""
-        return tabor_parameter(self.E_star, self.radius, self.work, self.spacing)
 
     @property
     def pull_off(self) -> float:
@@ -298,8 +302,8 @@ class MaugisDugdale(Theory):
     """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts."""
 
     E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
-    work: Annotated[float, Number("J/m^2", above=0.0), "work of adhesion w"]
+    radius: Radius
+    work: Work
     attraction: Annotated[Pressure, "stress σ0. The largest of a Lennard-Jones surface is 16w/(9√3 z0)"]
     name: ClassVar[str] = "maugis-dugdale"
     title: ClassVar[str] = "Maugis-Dugdale, adhesive sphere"

@@ -24,10 +24,6 @@ from ..statistics.roughness import Roughness
 # Three different indices are in use for the same surface.
 
 
-HARDNESS_OVER_YIELD = 2.8
-"""H/Y of full plasticity (Tabor 1951)."""
-
-
 def hardness_coefficient(nu: float) -> float:
     """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion & Bogy (1987); ``nu``
     from 0 to 0.5.

@@ -218,11 +218,17 @@ class _OnSummits(Theory):
         return self.model.at_pressure(pressure)
 
 
+@dataclass(frozen=True)
 class _OfHardness(_OnSummits):
     """Base of those whose summit yields by its hardness, in a law of the class ``sphere``."""
 
-    hardness: float
-    nu: float
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    hardness: HardnessOfSofter
+    nu: PoissonK = 0.3
+    mean_height: MeanHeight = 0.0
     sphere: ClassVar[type[ChangEtsionBogySphere] | type[KogutEtsionSphere]]
 
     @classmethod
@@ -230,7 +236,7 @@ class _OfHardness(_OnSummits):
         """Theory for the summits of a map, see ``GreenwoodWilliamson.from_roughness``."""
         s = GreenwoodWilliamson.from_roughness(roughness, E_star)
         numbers = (s.density, s.radius, s.height_deviation, hardness, nu, s.mean_height)
-        return cls(E_star, *numbers)  # type: ignore[call-arg]
+        return cls(E_star, *numbers)
 
     @property
     def law(self) -> ElasticPlasticSphere:
@@ -238,29 +244,35 @@ class _OfHardness(_OnSummits):
         return self.sphere(self.E_star, self.radius, self.hardness, self.nu)
 
 
-# Plastic flow of constant volume beyond first yield (Chang, Etsion & Bogy 1987).
-
-
 @dataclass(frozen=True)
-class ChangEtsionBogySphere(ElasticPlasticSphere):
-    """Sphere that keeps its volume beyond ω_c: A = πRω(2 - 1/x), P = KHA, x = ω/ω_c; Hertz below.
-
-    The load jumps by half at ω_c, from the mean pressure (2/3)KH to KH.
-    """
+class _SphereOfHardness(ElasticPlasticSphere):
+    """Base of the spheres that yield by their hardness."""
 
     E_star: Modulus
     radius: Radius
     hardness: HardnessOfSofter
     nu: PoissonK = 0.3
-    breaks: ClassVar[tuple[float, ...]] = (1.0,)
-    name: ClassVar[str] = "chang-etsion-bogy-sphere"
-    title: ClassVar[str] = "Chang-Etsion-Bogy, one sphere"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987",)
 
     @property
     def critical_interference(self) -> float:
         """ω_c = (πKH/2E*)² R in m, K = 0.454 + 0.41ν."""
         return critical_interference(self.E_star, self.radius, hardness_coefficient(self.nu) * self.hardness)
+
+
+# Plastic flow of constant volume beyond first yield (Chang, Etsion & Bogy 1987).
+
+
+@dataclass(frozen=True)
+class ChangEtsionBogySphere(_SphereOfHardness):
+    """Sphere that keeps its volume beyond ω_c: A = πRω(2 - 1/x), P = KHA, x = ω/ω_c; Hertz below.
+
+    The load jumps by half at ω_c, from the mean pressure (2/3)KH to KH.
+    """
+
+    breaks: ClassVar[tuple[float, ...]] = (1.0,)
+    name: ClassVar[str] = "chang-etsion-bogy-sphere"
+    title: ClassVar[str] = "Chang-Etsion-Bogy, one sphere"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987",)
 
     def load_ratio(self, x: RealArray) -> RealArray:
         """P/P_c: x^(3/2) up to 1, then 1.5(2x - 1)."""
@@ -275,13 +287,6 @@ class ChangEtsionBogySphere(ElasticPlasticSphere):
 class ChangEtsionBogy(_OfHardness):
     """Greenwood and Williamson's summits, each with the law of ``ChangEtsionBogySphere``; Gaussian heights."""
 
-    E_star: Modulus
-    density: SummitDensity
-    radius: SummitRadius
-    height_deviation: HeightDeviation
-    hardness: HardnessOfSofter
-    nu: PoissonK = 0.3
-    mean_height: MeanHeight = 0.0
     name: ClassVar[str] = "chang-etsion-bogy"
     title: ClassVar[str] = "Chang-Etsion-Bogy"
     citation_keys: ClassVar[tuple[str, ...]] = ("Chang1987",)
@@ -292,7 +297,7 @@ class ChangEtsionBogy(_OfHardness):
 
 
 @dataclass(frozen=True)
-class KogutEtsionSphere(ElasticPlasticSphere):
+class KogutEtsionSphere(_SphereOfHardness):
     """Sphere with fitted powers of x = ω/ω_c between first yield and x = 110, fully plastic beyond; Hertz below.
 
     The fits were made at ν = 0.3 and do not join: load and area step by +3 % and -7 % at 1, +1.7 % and +2.9 % at 6, +7.9 %
@@ -306,19 +311,10 @@ class KogutEtsionSphere(ElasticPlasticSphere):
     '6.00 GPa'
     """
 
-    E_star: Modulus
-    radius: Radius
-    hardness: HardnessOfSofter
-    nu: PoissonK = 0.3
     breaks: ClassVar[tuple[float, ...]] = (1.0, 6.0, 110.0)
     name: ClassVar[str] = "kogut-etsion-sphere"
     title: ClassVar[str] = "Kogut-Etsion, one sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Kogut2002",)
-
-    @property
-    def critical_interference(self) -> float:
-        """ω_c = (πKH/2E*)² R in m, K = 0.454 + 0.41ν."""
-        return critical_interference(self.E_star, self.radius, hardness_coefficient(self.nu) * self.hardness)
 
     def load_ratio(self, x: RealArray) -> RealArray:
         """P/P_c: x^1.5, 1.03x^1.425, 1.40x^1.263 and (3/K)x up to 1, 6, 110 and beyond."""
@@ -334,13 +330,6 @@ class KogutEtsionSphere(ElasticPlasticSphere):
 class KogutEtsion(_OfHardness):
     """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian heights."""
 
-    E_star: Modulus
-    density: SummitDensity
-    radius: SummitRadius
-    height_deviation: HeightDeviation
-    hardness: HardnessOfSofter
-    nu: PoissonK = 0.3
-    mean_height: MeanHeight = 0.0
     name: ClassVar[str] = "kogut-etsion"
     title: ClassVar[str] = "Kogut-Etsion"
     citation_keys: ClassVar[tuple[str, ...]] = ("Kogut2002",)

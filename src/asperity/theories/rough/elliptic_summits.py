@@ -44,13 +44,14 @@ ISOTROPIC_BANDWIDTH = Bound(
 )
 
 
+@dataclass(frozen=True)
 class _OfMoments(SeparationTheory):
     """Base of theories that are made from the moments of an isotropic Gaussian surface."""
 
-    E_star: float
-    m0: float
-    m2: float
-    m4: float
+    E_star: Modulus
+    m0: MeanSquareHeight
+    m2: MeanSquareSlope
+    m4: MeanSquareBend
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -59,7 +60,7 @@ class _OfMoments(SeparationTheory):
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
         """Theory for the moments of ``roughness``."""
-        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)  # type: ignore[call-arg]
+        return cls(E_star, roughness.m0, roughness.m2, roughness.m4)
 
     @cached_property
     def _nayak(self) -> NayakSummits:
@@ -89,10 +90,6 @@ class McCool(_OfMoments):
     m0 m4/m2² < 1.5.
     """
 
-    E_star: Modulus
-    m0: MeanSquareHeight
-    m2: MeanSquareSlope
-    m4: MeanSquareBend
     name: ClassVar[str] = "mccool"
     title: ClassVar[str] = "Greenwood-Williamson with McCool's parameters"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "McCool1986", "Nayak1971")
@@ -253,10 +250,6 @@ class BushGibsonThomas(_OnSummits):
     2008). InputError if m0 m4/m2² < 1.5.
     """
 
-    E_star: Modulus
-    m0: MeanSquareHeight
-    m2: MeanSquareSlope
-    m4: MeanSquareBend
     name: ClassVar[str] = "bush-gibson-thomas"
     title: ClassVar[str] = "Bush-Gibson-Thomas"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bush1975", "Carbone2008", "Nayak1971")
@@ -271,10 +264,6 @@ class GreenwoodElliptic(_OnSummits):
     is the same. InputError if m0 m4/m2² < 1.5.
     """
 
-    E_star: Modulus
-    m0: MeanSquareHeight
-    m2: MeanSquareSlope
-    m4: MeanSquareBend
     name: ClassVar[str] = "greenwood-elliptic"
     title: ClassVar[str] = "Greenwood's simplified elliptic model"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood2006", "Nayak1971")

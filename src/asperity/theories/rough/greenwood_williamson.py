@@ -40,14 +40,15 @@ LOWEST, HIGHEST = -40.0, 37.0
 """Separations in standard deviations between which pressures are inverted; at 37 a Gaussian has 1e-300 left."""
 
 
+@dataclass(frozen=True)
 class SphericalSummits(SeparationTheory):
     """Base of theories of independent summits of one radius: equations of ``GreenwoodWilliamson``."""
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float
+    E_star: Modulus
+    density: SummitDensity
+    radius: SummitRadius
+    height_deviation: HeightDeviation
+    mean_height: MeanHeight = 0.0
     limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
     @property
@@ -111,11 +112,6 @@ class GreenwoodWilliamson(SphericalSummits):
         n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
     """
 
-    E_star: Modulus
-    density: SummitDensity
-    radius: SummitRadius
-    height_deviation: HeightDeviation
-    mean_height: MeanHeight = 0.0
     heights: HeightsLaw = GaussianHeights()
     name: ClassVar[str] = "greenwood-williamson"
     title: ClassVar[str] = "Greenwood-Williamson"
@@ -155,11 +151,6 @@ class KotwalBhushan(SphericalSummits):
     ['2.03e-05', '1.11e-05']
     """
 
-    E_star: Modulus
-    density: SummitDensity
-    radius: SummitRadius
-    height_deviation: HeightDeviation
-    mean_height: MeanHeight = 0.0
     skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
     kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
     name: ClassVar[str] = "kotwal-bhushan"

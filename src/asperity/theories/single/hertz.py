@@ -13,7 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.values import Length
 from ..ask import LINE_LOAD, Way
-from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, bisected, checked, small_slope
 
 # Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
 
@@ -101,7 +101,7 @@ class HertzLine(Theory):
     """
 
     E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
+    radius: Radius
     name: ClassVar[str] = "hertz-line"
     title: ClassVar[str] = "Hertz, line contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")

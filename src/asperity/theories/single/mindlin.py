@@ -18,9 +18,9 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import Length, Positive, Pressure
+from ...core.values import Positive, Pressure
 from ..ask import Way, asked
-from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, checked, small_slope
 from .hertz import HertzLine, HertzPoint
 
 
@@ -66,7 +66,7 @@ class MindlinPoint(Theory):
     """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c."""
 
     E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
+    radius: Radius
     G_star: Annotated[Pressure, Help("tangential modulus G*", of="bodies")]
     friction: Annotated[Positive, "friction coefficient μ"]
     name: ClassVar[str] = "mindlin"
@@ -106,7 +106,7 @@ class MindlinLine(Theory):
     """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP)."""
 
     E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
+    radius: Radius
     friction: Annotated[Positive, "friction coefficient μ"]
     name: ClassVar[str] = "mindlin-line"
     title: ClassVar[str] = "Cattaneo-Mindlin, line contact"

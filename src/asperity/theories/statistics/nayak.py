@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,9 +13,8 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
-from ...core.values import Number, Positive
 from ..ask import Way, asked
-from ..protocol import Theory, real_numbers
+from ..protocol import MeanSquareBend, MeanSquareHeight, MeanSquareSlope, Theory, real_numbers
 from .roughness import Roughness
 
 GEOMETRIC_CURVATURE = 1.35621131344399
@@ -48,9 +47,9 @@ class NayakSummits(Theory):
     InputError if a moment is not positive or α < 1.5, which no isotropic surface has.
     """
 
-    m0: Annotated[float, Number("area", above=0.0), "mean square height"]
-    m2: Annotated[Positive, "mean square slope of a profile"]
-    m4: Annotated[float, Number("1/m^2", above=0.0), "mean square second derivative of a profile"]
+    m0: MeanSquareHeight
+    m2: MeanSquareSlope
+    m4: MeanSquareBend
     name: ClassVar[str] = "nayak"
     title: ClassVar[str] = "Nayak, summits of a Gaussian surface"
     citation_keys: ClassVar[tuple[str, ...]] = ("LonguetHiggins1957", "McCool1986", "Nayak1971")

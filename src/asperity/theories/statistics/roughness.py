@@ -217,7 +217,7 @@ class Roughness:
         return steep / gentle if gentle > 0.0 else math.inf
 
     def known(self, part: T | None, what: str, theory: str) -> T:
-        """Return ``part`` of this value, or say that the ``theory`` needs ``what``. InputError if ``part`` is None."""
+        """``part`` of this value; InputError with ``what`` the ``theory`` needs if it is None."""
         if part is None:
             raise InputError(
                 f"roughness for the theory {theory} must hold {what}, but does not. "

@@ -16,7 +16,7 @@ from ...core.quadrature import gauss
 from ...core.tensor import Displacement, ElasticFields, StressTensor
 from ...core.values import Length, Number
 from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked, places
-from ..protocol import Modulus, PoissonOfSolid, Theory
+from ..protocol import Modulus, PoissonOfSolid, Radius, Theory
 from ..single.hertz import HertzEllipse, HertzLine, HertzPoint
 
 # Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
@@ -327,7 +327,7 @@ class HertzStress(Theory):
     """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1)."""
 
     E_star: Modulus
-    radius: Annotated[Length, "relative radius of curvature R"]
+    radius: Radius
     nu: Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")] = 0.3
     friction: Annotated[
         float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
