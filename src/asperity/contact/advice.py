@@ -360,7 +360,7 @@ def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
 
 
 def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    """A pressure limit says nothing of what lies below the surface, where a softer material may yield first."""
+    """A pressure limit does not concern what lies below the surface, where a softer material may yield first."""
     if isinstance(problem.law, LimitByDepth):
         return
     limit = float(np.max(problem.law.pressure_cap()))

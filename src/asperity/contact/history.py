@@ -133,7 +133,7 @@ class HistoryResult(Stored):
     Parameters
     ----------
     steps
-        One for each control. A step that did not converge carries the status that says so; the steps after it
+        One for each control. A step that did not converge carries its status; the steps after it
         started from the last one that did.
     start
         Interface before the first step; None for a virgin one.

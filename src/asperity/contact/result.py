@@ -51,7 +51,7 @@ class Certificate:
     wall_time
         Seconds from prepared operator to solution.
     peak_memory
-        Largest memory the process has held so far, in bytes; NaN where the system does not tell.
+        Largest memory the process has held so far, in bytes; NaN where it is not known.
     solver
         Name of the method.
     couplings
@@ -195,7 +195,7 @@ class ContactResult(Stored):
     max_permanent_indentation
         Maximum of ``permanent_indentation``, m.
     normal_stiffness
-        d(mean pressure)/d(approach), Pa/m; NaN where not asked for; infinite in periodic full contact.
+        d(mean pressure)/d(approach), Pa/m; NaN where not computed; infinite in periodic full contact.
     n_spots, spot_areas, mean_spot_area, contact_perimeter
         Number of contact spots, their areas (m², largest first) and mean, perimeter along pixel edges (m).
     certificate, status
@@ -203,7 +203,7 @@ class ContactResult(Stored):
     couplings
         What each coupling found, by its name: ``menisci``, ``sliding``.
     memory
-        What each coupling remembers for the next step, by its name, beside what the fields here tell.
+        Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
         Pressure (nx, ny) in Pa of the load before, from which the next one is extrapolated; None for a first load.
     """
@@ -388,7 +388,7 @@ def assemble(
 
 
 def _indentation(problem: ContactProblem, state: InterfaceState | None, memory: Memory) -> dict[str, Any]:
-    """What a result says of the permanent indentation in ``memory``, which takes the place of that of ``state``."""
+    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``."""
     permanent, total = memory["indentation"], float(memory["work"])
     pixel = problem.grid.pixel_area
     return {

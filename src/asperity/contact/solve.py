@@ -95,7 +95,7 @@ def solve(
     solver
         Method of the normal solves with its tolerance; chosen by ``default_solver`` if not given.
     state
-        State of an earlier result: what it remembers is kept, its pressure is the first guess.
+        State of an earlier result: its memory is kept, its pressure is the first guess.
     keep
         What to compute beyond the fields; by default the stiffness of a single load.
     operator

@@ -1,4 +1,4 @@
-"""What an interface remembers: passed into a solve, returned with its result, never stored on the inputs."""
+"""Memory of an interface: passed into a solve, returned with its result, never stored on the inputs."""
 
 from __future__ import annotations
 

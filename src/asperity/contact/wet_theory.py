@@ -1,4 +1,4 @@
-"""What the closed theories of summits say of a wet contact, to stand beside the menisci that are counted on its map."""
+"""Closed theories of summits for a wet contact, to stand beside the menisci that are counted on its map."""
 
 from __future__ import annotations
 

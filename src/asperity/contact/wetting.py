@@ -177,7 +177,7 @@ def wetting(
     wraps
         Whether the map goes on across its border along x and along y.
     diagonal
-        Whether pixels that share a corner only belong to one island; no by default, the sources do not say.
+        Whether pixels that share a corner only belong to one island; no by default; the sources leave it open.
     """
     wetted = (gap <= film.thickness) | contact
     cut = (gap <= film.meniscus_height) | contact

@@ -1,4 +1,4 @@
-"""Names and methods that are looked up when they are asked for, so that importing the package costs nothing."""
+"""Names and methods that are looked up at their first use, so that importing the package costs nothing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class LateNames:
     """Names of ``package`` by the module below it that defines them, or that they are modules of.
 
     Module and names read like ``from .module import names``; an empty module stands for the package itself, whose names
-    are then modules. To be used as ``__getattr__`` of the package, with a stub beside that says the same to type checkers.
+    are then modules. To be used as ``__getattr__`` of the package, with a stub beside for type checkers.
     """
 
     def __init__(self, package: str, by_module: Mapping[str, tuple[str, ...]]) -> None:
@@ -53,7 +53,7 @@ class Shown:
     """Base of surfaces, bodies, problems, results and stress fields: how they show themselves on a screen and in a notebook.
 
     Words and pictures are made by the layers ``io`` and ``plots``, which the classes of lower layers may not import. The package
-    itself stands above all layers, and when it is imported it says with ``supply`` where these functions are found.
+    itself stands above all layers, and when it is imported it gives with ``supply`` where these functions are found.
     """
 
     _find: ClassVar[Any]

@@ -1,6 +1,6 @@
 """Parameters declared once, where they stand in a signature: unit, range, choices, default and one line of help.
 
-A function or a frozen dataclass says with ``Annotated`` what its parameters may be:
+A function or a frozen dataclass declares with ``Annotated`` what its parameters may be:
 
     def sphere(grid: Grid, *, radius: Annotated[Length, "Radius."], exact: Annotated[bool, "A circle."] = False)
 
@@ -31,7 +31,7 @@ REQUIRED: Any = inspect.Parameter.empty
 
 @dataclass(frozen=True)
 class Help:
-    """What a parameter is, in one line; ``option`` names it on the command line, ``of`` says what it belongs to."""
+    """What a parameter is, in one line; ``option`` names it on the command line, ``of`` is what it belongs to."""
 
     text: str
     option: str | None = None
@@ -114,7 +114,7 @@ def parameter(name: str, annotation: Any, default: Any = REQUIRED) -> Parameter 
 
 
 def values_of(base: Any, marks: tuple[Any, ...] = ()) -> Values:
-    """What values an annotation allows: those of the last mark that says so, else those of its type."""
+    """What values an annotation allows: those of the last mark with values, else those of its type."""
     for mark in reversed(marks):
         if isinstance(mark, Values):
             return mark

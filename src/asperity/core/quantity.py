@@ -21,13 +21,13 @@ class Quantity:
     dims
         Names of the axes of its array; none for a single number.
     description
-        Definition in words or symbols, for those who want to know exactly.
+        Exact definition in words or symbols.
     symbol
         Symbol of the literature.
     source
         Author and year, or standard, of the definition.
     costly
-        Whether it takes about as long as a solve, so that it is computed only if asked for.
+        Whether it takes about as long as a solve, so that it is computed on request only.
     """
 
     name: str

@@ -88,11 +88,11 @@ def table_of(
     base
         Table whose keys are added.
     kind
-        Name of the key that tells this table from others, and its only value: ``"kind=sphere"``.
+        Name of the key that distinguishes this table from others, and its only value: ``"kind=sphere"``.
     tables
         What stands in a document for parameters of types that are no numbers: annotations by type, None for no key.
 
-    A default with a unit, and one that no text can say, stays that of the function: None in the document.
+    A default with a unit, and one that has no text, stays that of the function: None in the document.
     """
     tag, _, value = kind.partition("=")
     made: dict[str, Any] = {tag: (Literal[value], ...)}
@@ -111,7 +111,7 @@ def table_of(
 
 
 def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> T:
-    """The ``model`` made of the nested ``table``; ``names`` says what to call a dotted key instead, such as an option.
+    """The ``model`` made of the nested ``table``; ``names`` replaces dotted keys in messages, such as by an option.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
 
 
 def _plain(value: Any) -> Any:
-    """``value`` without the texts of its numbers; a size keeps its own, which tells one length from two."""
+    """``value`` without the texts of its numbers; a size keeps its own, which distinguishes one length from two."""
     if isinstance(value, tuple) and not isinstance(value, WrittenPair):
         return tuple(_plain(item) for item in value)
     return float(value) if isinstance(value, float) else value

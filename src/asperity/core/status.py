@@ -63,7 +63,7 @@ class NoProgress:
 
 
 def peak_memory() -> float:
-    """Largest resident memory of the process so far in bytes; NaN where the system does not tell (Windows)."""
+    """Largest resident memory of the process so far in bytes; NaN where it is not known (Windows)."""
     if importlib.util.find_spec("resource") is None:
         return math.nan
     import resource
@@ -73,7 +73,7 @@ def peak_memory() -> float:
 
 
 def free_memory() -> float:
-    """Bytes of memory that new work may take; infinite where the system does not tell (Windows, macOS)."""
+    """Bytes of memory that new work may take; infinite where it is not known (Windows, macOS)."""
     try:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
         return next(1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable"))

@@ -27,7 +27,7 @@ DIMENSIONS = {
     "memory": "byte",
     "number": "dimensionless",
 }
-"""Kinds of quantity that can be asked for, with the SI unit in which they are returned."""
+"""Kinds of quantity, with the SI unit in which they are returned."""
 
 EXAMPLES = {
     "length": "5 nm",

@@ -1,6 +1,6 @@
 """What may stand for a parameter: numbers of a quantity between bounds, whole numbers, choices, several of them.
 
-Each kind of values checks a value, reads one from text such as ``"5 nm"``, and tells documents, forms and commands what it is.
+Each kind of values checks a value, reads one from text such as ``"5 nm"``, and describes itself to documents, forms and commands.
 """
 
 from __future__ import annotations
@@ -203,7 +203,7 @@ class Number(Values):
 
 @dataclass(frozen=True)
 class Whole(Values):
-    """Whole numbers of at least ``least`` and at most ``most``, the ``odd`` ones only if asked for."""
+    """Whole numbers of at least ``least`` and at most ``most``, the ``odd`` ones only if so chosen."""
 
     least: int = 1
     most: int | None = None
@@ -238,7 +238,7 @@ class Whole(Values):
     def read(self, value: Any, what: str) -> int:
         """Whole number for its digits."""
         digits = isinstance(value, str) and value.strip().isascii() and value.strip().isdigit() and len(value) < 20
-        if isinstance(value, float):  # a document says 3 where it means a whole number
+        if isinstance(value, float):  # 3.0 in a document for a whole number
             raise InputError(f"{what} must be {self.rule}, but is {value!r}.")
         return self.check(int(value) if digits else value, what)
 

@@ -58,7 +58,7 @@ class Mixing:
         return tuple(found)
 
     def forget(self) -> None:
-        """Begin anew: what was remembered no longer tells where the iteration leads."""
+        """Begin anew: earlier rounds do not show where the iteration leads."""
         self.places.clear()
         self.moves.clear()
 
@@ -135,7 +135,7 @@ class CouplingCheck:
     name
         The coupling.
     residual
-        What the last contact asks for less what it was posed with, relative.
+        Target of the last contact less what it was posed with, relative.
     rate
         Factor by which the residual fell from round to round, on average of the last three; zero if it was one round.
     tolerance
@@ -174,22 +174,9 @@ def settle(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """Contact that agrees with all ``couplings``.
+    """Contact that agrees with all ``couplings`` (each with a name of its own, in any order), with their ``memories`` of the step before.
 
-    Parameters
-    ----------
-    posed
-        Operator, heights, what is prescribed, where to start.
-    couplings
-        Each with a name of its own, in any order.
-    memories
-        Memory of the step before by name of the coupling.
-    solver
-        Method of the normal solves; its tolerance is that of the last one, those before are looser.
-    rounds
-        When to give up.
-    progress
-        Receives every iteration of every round.
+    The tolerance of ``solver`` is that of the last normal solve; those before are looser.
 
     Raises
     ------
@@ -314,7 +301,7 @@ class _Iteration:
         self.exchanges[Position.name] = position.without_bracket(self.exchanges[Position.name])
 
     def _posed(self) -> ContactQP:
-        """Discrete problem with the shares of all couplings; those that cannot bear the load are asked for more."""
+        """Discrete problem with the shares of all couplings; those that cannot bear the load are raised."""
         while True:
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
             profile, self.indentation = self.posed.profile, sum(share.indentation for share in shares)

@@ -1,4 +1,4 @@
-"""Hardness as a coupling: it limits the pressure, and remembers the permanent indentation that the limit has caused.
+"""Hardness as a coupling: it limits the pressure; its memory is the permanent indentation that the limit has caused.
 
 A load ends where p <= H(w) everywhere and p = H(w) wherever the surface went deeper, w being the indentation *reached*.
 Taking H at the indentation before the load instead would make the answer depend on the number of steps; here a step of

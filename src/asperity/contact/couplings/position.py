@@ -54,7 +54,7 @@ class _Note:
 class Position(Coupling):
     """Load that brings the bodies to the approach or mean gap prescribed; the unknown is the logarithm of the mean pressure.
 
-    ``alone`` says that no other coupling has feedback: then every load tried lies on one side of the one looked for, and
+    ``alone``: no other coupling has feedback; then every load tried lies on one side of the one looked for, and
     the bracket holds. ``elastic`` that none limits the pressure: beyond full contact a periodic half-space would carry any
     pressure, for its mean gap cannot be negative. ``tolerance`` is that of the normal solves. ``nested``: all others wait until the position is reached.
     """
@@ -148,7 +148,7 @@ class Position(Coupling):
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
 
     def without_bracket(self, exchange: Exchange) -> Exchange:
-        """The same without what was learnt from loads at which other couplings had not settled."""
+        """The same without the bracket, found with other couplings as they were."""
         note = replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None)
         return replace(exchange, note=note)
 

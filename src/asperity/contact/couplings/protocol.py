@@ -1,4 +1,4 @@
-"""What a physics of the interface says to the normal contact, and what the contact says to it."""
+"""What a physics of the interface changes in the normal contact, and how it follows from it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..problem import Control, Force, MeanPressure, Unloaded, mean_pressure
 from ..solvers.protocol import ContactQP, Solution, level
 
 Memory: TypeAlias = Mapping[str, RealArray]
-"""What a coupling remembers from one step to the next, by name; numbers are 0-d arrays."""
+"""Memory of a coupling from one step to the next, by name; numbers are 0-d arrays."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +148,7 @@ class Exchange:
     x
         Its unknown: what the contact was posed with.
     target
-        What the last contact asks for in its place.
+        What it would have to be for the last contact.
     residual
         How far the two are apart, relative; the tolerance of the normal solves follows the largest of all couplings.
     tolerance
@@ -166,7 +166,7 @@ class Exchange:
     exact
         Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
     stuck
-        Whether no unknown can be the one asked for, so that it must be given up.
+        Whether no unknown can be right, so that it must be given up.
     note
         What else it carries.
     """
@@ -187,14 +187,14 @@ class Exchange:
 
     @property
     def settled(self) -> bool:
-        """Whether the last contact asks for what it was posed with."""
+        """Whether the last contact agrees with what it was posed with."""
         return self.residual <= self.tolerance
 
 
 class Coupling(Protocol):
     """A physics that joins the normal contact: frozen settings, prepared once for a problem.
 
-    ``begin`` is asked once a step, then ``share``, a normal solve and ``reply`` alternate until every coupling is
+    ``begin`` is called once a step, then ``share``, a normal solve and ``reply`` alternate until every coupling is
     settled, then ``end``. All couplings reply to the same contact, so that their order does not matter. A coupling may
     inherit from this protocol to leave out what does not concern it.
     """
@@ -218,11 +218,11 @@ class Coupling(Protocol):
         """What the next contact is posed with."""
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
-        """What ``contact`` asks for. May raise NoSolutionError, explained, where there is no balance."""
+        """Target and residual for ``contact``. May raise NoSolutionError, explained, where there is no balance."""
         return exchange
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
-        """Exchange that is nearer to bearing the ``mean`` pressure (Pa), which is above the last cap; None if it has no say."""
+        """Exchange that is nearer to bearing the ``mean`` pressure (Pa), which is above the last cap; None if it limits nothing."""
         return None
 
     def unbearable(self, exchange: Exchange, error: NoSolutionError) -> NoSolutionError | None:

@@ -14,7 +14,7 @@ from ...core.errors import InputError
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered
 from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
-from .hardness import Hardness
+from .protocol import Hardness
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,16 @@
-"""What an interface law must say to the normal contact problem."""
+"""Interface laws: bounds on the pressure, which may change with the permanent indentation, and sliding friction."""
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+import math
+from dataclasses import dataclass, field
+from typing import ClassVar, Protocol, runtime_checkable
 
+import numpy as np
+
+from ...core import require
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 
 
 @runtime_checkable
@@ -21,3 +27,124 @@ class InterfaceLaw(Protocol):
 
     def pressure_cap(self) -> float | RealArray:
         """Largest pressure the interface bears, in Pa: a number, an (nx, ny) array, or infinity."""
+
+
+@dataclass(frozen=True)
+class HardWall:
+    """Frictionless, non-adhesive, elastic: the Hertz-Signorini-Moreau conditions (Johnson 1985, sec. 5.6)."""
+
+    name: ClassVar[str] = "hard wall"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
+
+    def pressure_cap(self) -> float:
+        """Infinity."""
+        return math.inf
+
+
+@dataclass(frozen=True, eq=False)
+class Hardness:
+    """0 <= p <= H; where p = H the surface is permanently indented (Tian & Bhushan 1996; Almqvist et al. 2007).
+
+    Parameters
+    ----------
+    value
+        Hardness H of the softer solid in Pa: a positive number, or an (nx, ny) array of positive numbers.
+
+    Raises
+    ------
+    InputError
+        If any hardness is not positive and finite.
+    """
+
+    value: float | RealArray
+    _cap: float | RealArray = field(init=False, repr=False)
+    name: ClassVar[str] = "hardness"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Almqvist2007", "Greenwood1966", "Tian1996")
+
+    def __post_init__(self) -> None:
+        if isinstance(self.value, str | bool):
+            raise InputError(f"hardness (Pa) must be a number or an array of numbers, but is {self.value!r}.")
+        cap = np.array(self.value, dtype=float)
+        if not np.isfinite(cap).all() or cap.min() <= 0.0:
+            worst = cap.min() if cap.ndim else float(cap)
+            raise InputError(
+                f"hardness (Pa) must be positive and finite, but is {worst:g}. Use HardWall() for no limit."
+            )
+        if cap.ndim not in (0, 2):
+            raise InputError(f"hardness must be one number or an (nx, ny) array, but has {cap.ndim} dimension(s).")
+        cap.flags.writeable = False
+        object.__setattr__(self, "_cap", float(cap) if cap.ndim == 0 else cap)
+
+    def pressure_cap(self) -> float | RealArray:
+        """The hardness in Pa."""
+        return self._cap
+
+
+@dataclass(frozen=True)
+class Coulomb:
+    """All points slide: shear traction = μ p in one direction.
+
+    Parameters
+    ----------
+    coefficient
+        μ >= 0, shear traction over pressure of the solid contact.
+    direction
+        Angle in rad of the shear traction on ``body`` of the problem, from +x towards +y.
+    speed
+        Sliding speed in m/s, >= 0, for the viscous force of a film of liquid.
+    coupled
+        Whether the shear changes the pressure, as it does between unlike bodies (Dundurs 1969); if not, it only adds forces.
+
+    Raises
+    ------
+    InputError
+        If coefficient or speed are negative, or a number is not finite.
+    """
+
+    coefficient: float
+    direction: float = 0.0
+    speed: float = 0.0
+    coupled: bool = True
+    name: ClassVar[str] = "Coulomb friction"
+
+    def __post_init__(self) -> None:
+        require.not_negative(self.coefficient, "friction coefficient")
+        require.finite(self.direction, "direction of friction (rad)")
+        require.not_negative(self.speed, "sliding speed (m/s)")
+
+    @property
+    def couples(self) -> bool:
+        """Whether there is shear that is to change the pressure."""
+        return self.coupled and self.coefficient > 0.0
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of the displacement by shear, where there is any."""
+        return ("Dundurs1969", "Johnson1985") if self.couples else ()
+
+
+@runtime_checkable
+class LimitByDepth(InterfaceLaw, Protocol):
+    """Law with a limit of the pressure that depends on the permanent indentation of each point."""
+
+    def cap_at(self, indentation: RealArray) -> float | RealArray:
+        """Largest pressure in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""
+
+    def work_at(self, indentation: RealArray) -> RealArray:
+        """Work (nx, ny) in J/m² to indent the virgin surface by ``indentation`` (nx, ny) in m."""
+
+
+def cap_at(law: InterfaceLaw, indentation: RealArray) -> float | RealArray:
+    """Largest pressure in Pa that ``law`` allows where the surface is indented by ``indentation`` (nx, ny) in m."""
+    return law.cap_at(indentation) if isinstance(law, LimitByDepth) else law.pressure_cap()
+
+
+def work_density(law: InterfaceLaw, before: RealArray, after: RealArray) -> RealArray:
+    """Work (nx, ny) in J/m² to indent the surface from ``before`` to ``after`` (nx, ny) in m: the integral of the limit."""
+    added = after - before
+    if not added.any():
+        return np.zeros_like(added)
+    if isinstance(law, LimitByDepth):
+        return law.work_at(after) - law.work_at(before)
+    work: RealArray = law.pressure_cap() * added
+    return work

@@ -113,16 +113,8 @@ def prepare_operator(
 ) -> Operator:
     """Pressure-displacement operator, to be held by the caller and reused in further solves of the same problem.
 
-    Parameters
-    ----------
-    compliance
-        Solid, usually ``problem.compliance``.
-    grid
-        Grid of pressure and displacement, ``problem.grid``.
-    boundary
-        ``Periodic()``, ``Free()`` or ``FreeLine()``, ``problem.boundary``.
-    engine
-        Machine to compute on; the CPU with ASPERITY_THREADS or all cores by default.
+    ``compliance``, ``grid`` and ``boundary`` are those of the problem; ``engine`` is the machine to compute on, the CPU with
+    ASPERITY_THREADS or all cores by default.
 
     Raises
     ------
@@ -151,18 +143,8 @@ class PeriodicOperator:
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
 
-    Parameters
-    ----------
-    compliance
-        Normal compliance of the contact.
-    grid
-        Periodic cell.
-    engine
-        Machine to compute on; the CPU with its default threads if not given.
-    kernel
-        Compliance (m/Pa) on the half spectrum of ``grid`` where it is known already.
-    octaves
-        Values of the compliance to share, from the operator of a finer grid.
+    ``kernel`` is the compliance (m/Pa) on the half spectrum of ``grid`` where it is known already, ``octaves`` holds values of the
+    compliance to share, from the operator of a finer grid.
     """
 
     pairs_per_application = 1.0
@@ -244,18 +226,8 @@ class FreeOperator:
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
 
-    Parameters
-    ----------
-    compliance
-        Normal compliance of the contact.
-    grid
-        Grid of pixels that can carry pressure.
-    boundary
-        ``Free()`` or, for strips in plane strain, ``FreeLine()``.
-    engine
-        Machine to compute on; the CPU with its default threads if not given.
-    octaves
-        Values of the compliance to share, from the operator of a finer grid.
+    ``boundary`` is ``Free()`` or, for strips in plane strain, ``FreeLine()``; ``octaves`` holds values of the compliance to share, from the
+    operator of a finer grid.
     """
 
     zero_mean_mode = False

@@ -79,7 +79,7 @@ class SolverState:
     Attributes
     ----------
     pressure
-        Feasible pressure (Pa), unless a method says that it leaves the bounds on the way.
+        Feasible pressure (Pa), except for methods that leave the bounds on the way.
     deflection
         K·pressure (m).
     error
@@ -154,7 +154,7 @@ class Solver(Protocol):
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """Next state (a direct method solves the whole problem in one step).
 
-        A method may go on in the arrays of ``state``, which is then used up (see ``SolverState.copy``), and must say so.
+        A method may go on in the arrays of ``state``, which is then used up (see ``SolverState.copy``).
         """
 
 

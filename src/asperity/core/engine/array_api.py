@@ -28,12 +28,12 @@ from .protocol import (
     Violation,
 )
 
-# An array-API library with the few operations that need to know the device.
+# An array-API library with the few operations that depend on the device.
 
 
 @dataclass(frozen=True)
 class Library:
-    """Array-API namespace ``xp`` with the few operations that need to know the device."""
+    """Array-API namespace ``xp`` with the few operations that depend on the device."""
 
     xp: Any
     device: Any

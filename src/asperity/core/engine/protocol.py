@@ -1,4 +1,4 @@
-"""What a contact solver asks of the machine it runs on: convolutions and fused passes over arrays.
+"""What a contact solver needs of the machine it runs on: convolutions and fused passes over arrays.
 
 Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of an array-API library elsewhere. In all
 passes p is the pressure (Pa), u the deflection K p (m), h the heights (m), r = u - h, and a negative p (a tensile point,
@@ -77,7 +77,7 @@ class Products(NamedTuple):
 class Merge:
     """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
 
-    ``offset_x`` and ``offset_y`` (0 or 1) say whether the first cell stays single; ``weight`` is the deflection that a
+    ``offset_x`` and ``offset_y`` (0 or 1) are one where the first cell stays single; ``weight`` is the deflection that a
     unit load on a merged cell adds to all of its points, over that of a point under its own load.
     """
 

@@ -458,7 +458,7 @@ class ActiveSet:
         """(2) When to stop a correction.
 
         Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
-        once none does is the system solved to what the tolerance asks for.
+        once none does is the system solved to what the tolerance needs.
         """
         changed = free.entering + memory.clipped
         if changed > _SETTLED * free.size:
@@ -484,7 +484,7 @@ def _updating_deflection(work: Workspace) -> Callable[[float], None]:
 
 
 def _counted(memory: _Memory, error: float) -> _Memory:
-    """``memory`` that knows the lowest error; steps are clipped after some in a row that have not made it smaller."""
+    """``memory`` with the lowest error; steps are clipped after some in a row that have not made it smaller."""
     if memory.unsuccessful is None:
         return memory
     if error < memory.lowest:

@@ -39,24 +39,11 @@ def started(qp: ContactQP, start: RealArray | None) -> SolverState:
 
 @dataclass(frozen=True, eq=False)
 class DenseQP:
-    """Minimise x·Ax/2 - x·h over 0 <= x <= cap, with the sum of x fixed or free; A has a unit diagonal or nearly so.
+    """Minimise x·Ax/2 - x·h over 0 <= x <= cap, with the sum of x fixed to ``total`` or free; A has a unit diagonal or nearly so.
 
-    Parameters
-    ----------
-    matrix
-        A, (n, n).
-    heights
-        h, (n,): heights above the highest point or a level near the contact (fixed sum), or above the prescribed plane (free sum).
-    cap
-        (n,), infinite where there is none.
-    total
-        Prescribed sum of x, or None.
-    singular
-        Whether A maps a uniform x to zero.
-    unit
-        Pressure in Pa that is 1 here; a power of two, so that no digit is lost on the way back.
-    light
-        Whether deflections are far smaller than the heights, which are then measured from a level near the contact.
+    ``heights`` h (n,) count from the highest point or a level near the contact (fixed sum; the latter where the load is ``light``, with
+    deflections far smaller than the heights), or from the prescribed plane (free sum). ``singular``: A maps a uniform x to zero. ``unit`` is the
+    pressure in Pa that is 1 here, a power of two, so that no digit is lost on the way back.
     """
 
     matrix: RealArray
@@ -301,7 +288,7 @@ def _way_to(qp: DenseQP, x: RealArray, trial: OnSet) -> tuple[float, int | None]
 
 
 def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> int | None:
-    """Point at a bound that the energy wants off it; None at the solution."""
+    """Point at a bound that lowers the energy by leaving it; None at the solution."""
     idle: BoolArray = ~(trial.free | trial.capped)
     r = qp.matrix @ x - qp.heights
     level = trial.level

@@ -39,7 +39,7 @@ class SteepestDescent:
 
     The step is the exact one for the points free to move, halved until the clipped and shifted pressure lowers the
     energy. Historic: iterations grow with the number of points per side, several times those of conjugate gradients.
-    When rounding hides any decrease it stalls, and says so.
+    When rounding hides any decrease it is flagged as stalled.
 
     Parameters
     ----------
