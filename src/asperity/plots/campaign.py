@@ -12,7 +12,20 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.quantity import Labelled
-from .picture import BLACK, BLUE, GREEN, NO_CONTACT, ORANGE, PURPLE, SKY, VERMILLION, Scale, legend_above, scale
+from .picture import (
+    BLACK,
+    BLUE,
+    GREEN,
+    NO_CONTACT,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    Scale,
+    legend_above,
+    literal,
+    scale,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +75,7 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
         if curve.band is not None:
             half = up(curve.band)[order]
             ax.fill_between(places, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
-        ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=curve.label or None)
+        ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=literal(curve.label) or None)
     _set_scales(ax, x.values, np.concatenate([curve.values for curve in curves]))
     return _labelled(ax, (x.quantity.label, along), (y.quantity.label, up), legend=any(curve.label for curve in curves))
 
@@ -115,7 +128,12 @@ def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Tra
     for number, item in enumerate(transitions):
         colour = COLOURS[number % len(COLOURS)]
         ax.plot(
-            along(thickness.values), up(item.values), color=colour, marker="o", markersize=3.0, label=item.label or None
+            along(thickness.values),
+            up(item.values),
+            color=colour,
+            marker="o",
+            markersize=3.0,
+            label=literal(item.label) or None,
         )
         for limit in (item.at_zero, item.at_infinity):
             ax.axhline(float(up(limit)), color=colour, linestyle=":", linewidth=0.8)
@@ -144,7 +162,7 @@ def plot_sensitivities(
     for values, colour, label in ((low, SKY, "low"), (high, ORANGE, "high")):
         ax.barh(rows, along(values)[order] - middle, left=middle, height=0.6, color=colour, label=label)
     ax.axvline(middle, color=BLACK, linewidth=0.8)
-    ax.set_yticks(rows, [names[number] for number in order])
+    ax.set_yticks(rows, [literal(names[number]) for number in order])
     ax.set_xlabel(_text(y.quantity.label, along))
     return legend_above(ax)
 

@@ -89,7 +89,7 @@ def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) ->
     y = labelled(array)
     x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
     picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
-    yield Figure(name, y.quantity.title, f"{y.quantity.label} against {x.quantity.label}{more}.", picture)
+    yield Figure(name, y.quantity.title, f"{y.quantity.title} against {x.quantity.label}{more}.", picture)
 
 
 def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -147,7 +147,7 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
     y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
     picture = _picture(lambda ax: plot_transitions(thickness, y, transitions, ax))
     caption = (
-        f"{y.quantity.label} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
+        f"{y.quantity.title} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
         f"layer does not matter, above the ceiling what lies under it does not{more}."
     )
     yield Figure(name, y.quantity.title, caption, picture)

@@ -32,13 +32,15 @@ def ax():
 
 
 def test_curves_are_drawn_in_order_and_with_units(ax):
-    plot_curves(X, Y, [Curve("a", Y.values), Curve("b", 2.0 * Y.values, np.full(3, 0.5e-9))], ax)
+    plot_curves(X, Y, [Curve("a$\\frac{$\x1b", Y.values), Curve("b", 2.0 * Y.values, np.full(3, 0.5e-9))], ax)
     first, second = ax.lines
     np.testing.assert_allclose(first.get_xdata(), [1.0, 2.0, 5.0])
     np.testing.assert_allclose(second.get_ydata(), [2.0, 4.0, 6.0])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("mean pressure (MPa)", "approach (nm)")
     assert len(ax.collections) == 1
     assert ax.get_xscale() == "linear"
+    assert ax.get_legend_handles_labels()[1] == ["a\\$\\frac{\\$\ufffd", "b"]
+    ax.figure.draw_without_rendering()  # names are no formulas
 
 
 def test_decades_are_logarithmic_and_numbers_have_no_unit(ax):
