@@ -75,7 +75,7 @@ def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path
 def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
     """A new file or folder beside ``target`` that is gone at the end; a failure to write is one sentence.
 
-    It is locked as long as this process lives, so that what a killed process has left can be told apart and removed.
+    It is locked until this process ends, so that what a killed process has left can be recognised and removed.
     """
     absolute = target.absolute()
     held, partial = -1, absolute

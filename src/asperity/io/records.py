@@ -22,7 +22,7 @@ from .atomic import atomic_file
 
 
 def answer_record(found: Evaluation) -> dict[str, Any]:
-    """What ``found`` says as plain values in SI; None stands for what is undefined or infinite."""
+    """``found`` as plain values in SI; None stands for what is undefined or infinite."""
     theory = found.theory
     return {
         "theory": theory.name,
@@ -54,7 +54,7 @@ def answer_record(found: Evaluation) -> dict[str, Any]:
 
 
 def catalogue_record(kind: type[Described]) -> dict[str, Any]:
-    """What the catalogue says of a theory."""
+    """Entry of the catalogue for a theory."""
     return {
         "name": kind.name,
         "title": kind.title,

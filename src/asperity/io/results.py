@@ -358,7 +358,7 @@ def path_node(path: HistoryResult) -> Node:
         texts = [str(getattr(step.status, name)) for step in steps]
         values.append(_column(Quantity(f"status_{name}", "", f"{name} of the step"), texts))
     controls = [json.dumps(describe(step.control)) for step in steps]
-    values.append(_column(Quantity("control", "", "what the step was told, as JSON"), controls))
+    values.append(_column(Quantity("control", "", "prescribed load or position, as JSON"), controls))
     values += [*_coupling_columns(steps), Labelled(SPOTS, np.concatenate([step.spot_areas for step in steps]))]
     if path.start is None:
         return Node(tuple(values))
@@ -372,7 +372,7 @@ def path_node(path: HistoryResult) -> Node:
 
 
 def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
-    """What the couplings of each step found, remember and say of themselves."""
+    """Results, memories and checks of the couplings in each step."""
     if steps[0].sliding is not None:
         lifts = [step.sliding.shear_displacement for step in steps if step.sliding is not None]
         yield _column(LIFT, np.stack(lifts), "x", "y")

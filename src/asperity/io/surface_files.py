@@ -38,7 +38,7 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     * ``.txt``, ``.asc``: matrix of heights in m with a header that states size and unit, top row (largest y) first, as Gwyddion
       exports and reads it; ``read`` needs no further word. ``nan`` marks a missing point. A text does not tell that a
       surface is periodic.
-    * ``.npy``: the bare array [x, y] of heights in m; ``read`` asks for size and unit.
+    * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
     Raises
     ------

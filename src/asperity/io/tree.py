@@ -285,7 +285,7 @@ def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool) -> None:
 
 
 def _stored(values: Any) -> np.ndarray[Any, Any]:
-    """``values`` as an array of a type that NetCDF knows."""
+    """``values`` as an array of a type that NetCDF has."""
     array = np.asarray(values)
     if array.dtype == bool:
         return array.astype("i1")

@@ -402,7 +402,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
 
 
 def text(thing: object) -> str:
-    """What ``repr`` says of a ``thing``: one line of a layered body, at most a screen of anything else."""
+    """The ``repr`` of a ``thing``: one line of a layered body, at most a screen of anything else."""
     if isinstance(thing, Layered):
         return printable(f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>")
     heading, rows = heading_and_rows(thing)

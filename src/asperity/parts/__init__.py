@@ -1,1 +1,1 @@
-"""Parts: everything that one physics or analysis says about itself, in one module or folder each."""
+"""Parts: everything that one physics or analysis declares, in one module each."""

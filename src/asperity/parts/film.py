@@ -265,7 +265,7 @@ def film_words(result: SolvedMenisci, control: Control) -> Words:
 
 
 def theory_words(found: SolvedTheory | str, result: SolvedMenisci) -> Words:
-    """What the theory of summits says beside the ``result`` on the map, or why it says nothing."""
+    """Results of the theory of summits beside the ``result`` on the map, or why there are none."""
     return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
 
 

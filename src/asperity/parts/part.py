@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..plots.picture import Figure
 
 Stage: TypeAlias = Callable[[str], AbstractContextManager[Progress]]
-"""Gives the progress of a stage of the work, whose name it is told."""
+"""Gives the progress of the stage of that name."""
 
 Rows: TypeAlias = list[tuple[str, str]]
 """Label and text of each row of a table."""
@@ -72,8 +72,8 @@ class Found:
 class Stored:
     """What a file keeps of a part beside the values of its quantities, for figures.
 
-    ``fields`` are stress fields by name, or their planes one after the other; ``facts`` are numbers and text by name, as JSON
-    knows them.
+    ``fields`` are stress fields by name, or their planes one after the other; ``facts`` are numbers and text by name, as in
+    JSON.
     """
 
     fields: Mapping[str, Any] = field(default_factory=dict)
@@ -118,7 +118,7 @@ class Solved:
 
 @dataclass(frozen=True, eq=False)
 class Words:
-    """What a part says.
+    """Text of a part for report and terminal.
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class Words:
     remarks
         What to know before using the numbers.
     alarming
-        Whether the sentence tells of something that must not be missed.
+        Whether the sentence belongs at the top of a report.
     """
 
     sentence: str = ""
@@ -170,7 +170,7 @@ class Part:
         return found if self.table else True
 
     def asked(self, document: Any, folder: Path) -> Any:
-        """What ``document``, whose relative paths start at ``folder``, asks of this part; None for nothing."""
+        """What ``document``, whose relative paths start at ``folder``, requests of this part; None for nothing."""
         return self.settings_in(document)
 
     def check(self, ask: Any, problem: ContactProblem) -> None:

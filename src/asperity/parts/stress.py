@@ -171,7 +171,7 @@ class Stress(Part):
     )
 
     def asked(self, document: Any, folder: Path) -> StressRequest | None:
-        """What the table [stress] asks for, with the friction of the table [friction]."""
+        """The request of the table [stress], with the friction of the table [friction]."""
         return None if document.stress is None else stress_request(document.stress, document.friction)
 
     def check(self, ask: StressRequest, problem: ContactProblem) -> None:
@@ -286,7 +286,7 @@ def _largest(survey: StressSurvey, parts: str, peak: str) -> float:
 
 
 def stress_request(table: StressSettings, friction: FrictionSettings) -> StressRequest:
-    """Stresses that ``table`` asks for; the section through the maximum where it asks for none."""
+    """Stresses that ``table`` requests; the section through the maximum where it requests none."""
     from ..stress.criteria import Tresca, VonMises
     from ..stress.survey import Strengths, StressRequest, WantedProfile, WantedSection
 

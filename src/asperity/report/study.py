@@ -186,7 +186,7 @@ def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.D
 
 
 def _first(array: xarray.DataArray, *kept: str) -> tuple[xarray.DataArray, str]:
-    """``array`` at the first point of all axes that are not ``kept``, and the words that say so."""
+    """``array`` at the first point of all axes that are not ``kept``, and these points as text."""
     dims = [str(dim) for dim in array.dims if dim not in kept]
     texts = [point_text(array[dim][0]) for dim in dims]
     return array.isel(dict.fromkeys(dims, 0)), f", at {', '.join(texts)}" if texts else ""

@@ -83,7 +83,7 @@ class Case:
 
     @property
     def chooses_solver(self) -> bool:
-        """Whether the document says anything of the method."""
+        """Whether the document sets anything of the method."""
         return any(value is not None for key, value in self.document.solver if key != "threads")
 
     @property
@@ -312,7 +312,7 @@ def build_surface(table: SurfaceTable, folder: Path) -> Surface:
 
 
 def build_surfaces(table: SurfaceTable, counter: SurfaceTable | None, folder: Path) -> tuple[Surface, Surface | None]:
-    """Surface and counter surface, the latter turned over and placed as it asks, so that it lies in the frame of the first."""
+    """Surface and counter surface, the latter turned over and placed, so that it lies in the frame of the first."""
     surface = build_surface(table, folder)
     if counter is None:
         return surface, None

@@ -219,7 +219,7 @@ def files_of(document: ProblemDocument, folder: Path) -> list[Path]:
 
 
 def tidy(table: dict[str, Any]) -> dict[str, Any]:
-    """``table`` without empty parts, the key that tells what it is first and the preparation last."""
+    """``table`` without empty parts, the key of its kind first and the preparation last."""
     filled = {key: tidy(value) if isinstance(value, dict) else value for key, value in table.items()}
     kept = {key: value for key, value in filled.items() if value not in ({}, [], "")}
     return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))

@@ -90,7 +90,7 @@ class Outcome:
 
     @property
     def sections(self) -> Iterator[tuple[Part, Words]]:
-        """Every part that has something to say, and its words."""
+        """Every part with words, and these."""
         for part in parts():
             if part.name in self.found and (
                 words := self.found[part.name].words or part.words(self.found[part.name], self.solved)
@@ -134,7 +134,7 @@ def run(
     stage: Stage = no_stage,
     on_failure: Literal["raise", "return"] = "raise",
 ) -> Outcome:
-    """Solve the problem of a document and carry out every analysis that it asks for.
+    """Solve the problem of a document and carry out every analysis that it requests.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def run(
     base_folder
         Where relative paths in the document start; by default the folder of the file, or the working folder.
     stage
-        Gives the progress of each stage of the work, whose name it is told.
+        Gives the progress of the stage of that name.
     on_failure
         ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` it with its status.
 

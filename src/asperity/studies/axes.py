@@ -32,8 +32,8 @@ class Point:
 class Axis:
     """One dimension of a study.
 
-    ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of its points; ``is_load``
-    says that its points differ in the load alone.
+    ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of its points; ``is_load``:
+    its points differ in the load alone.
     """
 
     name: str

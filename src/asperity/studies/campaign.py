@@ -116,7 +116,7 @@ class Campaign:
         return dataset(self.plan, self.records, study=study_text(self.study, self.folder))
 
     def analysis(self) -> xarray.Dataset | None:
-        """What the kind of the study asks for: means, orders, critical thicknesses, sensitivities; None for a sweep."""
+        """Derived numbers of the kind of study: means, orders, critical thicknesses, sensitivities; None for a sweep."""
         from .analysis import analysis
 
         return analysis(self.dataset(), self.study.document)

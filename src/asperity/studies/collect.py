@@ -152,7 +152,7 @@ def failures(plan: Plan, path: Path) -> list[Failure]:
 
 
 def findings(plan: Plan, path: Path) -> list[Failure]:
-    """What the finished cases of ``plan`` have to say, as level and criterion with its message; of each case the last record."""
+    """Findings of the finished cases of ``plan``, level and criterion with the message; of each case the last record."""
     last: dict[int, Record] = dict(Collected(plan, path).records())
     found = []
     for place, record in last.items():
@@ -214,7 +214,7 @@ class Cause:
 
 
 def causes(failures: Iterable[Failure], *, by_kind: bool = False) -> tuple[Cause, ...]:
-    """Causes of ``failures``, the most frequent first; ``by_kind`` whatever their messages say."""
+    """Causes of ``failures``, the most frequent first; ``by_kind`` whatever their messages."""
     groups: dict[tuple[str, str], list[Failure]] = {}
     for failure in failures:
         text = "" if by_kind else _NUMBER.sub("#", failure.message)

@@ -92,7 +92,7 @@ def family(theory: SurfaceTheory) -> str:
 
 
 def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
-    """What the bodies and the law of ``problem`` say of the parameters of theories: hardness, yield stress (Pa), nu.
+    """Parameters of theories that bodies and law of ``problem`` give: hardness, yield stress (Pa), nu.
 
     The hardness is that of the law if it is one number, and none if it is a map or follows the depth; see also
     ``weaker_strength``.

@@ -61,7 +61,7 @@ class _LoadPath:
         """Record of one ``case``."""
         try:
             with warnings.catch_warnings(), np.errstate(all="ignore"):
-                warnings.simplefilter("ignore")  # what a case has to say is in its record
+                warnings.simplefilter("ignore")  # the findings of a case are in its record
                 return {"key": case["key"], **self._answer(self._case(case["edits"])), "error": None}
         except Exception as error:
             said = {"type": type(error).__name__, "message": " ".join(str(error).split())}

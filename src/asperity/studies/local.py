@@ -77,7 +77,7 @@ class LocalProcesses:
 
 
 class _Lane:
-    """One worker process and the thread that talks to it."""
+    """One worker process and the thread that serves it."""
 
     def __init__(self, function: str, first: Task, done: SimpleQueue[Any], threads: int) -> None:
         self.orders: SimpleQueue[Task | None] = SimpleQueue()

@@ -29,7 +29,7 @@ class Watch(Protocol):
 
 
 class NoWatch:
-    """Looks away."""
+    """Shows nothing."""
 
     def update(self, done: int, failed: int, found: int, total: int) -> None:
         """Do nothing."""
@@ -76,7 +76,7 @@ def carry_out(
     executor
         Where to do it.
     watch
-        Is told after every path.
+        Updated after every path.
     retry
         Whether cases that failed in an earlier run are done again.
     function

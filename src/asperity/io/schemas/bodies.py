@@ -57,7 +57,7 @@ class MaterialTable(Settings):
         return self
 
     def _one_of(self, others: dict[str, bool]) -> None:
-        """Refuse all but one way to say what this is: a material, constants, or one of the ``others`` that are given."""
+        """Refuse all but one way to describe it: a material, constants, or one of the ``others`` that are given."""
         constants = [key for key in CONSTANTS if getattr(self, key) is not None]
         ways = [*(way for way, given in others.items() if given), *(["material"] if self.material else [])]
         ways += constants[:1]
@@ -85,7 +85,7 @@ class LayerTable(MaterialTable):
 class GradedTable(Settings):
     """Coating whose Young's modulus changes from that of ``top`` to that of ``bottom``, as thin homogeneous layers.
 
-    ``kind`` says how it changes with depth: ``"linear"``, ``"exponential"``, or ``"power"`` with its ``exponent``.
+    ``kind`` is the law of its change with depth: ``"linear"``, ``"exponential"``, or ``"power"`` with its ``exponent``.
     """
 
     kind: Literal["linear", "exponential", "power"]
@@ -113,7 +113,7 @@ def _layers(value: object) -> object:
 
 
 AnyLayer: TypeAlias = Annotated[LayerTable | GradedTable, Field(discriminator="kind")]
-"""One layer or graded coating, told apart by the key ``kind``."""
+"""One layer or graded coating, identified by the key ``kind``."""
 
 
 class BaseTable(MaterialTable):

@@ -101,7 +101,7 @@ class HardnessTable(Settings):
 
 
 LawTable: TypeAlias = Annotated[HardWallTable | HardnessTable, Field(discriminator="kind")]
-"""One interface law, told apart by the key ``kind``."""
+"""One interface law, identified by the key ``kind``."""
 
 
 class PathTable(Settings):

@@ -181,7 +181,7 @@ def _parameters(value: object) -> object:
 
 
 class SensitivityTable(Settings):
-    """Every one of the ``parameters`` varied on its own, by the share ``change`` unless it says otherwise."""
+    """Every one of the ``parameters`` varied on its own, by the share ``change`` unless it gives its own range."""
 
     parameters: Annotated[tuple[ParameterTable, ...], BeforeValidator(_parameters)]
     change: Fraction = 0.05
@@ -194,7 +194,7 @@ class SensitivityTable(Settings):
 
 
 KINDS = ("monte_carlo", "convergence", "critical_thickness", "sensitivity")
-"""Tables of which at most one says what kind of study it is; without any it is a sweep."""
+"""Tables of which at most one determines the kind of study; without any it is a sweep."""
 
 
 class StudyDocument(Settings):
