@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import RealArray
 from ..core.citations import reference
 from ..core.parameters import Parameter, parameters
 from ..core.quantity import Quantity
@@ -135,7 +134,7 @@ def roughness_record(found: Characterisation) -> dict[str, Any]:
     return {
         "quantities": {
             quantity.name: {
-                "value": _number(value),
+                "value": _plain(value),
                 "unit": quantity.unit,
                 "symbol": quantity.symbol,
                 "label": quantity.label,
@@ -163,7 +162,7 @@ def _curves(found: Characterisation) -> dict[str, dict[str, Any] | None]:
     }
     for number, axis in enumerate("xy"):
         lag, value = curves.autocovariance.along(axis)
-        record[f"autocovariance_{axis}"] = {"lag_m": lag.tolist(), "value_m2": _numbers(value)}
+        record[f"autocovariance_{axis}"] = {"lag_m": lag.tolist(), "value_m2": [_plain(v) for v in value]}
         structure, profile = curves.structure[number], spectra.profiles[number]
         if structure is not None:
             record[f"structure_function_{axis}"] = {
@@ -173,11 +172,3 @@ def _curves(found: Characterisation) -> dict[str, dict[str, Any] | None]:
         if profile is not None:
             record[f"spectrum_{axis}"] = {"q_rad_per_m": profile.q.tolist(), "psd_m3": profile.psd.tolist()}
     return record
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
-def _numbers(values: RealArray) -> list[float | None]:
-    return [_number(float(value)) for value in values]

@@ -384,7 +384,12 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
     for name in _CHECKS:
         texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
         yield _column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts)
-    memories = [json.dumps({key: _memory_text(memory) for key, memory in step.memory.items()}) for step in steps]
+    memories = [
+        json.dumps(
+            {key: {name: np.asarray(a).tolist() for name, a in memory.items()} for key, memory in step.memory.items()}
+        )
+        for step in steps
+    ]
     yield _column(Quantity("memory", "", "what the couplings remember, as JSON"), memories)
 
 
@@ -411,7 +416,10 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             certificate=_certificate({name: _plain(value) for name, value in at.items()}),
             status=status_from(at),
             couplings=_couplings(last.problem, at, at.get("menisci")),
-            memory={key: _memory_of(item) for key, item in json.loads(at["memory"]).items()},
+            memory={
+                key: {name: np.asarray(value) for name, value in item.items()}
+                for key, item in json.loads(at["memory"]).items()
+            },
             earlier=before,
             **_values(at, (*FIELDS, *ALL_SCALARS)),
         )
@@ -458,14 +466,6 @@ def _memory_node(memory: Mapping[str, Any]) -> Node:
 
 def _memory(node: Node) -> dict[str, Any]:
     return {item.quantity.name: np.asarray(item.values) for item in node.values}
-
-
-def _memory_text(memory: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: np.asarray(array).tolist() for name, array in memory.items()}
-
-
-def _memory_of(described: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: np.asarray(value) for name, value in described.items()}
 
 
 def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:

@@ -180,18 +180,7 @@ def write_comparison_report(
 ) -> None:
     """Write a page on ``comparison`` to the HTML file ``path``; it needs no network and no other file.
 
-    Parameters
-    ----------
-    comparison
-        As of ``compare``.
-    path
-        HTML file to write.
-    title
-        Heading; made from the source of the surface if empty.
-    figures
-        Its figures where they have been drawn already.
-    overwrite
-        Whether an existing file is replaced.
+    The ``title`` is made from the source of the surface if empty; ``figures`` are those that have been drawn already.
 
     Raises
     ------

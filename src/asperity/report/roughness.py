@@ -204,16 +204,7 @@ def write_roughness_report(
 ) -> None:
     """Write a page on a characterised surface to the HTML file ``path``; it needs no network and no other file.
 
-    Parameters
-    ----------
-    found
-        What ``characterise`` found.
-    path
-        HTML file to write.
-    title
-        Heading; made from the source of the surface if empty.
-    overwrite
-        Whether an existing file is replaced.
+    ``found`` is that of ``characterise``; the ``title`` is made from the source of the surface if empty.
 
     Raises
     ------

@@ -345,16 +345,7 @@ def write_study_report(
 ) -> None:
     """Write a page on ``campaign``, as far as it is, to the HTML file ``path``; it needs no network and no other file.
 
-    Parameters
-    ----------
-    campaign
-        A study, as of ``open_study``.
-    path
-        HTML file to write.
-    figures
-        Its figures where they have been drawn already.
-    overwrite
-        Whether an existing file is replaced.
+    ``figures`` are those that have been drawn already.
 
     Raises
     ------
