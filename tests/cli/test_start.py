@@ -27,7 +27,7 @@ def test_help_imports_nothing_heavy() -> None:
     assert json.loads(done.stderr) == []
 
 
-LIGHT = {"asperity.core"} | {f"asperity.core.{name}" for name in ("errors", "late", "parameters", "units", "values")}
+LIGHT = {"asperity.core"} | {f"asperity.core.{name}" for name in ("errors", "late", "text", "units")}
 
 
 def test_help_imports_of_the_library_only_the_commands() -> None:
