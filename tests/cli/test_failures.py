@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 from cli.conftest import Runner
 
 from asperity import ConvergenceError
-from asperity.cli.failures import INTERNAL_ERROR, INTERRUPTED, diagnosis
+from asperity.cli.main import INTERNAL_ERROR, INTERRUPTED, diagnosis
 
 
 def test_debug_shows_the_traceback(run: Runner, tmp_path: Path) -> None:
@@ -28,7 +29,7 @@ def test_unforeseen_error_is_one_line(run: Runner, monkeypatch: pytest.MonkeyPat
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("two\nlines [/] with brackets")
 
-    monkeypatch.setattr("asperity.io.build_surface.read", broken)
+    monkeypatch.setattr(importlib.import_module("asperity.run.build"), "read", broken)
     result = run("info", tmp_path / "x.txt")
     assert result.exit_code == INTERNAL_ERROR
     assert len(result.stderr.splitlines()) == 1

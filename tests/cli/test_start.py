@@ -77,6 +77,12 @@ def test_advanced_options_are_left_to_help_all(run: Runner) -> None:
     assert "ASPERITY_THREADS" in run("-h").stdout
 
 
+def test_a_mistyped_command_is_answered_by_a_near_one(run: Runner) -> None:
+    found = run("contcat", "scan.di")
+    assert found.exit_code == 2
+    assert "did you mean contact?" in found.stderr
+
+
 def test_quiet_prints_nothing_but_warnings(run: Runner, matrix: Path) -> None:
     found = run(
         "contact", matrix, "--size", "8um x 6um", "--height-unit", "nm", "--body", "DLC", "--pressure", "1MPa", "-q"

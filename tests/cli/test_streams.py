@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from asperity.cli.failures import BAD_INPUT, diagnosis
+from asperity.cli.main import BAD_INPUT, diagnosis
 
 PROGRAM = f'"{sys.executable}" -m asperity'
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")

@@ -29,7 +29,7 @@ from ..run.document import ProblemDocument, relocated
 from ..studies.campaign import Campaign, open_study, prepare_study
 from ..studies.places import problem_table
 from ..studies.run import Watch
-from .failures import INTERRUPTED, NOT_CONVERGED, OK
+from .main import INTERRUPTED, NOT_CONVERGED, OK
 from .show import console, error_console, print_files, say, short_names, table, watching
 
 Folder = Annotated[

@@ -31,7 +31,7 @@ from ..studies.comparison import Comparison
 from ..studies.comparison_files import export_comparison_csv, save_comparison
 from .contact import Force, asked_table, output_folder
 from .declared import Given, Option, offers, sorted_out
-from .failures import NOT_CONVERGED, OK
+from .main import NOT_CONVERGED, OK
 from .options import BASIC, OUTPUT, body_options, preparation_options, reading_options, solver_options
 from .show import console, print_advice, print_files, say, stage, table
 from .theory import option_of, read_range

@@ -24,7 +24,7 @@ from ..run.execute import Outcome, execute
 from ..run.stored import save_outcome
 from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
-from .failures import NOT_CONVERGED, OK
+from .main import NOT_CONVERGED, OK
 from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid, own_option
 from .show import print_files, print_problem, print_result, say, stage
 

@@ -28,7 +28,7 @@ from ..surfaces.formats import ChannelInfo, chosen
 from ..surfaces.read import channels
 from ..surfaces.surface import Surface
 from .declared import FILE, Given, Option, offers
-from .failures import NOT_CONVERGED, OK
+from .main import NOT_CONVERGED, OK
 from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
 
@@ -124,7 +124,9 @@ def _many(files: Sequence[Path], given: Given, level: str, asked: Asked, *, as_j
     if as_json:
         console().out(json.dumps(records, indent=2), highlight=False)
     else:
-        console().print(table(f"{len(files)} files", rows, HEADINGS))
+        made = table(f"{len(files)} files", rows, HEADINGS)
+        made.columns[0].no_wrap = True
+        console().print(made)
     with silence() if as_json else nullcontext():  # JSON stays alone on stdout
         for text in lost:
             say(f"warning: {text}", "yellow", warning=True)

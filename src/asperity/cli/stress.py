@@ -18,7 +18,7 @@ from ..run.execute import analysed
 from ..stress.survey import StressRequest
 from .contact import STRESS_NAMES, Force, Out, file_options, files_in, output_folder, write_parts, write_volume
 from .declared import Given, Option, offers, part_names, part_options, with_parts
-from .failures import NOT_CONVERGED, OK
+from .main import NOT_CONVERGED, OK
 from .options import solver_options
 from .results import Result
 from .show import print_advice, print_files, print_problem, print_words, stage

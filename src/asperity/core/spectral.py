@@ -18,6 +18,7 @@ import numpy as np
 from . import require
 from .arrays import ComplexArray, RealArray
 from .grid import Grid
+from .values import Whole
 
 _CACHE_LINE = 64  # bytes
 # Data so many bytes apart share one of about ten places in the cache: enough for the eight rows of double precision that
@@ -32,9 +33,7 @@ def thread_count(threads: int | None = None) -> int:
         return require.integer(threads, 1, "number of threads")
     from_environment = os.environ.get("ASPERITY_THREADS")
     if from_environment is not None:
-        if not from_environment.strip().isdecimal() or len(from_environment) > 10:
-            from_environment = "0"
-        return require.integer(int(from_environment), 1, "environment variable ASPERITY_THREADS")
+        return Whole(1, 4096).read(from_environment, "environment variable ASPERITY_THREADS")
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
