@@ -52,13 +52,17 @@ def reference() -> Callable[[str], list[reference_data.Row]]:
 def unrendered() -> Iterator[None]:
     """Figures are composed, but their file is one pixel with a digest of what they hold: rendering takes most of the time."""
 
-    def save(figure: matplotlib.figure.Figure, file: IO[bytes], **_: object) -> None:
+    def save(figure: matplotlib.figure.Figure, file: str | Path | IO[bytes], **_: object) -> None:
         held = hashlib.sha256()
         for artist in figure.findobj():
             held.update(repr((type(artist), artist.get_label(), getattr(artist, "get_array", str)())).encode())
             held.update(repr(artist.get_text() if isinstance(artist, Text) else "").encode())
             held.update(repr(artist.get_xydata() if isinstance(artist, Line2D) else "").encode())
-        file.write(PIXEL.getvalue() + held.digest())
+        content = PIXEL.getvalue() + held.digest()
+        if isinstance(file, str | Path):
+            Path(file).write_bytes(content)
+        else:
+            file.write(content)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(matplotlib.figure.Figure, "savefig", save)
