@@ -19,7 +19,7 @@ from ..core.errors import FileFormatError, InputError, UnitError
 from ..core.status import free_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
-from .text_files import cut_short, gridded, is_table, table
+from .text_files import cut_short, gridded, is_table, stated_lines, table
 
 # What a file holds, before it is read.
 
@@ -99,7 +99,10 @@ def _require_whole(
     """
     if line := cut_short(file):
         raise FileFormatError(f"file {file} was cut short or is damaged: line {line} is no complete row of numbers.")
-    if info.size is None or header.get("nb_grid_pts_y") is not None:
+    lines = stated_lines(file)
+    if lines is not None and lines != info.shape[1]:
+        raise FileFormatError(f"file {file} was cut short or is damaged: it has {info.shape[1]} of {lines} lines.")
+    if info.size is None or lines is not None or header.get("nb_grid_pts_y") is not None:
         return size
     if size is not None and np.allclose(size, info.size, rtol=_SQUARE, atol=0.0):
         return None

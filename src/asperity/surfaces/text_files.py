@@ -12,6 +12,7 @@ from ..core.errors import InputError
 
 _START = 1 << 16  # bytes in which a table must begin
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?")
+_STATED_LINES = re.compile(r"^#\s*y-pixels: (\d+)\s*$", re.MULTILINE)  # in the files that asperity writes
 _OFF_GRID = 0.1  # of a step: coordinates are written with few digits
 _SPARSE = 4  # nodes of the grid for every point of a list, at most
 
@@ -49,6 +50,13 @@ def cut_short(file: Path) -> int:
         elif started and cells and cells[0][0] in "+-.0123456789":
             return number
     return 0
+
+
+def stated_lines(file: Path) -> int | None:
+    """Number of lines of the map by the header of a text that asperity wrote; None in other texts."""
+    with file.open("rb") as stream:
+        found = _STATED_LINES.search(stream.read(_START).decode("utf-8-sig", "replace"))
+    return int(found[1]) if found else None
 
 
 def gridded(points: RealArray) -> tuple[RealArray, None, tuple[float, float]]:
