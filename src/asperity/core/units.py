@@ -143,7 +143,7 @@ def _meant(name: str, unit: str) -> str:
 
 
 _FACTOR = r"[^\W\d_]{1,20}(?: ?(?:\*\*|\^) ?[+-]?\d(?:\.\d)?)?"
-_GRAMMAR = re.compile(rf"(?:1 ?/ ?)?\(?{_FACTOR}\)?(?: ?[*/· ] ?\(?{_FACTOR}\)?){{0,5}}|[%°]|")
+_GRAMMAR = re.compile(rf"(?:1 ?/ ?)?\(?{_FACTOR}\)?(?: ?[*/· ] ?\(?{_FACTOR}\)?){{0,5}}|[%°1]|")
 """What the library of units is given, which computes whatever stands in a text: names with small powers."""
 
 

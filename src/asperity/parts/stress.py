@@ -208,7 +208,10 @@ class Stress(Part):
 
         survey = found.detail
         planes = enumerate(survey.wanted_planes(), start=1)
-        return (*line_figures(survey), *(map_figure(plane, number) for number, plane in planes))
+        return (
+            *line_figures(survey, solved.problem.boundary),
+            *(map_figure(plane, number) for number, plane in planes),
+        )
 
     def stored(self, found: Found) -> Stored:
         """Sections, profiles and whole planes."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.boundary import Boundary
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
@@ -294,11 +295,10 @@ PROFILE = ("von_mises", "max_principal", "normal_zz", "shear_xz", "shear_yz")
 """Stresses on a depth profile; shear that is everywhere less than a thousandth of the largest stress is left out."""
 
 
-def line_figures(survey: StressSurvey) -> Iterator[Figure]:
-    """Figures of the sections and depth profiles of ``survey``."""
+def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
+    """Figures of the sections and depth profiles of ``survey``, of a contact with this ``boundary``."""
     for number, section in enumerate(survey.sections, start=1):
-        wraps = survey.result.problem.boundary.wraps["xy".index(section.field.dims[1])]
-        yield from _section(section, number, wraps=wraps)
+        yield from _section(section, number, wraps=boundary.wraps["xy".index(section.field.dims[1])])
     for number, field in enumerate(survey.profiles, start=1):
         picture = png(partial(plot_stress_profile, field, quantities=_worth_drawing(field)), CURVE_SIZE)
         caption = "Stresses against depth; a break where a stress jumps at an interface."

@@ -31,7 +31,7 @@ def long() -> StressSurvey:
 
 
 def test_every_section_and_profile_has_its_figures(long: StressSurvey) -> None:
-    figures = list(line_figures(long))
+    figures = list(line_figures(long, long.result.problem.boundary))
     names = [figure.name for figure in figures]
     assert len(set(names)) == len(names)
     section = [name for name in names if name.startswith("stress_section_1")]
@@ -65,7 +65,7 @@ def test_close_ups_hold_the_maximum_and_short_sections_have_none(long: StressSur
             np.testing.assert_array_equal(part, values[:, first : first + near.x.size])
     short = surveyed(16)
     assert close_up(short.sections[1].field, "von_mises") is None
-    names = [figure.name for figure in line_figures(short)]
+    names = [figure.name for figure in line_figures(short, short.result.problem.boundary)]
     assert not any(name.startswith("stress_section_2") and name.endswith("near") for name in names)
 
 

@@ -125,7 +125,7 @@ def test_plastic_contacts_carry_a_warning(found: StressSurvey) -> None:
 
 
 def test_the_report_shows_them(found: StressSurvey, tmp_path: Path) -> None:
-    figures = tuple(line_figures(found))
+    figures = tuple(line_figures(found, found.result.problem.boundary))
     outcome = analysed(found.result, {"stress": found.request, "yielding": True})
     write_report(outcome, tmp_path / "r.html")
     write_report(found.result, tmp_path / "bare.html")

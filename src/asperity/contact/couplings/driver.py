@@ -85,7 +85,8 @@ _FARTHEST = 2.0
 _SLOWEST = 0.99
 
 _TIGHTER = 0.03
-"""Factor to the error of the next solve for every round without progress: contacts of thin films differ by little energy."""
+"""Factor to the error of the next solve for every round without progress: contacts of thin films differ by little energy.
+The search for a position alone has a bracket instead, and rounding may not allow every load to be solved that finely."""
 
 _INNER = 0.01
 """Miss of a position over the residual of the others at which, when nested, these move again."""
@@ -247,7 +248,8 @@ class _Iteration:
             elif count - progressed >= _JOINT_PATIENCE and not self.nested and self._joint:
                 lowest, progressed, moves = np.inf, count, True
                 self._nest()
-            tolerance = max(self.finest, self._next_tolerance(worst, concerned) * _TIGHTER ** (count - progressed))
+            idle = 0 if self.active == [Position.name] else count - progressed
+            tolerance = max(self.finest, self._next_tolerance(worst, concerned) * _TIGHTER**idle)
             self._advance(moves)
         return self._ended(contact, count, self._given_up(count))
 
@@ -317,9 +319,7 @@ class _Iteration:
             if isinstance(constraint, FixedOffset):
                 return replace(qp, constraint=constraint)
             if isinstance(cap, float) and cap >= constraint.mean_pressure * profile.size:
-                cap = (
-                    np.inf
-                )  # no point can bear more than the whole load; a huge limit would drown the error in its rounding
+                cap = np.inf  # no point bears more than the whole load; a huge limit would drown the error in rounding
             if constraint.mean_pressure <= float(np.mean(cap)):
                 return replace(qp, cap=cap, constraint=constraint)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))

@@ -31,6 +31,9 @@ _AT_FULL = 0.8
 _FARTHEST = float(np.log(8.0))
 _INSIDE = 1e-3
 _CLOSED = 1e-12
+_TOWARDS = 0.5
+"""Share of its own step that a search alone takes at least: where the position hardly depends on the load, as beyond full
+contact of a free body, the extrapolation of earlier rounds may lead back."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,10 @@ class Position(Coupling):
         if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
             miss = 0.0  # a load that far away cannot be told apart by the normal solve
         lowest, highest = x - _FARTHEST, x + _FARTHEST
+        if self.alone and x == high:
+            highest = x + _TOWARDS * step
+        elif self.alone and x == low:
+            lowest = x + _TOWARDS * step
         if self.alone and np.isfinite(high - low):
             slow = len(note.misses) > 2 and note.misses[-1] > 0.5 * note.misses[0]
             inside = (0.5 if slow else _INSIDE) * (high - low)
