@@ -17,31 +17,31 @@ MODULES = library()
 
 def violations(module: Module) -> list[str]:
     """One sentence for each breach in ``module``."""
-    walk = [*_forbidden_calls(module.tree), *_global_statements(module.tree), *_module_state(module.tree)]
+    walk = [*_forbidden_calls(module.nodes), *_global_statements(module.nodes), *_module_state(module)]
     return [f"{module.name}:{line} {what}" for line, what in walk]
 
 
 def caches(module: Module) -> list[str]:
     """Dotted names of the functions of ``module`` that remember their results for the life of the process."""
-    functions = [n for n in ast.walk(module.tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)]
+    functions = [n for n in module.nodes if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)]
     return [f"{module.name}.{f.name}" for f in functions if any(_name(d) in CACHE_DECORATORS for d in f.decorator_list)]
 
 
-def _forbidden_calls(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    for node in ast.walk(tree):
+def _forbidden_calls(nodes: list[ast.AST]) -> Iterator[tuple[int, str]]:
+    for node in nodes:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FORBIDDEN_CALLS:
             yield node.lineno, f"calls {node.func.id}"
 
 
-def _global_statements(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    for node in ast.walk(tree):
+def _global_statements(nodes: list[ast.AST]) -> Iterator[tuple[int, str]]:
+    for node in nodes:
         if isinstance(node, ast.Global):
             yield node.lineno, f"has a global statement for {', '.join(node.names)}"
 
 
-def _module_state(tree: ast.Module) -> Iterator[tuple[int, str]]:
+def _module_state(module: Module) -> Iterator[tuple[int, str]]:
     """Mutable containers bound at the top of the module, or in a class body, to names that do not claim to be constant."""
-    bodies = [tree.body, *(node.body for node in ast.walk(tree) if isinstance(node, ast.ClassDef))]
+    bodies = [module.tree.body, *(node.body for node in module.nodes if isinstance(node, ast.ClassDef))]
     for statement in (statement for body in bodies for statement in body):
         targets: list[ast.expr] = []
         if isinstance(statement, ast.Assign):

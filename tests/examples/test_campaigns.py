@@ -64,6 +64,7 @@ def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
     assert np.all(found["max_pressure_ceiling"] < found["mean_gap_ceiling"])
 
 
+@pytest.mark.slow
 def test_area_rises_in_proportion_to_load(tmp_path):
     campaign = finished("area_against_load", tmp_path)
     found = campaign.analysis()

@@ -24,7 +24,7 @@ RUNS = {
 }
 
 
-SLOW = ("figure_10",)
+SLOW = ("figure_10", "gold_film")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in RUNS])

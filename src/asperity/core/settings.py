@@ -10,6 +10,7 @@ import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal, Optional, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
@@ -121,10 +122,16 @@ def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mappi
     try:
         return model.model_validate(dict(table))
     except ValidationError as error:
-        lines = problems(error, model.model_json_schema(), names or {})
+        lines = problems(error, json_schema(model), names or {})
     if len(lines) == 1:
         raise InputError(f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
+
+
+@lru_cache(maxsize=8)
+def json_schema(model: type[BaseModel]) -> Mapping[str, Any]:
+    """The JSON schema of a table."""
+    return model.model_json_schema()
 
 
 def _prepared(value: Any, values: Values) -> Any:

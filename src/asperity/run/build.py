@@ -22,7 +22,7 @@ from ..core import units
 from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
-from ..core.settings import Settings, problems
+from ..core.settings import Settings, json_schema, problems
 from ..core.status import free_memory
 from ..io.schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
 from ..io.schemas.problem import (
@@ -259,7 +259,7 @@ def body_of_text(text: str, what: str) -> Body:
     except InputError as error:
         raise InputError(f"{what}{error}") from None
     except ValidationError as error:
-        raise InputError(f"{what}: {'; '.join(problems(error, BodyTable.model_json_schema(), {}))}") from None
+        raise InputError(f"{what}: {'; '.join(problems(error, json_schema(BodyTable), {}))}") from None
     return build_body(table, Path())
 
 

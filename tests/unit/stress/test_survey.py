@@ -46,7 +46,11 @@ def coated() -> asp.ContactResult:
 SLIDING = StressRequest(friction=0.3, direction=0.5)
 
 
-@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize(
+    "boundary",
+    [asp.Periodic(), pytest.param(asp.Free(), marks=pytest.mark.slow)],  # its kernels take ten seconds
+    ids=["periodic", "free"],
+)
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
 def test_maxima_are_those_of_the_whole_field(boundary: object, dtype: str) -> None:
     """Against all principal stresses of all points on the same planes; the pruned search must not miss one."""
