@@ -17,7 +17,7 @@ from ..theories.wet.meniscus import wetting_factor
 from .couplings.menisci import Menisci
 from .laws import LayeredHardness, LimitByDepth
 from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
-from .result import ContactResult
+from .result import LARGEST_DUALITY_GAP, ContactResult
 
 LARGEST_SLOPE = 0.3
 """Half-space theory neglects slopes squared: 9 % at 0.3."""
@@ -55,9 +55,6 @@ PIXELS_PER_LAYER = 1.0
 
 LARGEST_THICKNESS = 0.5
 """Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
-
-LARGEST_DUALITY_GAP = 1e-3
-"""Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
 
 FEWEST_MENISCUS_PIXELS = 5.0
 """Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give 1 %."""

@@ -93,13 +93,13 @@ Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded
 """A prescribed quantity."""
 
 
-LEAST_MAGNITUDE, LARGEST_MAGNITUDE = 1e-40, 1e40
+LEAST_MAGNITUDE, LARGEST_MAGNITUDE = 1e-41, 1e40
 """Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
 
 
 def require_magnitude(value: float, what: str) -> None:
     """Refuse a ``value`` out of this range with an InputError that names it as ``what``."""
-    require.within(value, 0.1 * LEAST_MAGNITUDE, LARGEST_MAGNITUDE, what, "Use other units of length and pressure.")
+    require.within(value, LEAST_MAGNITUDE, LARGEST_MAGNITUDE, what, "Use other units of length and pressure.")
 
 
 @dataclass(frozen=True)
@@ -180,8 +180,8 @@ class ContactProblem(Shown):
                     f"{what} must have no missing points, but {surface.n_missing} are missing. "
                     "Fill them first: filled(surface), or --fill harmonic."
                 )
-            if isinstance(surface, Surface):
-                require_magnitude(LEAST_MAGNITUDE + float(np.ptp(surface.heights)), "range of the heights (m)")
+            if isinstance(surface, Surface) and (extent := float(np.ptp(surface.heights))) > LEAST_MAGNITUDE:
+                require_magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
         cap = self.law.pressure_cap()

@@ -26,6 +26,9 @@ from .solvers.active_set.linear_system import normal_stiffness
 from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, least_length, level
 from .state import InterfaceState
 
+LARGEST_DUALITY_GAP = 1e-3
+"""Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
+
 
 @dataclass(frozen=True)
 class Certificate:

@@ -26,7 +26,7 @@ from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import Approach, ContactProblem, Control, MeanGap, Unloaded, mean_pressure, require_magnitude
-from .result import Certificate, ContactResult, assemble, certify
+from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
@@ -275,16 +275,13 @@ def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = R
     return tuple(found)
 
 
-_LARGEST_GAP = 1e-3
-"""Duality gap of a converged contact at the default tolerance; what it means is an energy that is off by as much."""
-
 _GAPS = 1e3
-"""The same over the tolerance, where that is loose: it bounds the gap to 30 times itself (``solvers.protocol.scaled_error``)."""
+"""Largest duality gap over the tolerance, where that is loose: it bounds the gap to 30 times itself (``solvers.protocol.scaled_error``)."""
 
 
 def doubted(status: Status, certificate: Certificate) -> Status:
     """``status``, or why a contact that the solver holds for converged is not."""
-    if not status.converged or certificate.duality_gap <= max(_LARGEST_GAP, _GAPS * certificate.tolerance):
+    if not status.converged or certificate.duality_gap <= max(LARGEST_DUALITY_GAP, _GAPS * certificate.tolerance):
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
     return Status(Outcome.STAGNATED, message, "Use a smaller tolerance, and numbers that are not extreme.")
