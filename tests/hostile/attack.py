@@ -21,19 +21,27 @@ import warnings
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass
+from itertools import islice
 from pathlib import Path
 from random import Random
+from typing import Any
+from unittest import mock
 
 from hostile.targets import TARGETS, Target
+from study_cases import InProcess
 from typer.testing import CliRunner
 
 from asperity.cli.main import app
+from asperity.studies import local
+from asperity.studies.executors import Task
 
 SECONDS, MEMORY = 20, 3 * 2**30
 """Processor time and memory that a mutant may take beside what the process has."""
 
-ENDS = {0: "done", 1: "not converged", 2: "refused"}
-"""Exit codes that are in order, and what they mean."""
+ENDS = {0: "done", 1: "not converged", 2: "refused", 130: "done"}
+"""Exit codes that are in order, and what they mean; studies are interrupted after ``CASES``."""
+
+CASES = 3
 
 
 class OutOfTimeError(BaseException):
@@ -50,6 +58,16 @@ class End:
     said: str = ""
 
 
+class Begun(InProcess):
+    """Begins a study in this process, and is interrupted."""
+
+    def __init__(self, *_: object) -> None: ...
+
+    def run(self, function: str, tasks: Iterator[Task]) -> Iterator[tuple[Task, Any]]:
+        yield from super().run(function, islice(tasks, CASES))
+        raise KeyboardInterrupt
+
+
 @contextlib.contextmanager
 def limits(folder: Path) -> Iterator[None]:
     """Little time and memory, and ``folder`` to work in."""
@@ -64,7 +82,7 @@ def limits(folder: Path) -> Iterator[None]:
         os.chdir(folder)
         resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, before[1]))
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), mock.patch.object(local, "LocalProcesses", Begun):
             warnings.simplefilter("ignore")
             yield
     finally:
@@ -82,7 +100,7 @@ def attacked(name: str, target: Target, seed: int, folder: Path) -> End:
     try:
         command = target.mutant(place, random)
         with limits(place):
-            ended = CliRunner().invoke(app, ["--debug", *command])
+            ended = CliRunner().invoke(app, list(command))
     except OutOfTimeError:
         return End(seed, "out of time", " ".join(command)[:300])
     finally:
@@ -94,7 +112,7 @@ def attacked(name: str, target: Target, seed: int, folder: Path) -> End:
     said = ended.stderr.replace("\n", "")
     if ended.exit_code and not (said or ended.stdout):
         return End(seed, "silent", repr(command)[:300])
-    if any(not character.isprintable() for character in said) and "Traceback" not in said:
+    if any(not character.isprintable() for character in said):
         return End(seed, "control characters", f"{command!r:.300}: {said!r:.500}")
     return End(seed, ENDS[ended.exit_code], said=said)
 

@@ -178,9 +178,42 @@ def in_text(data: bytes, random: Random) -> bytes:
     return text.encode("utf-8", "surrogatepass")
 
 
+QUANTITY = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
+
+
+def mild(old: Any, random: Random) -> Any:
+    """A number or quantity of another size than ``old``; anything else as it is."""
+    if isinstance(old, int) and not isinstance(old, bool):
+        return random.choice([old + 1, max(old - 1, 1), 2 * old, 1])
+    sizes = [
+        1e-300,
+        0.0,
+        -1.0,
+        0.5,
+        1.0 + 1e-9,
+        2.0,
+        *(10.0 ** random.uniform(-most, most) for most in (1, 1, 3, 3, 30)),
+    ]
+    if isinstance(old, float):
+        return old * random.choice(sizes)
+    if not isinstance(old, str) or (number := QUANTITY.match(old)) is None:
+        return old
+    return f"{float(number[0]) * random.choice(sizes):.6g}{old[number.end() :]}"
+
+
 def in_table(table: dict[str, Any], random: Random) -> dict[str, Any]:
-    """``table`` with values replaced, keys taken out, renamed or added."""
+    """``table`` with one or two values of other size in half of the cases, else with anything replaced, taken out, renamed."""
     changed = copy.deepcopy(table)
+    if random.random() < 0.5:
+        numbers = [at for at in _places(changed) if QUANTITY.match(str(at[0][at[1]]))]
+        numbers = [
+            at
+            for at in numbers
+            if at[1] != "version" and not (isinstance(at[0], list) and isinstance(at[0][at[1]], int))
+        ]
+        for parent, key in random.sample(numbers, min(random.choice([1, 1, 2]), len(numbers))):
+            parent[key] = mild(parent[key], random)
+        return changed
     for _ in range(random.choice([1, 1, 2, 3])):
         places = list(_places(changed))
         parent, key = random.choice(places)

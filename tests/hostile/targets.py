@@ -213,8 +213,9 @@ STUDIES: dict[str, dict[str, Any]] = {
         "monte_carlo": {
             "samples": 4,
             "seed": 1,
-            "parameters": [
-                {"path": "surface.seed", "distribution": "uniform", "low": 1, "high": 9},
+            "random": [
+                {"path": "surface.seed", "distribution": "seed"},
+                {"path": "control.mean_pressure", "distribution": "uniform", "low": "1 MPa", "high": "9 MPa"},
             ],
         },
     },
@@ -296,7 +297,7 @@ def surface(folder: Path) -> dict[str, bytes]:
 TARGETS: Mapping[str, Callable[[Path], Target]] = {
     "problem documents (TOML)": lambda _: Target(in_json(documents(), "toml"), as_toml, SOLVE),
     "problem documents (JSON)": lambda _: Target(in_json(documents(), "json"), as_json, SOLVE),
-    "study documents": lambda _: Target(in_json(STUDIES, "toml"), as_toml, (("run", DAMAGED, "--workers", "0"),)),
+    "study documents": lambda _: Target(in_json(STUDIES, "toml"), as_toml, (("run", DAMAGED),)),
     "finished studies": lambda folder: Campaigns(
         campaign(folder), mutate.in_text, (*[("status", "study")] * 9, ("collect", "study"))
     ),
