@@ -180,7 +180,10 @@ def say(text: str) -> None:
 
 def table(found: dict[str, Counter[str]]) -> str:
     """Rows of kinds of input, columns of ends, as Markdown."""
-    words = [*ENDS.values(), *sorted({word for counts in found.values() for word in counts} - set(ENDS.values()))]
+    words = [
+        *dict.fromkeys(ENDS.values()),
+        *sorted({word for counts in found.values() for word in counts} - set(ENDS.values())),
+    ]
     rows = [("input", "mutants", *words)]
     rows += [(name, str(c.total()), *(str(c[word]) for word in words)) for name, c in found.items()]
     return "\n".join(f"| {' | '.join(row)} |" for row in (rows[0], ("---",) * len(rows[0]), *rows[1:]))

@@ -80,6 +80,7 @@ CONTACT: tuple[tuple[str, ...], ...] = (
 
 INFO: tuple[tuple[str, ...], ...] = (
     (),
+    ("--size", "1e-299um"),
     ("--size", "8um"),
     ("--size", "8"),
     ("--size", "8um", "--height-unit", "kg"),

@@ -13,6 +13,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
+from ..core.values import LEAST
 from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Elastic, Rigid
 from ..solids.layers import Body, Layered, contact_modulus
@@ -93,15 +94,6 @@ Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded
 """A prescribed quantity."""
 
 
-LEAST_MAGNITUDE, LARGEST_MAGNITUDE = 1e-41, 1e40
-"""Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
-
-
-def require_magnitude(value: float, what: str) -> None:
-    """Refuse a ``value`` out of this range with an InputError that names it as ``what``."""
-    require.within(value, LEAST_MAGNITUDE, LARGEST_MAGNITUDE, what, "Use other units of length and pressure.")
-
-
 @dataclass(frozen=True)
 class Flat:
     """A perfectly flat counter surface."""
@@ -168,10 +160,10 @@ class ContactProblem(Shown):
             layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
             for solid in (*layers, body.base if isinstance(body, Layered) else body):
                 if isinstance(solid, Elastic):
-                    require_magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
+                    require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
         contact_modulus(self.body, self.counter_body)
         for spacing in self.grid.spacing:
-            require_magnitude(spacing, "pixel size (m)")
+            require.magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
             self.boundary.require_line(self.grid)
         for surface, what in ((self.surface, "surface"), (self.counter_surface, "counter_surface")):
@@ -180,8 +172,8 @@ class ContactProblem(Shown):
                     f"{what} must have no missing points, but {surface.n_missing} are missing. "
                     "Fill them first: filled(surface), or --fill harmonic."
                 )
-            if isinstance(surface, Surface) and (extent := float(np.ptp(surface.heights))) > LEAST_MAGNITUDE:
-                require_magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
+            if isinstance(surface, Surface) and (extent := float(np.ptp(surface.heights))) > LEAST:
+                require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
         cap = self.law.pressure_cap()

@@ -25,7 +25,7 @@ from .couplings.sliding import SlidingCoupling
 from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import Approach, ContactProblem, Control, MeanGap, Unloaded, mean_pressure, require_magnitude
+from .problem import Approach, ContactProblem, Control, MeanGap, Unloaded, mean_pressure
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
@@ -201,9 +201,9 @@ class Prepared:
             dented = self.profile - state.permanent_indentation
             start = state.pressure if state.pressure.any() else None
         if isinstance(control, Approach | MeanGap):
-            require_magnitude(control.value, f"{control.name} (m)")
+            require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded):
-            require_magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
+            require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
         scale = _height_scale(self.profile, control, self.operator)
         return settle(
             Posed(self.operator, self.profile, dented, control, scale, start, None if state is None else state.earlier),

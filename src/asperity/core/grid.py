@@ -19,7 +19,7 @@ class Grid:
     Raises
     ------
     InputError
-        If there are not two counts and two spacings, a count is not a whole number >= 1 or a spacing not positive.
+        If there are not two counts and two spacings, a count is not a whole number >= 1 or a spacing not within 1e-41 to 1e40 m.
     """
 
     shape: tuple[int, int]
@@ -29,7 +29,7 @@ class Grid:
         nx, ny = require.two(self.shape, "grid shape", "Write (nx, ny).")
         dx, dy = require.two(self.spacing, "grid spacing", "Write (dx, dy) in m.")
         nx, ny = (require.integer(n, 1, f"number of grid points along {a}") for n, a in ((nx, "x"), (ny, "y")))
-        dx, dy = (require.positive(d, f"grid spacing along {a} (m)") for d, a in ((dx, "x"), (dy, "y")))
+        dx, dy = (require.magnitude(d, f"grid spacing along {a} (m)") for d, a in ((dx, "x"), (dy, "y")))
         object.__setattr__(self, "shape", (nx, ny))
         object.__setattr__(self, "spacing", (dx, dy))
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import RealArray
 from .errors import InputError
+from .values import LARGEST, LEAST
 
 T = TypeVar("T")
 
@@ -68,6 +69,11 @@ def at_most(value: float, high: float, what: str, fix: str = "") -> float:
     if not 0.0 < number <= high:
         raise InputError(_sentence(what, f"greater than zero and at most {high:g}", value, fix))
     return number
+
+
+def magnitude(value: float, what: str) -> float:
+    """Return the length, modulus or pressure ``value`` if it is within ``values.LEAST`` and ``LARGEST``."""
+    return within(positive(value, what), LEAST, LARGEST, what, "Use other units of length and pressure.")
 
 
 def integer(value: int, minimum: int, what: str, fix: str = "") -> int:

@@ -14,6 +14,9 @@ from typing import Annotated, Any, Literal, TypeAlias
 from . import units
 from .errors import InputError
 
+LEAST, LARGEST = 1e-41, 1e40
+"""Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
+
 
 class Written(float):
     """An SI number that keeps the ``text`` in which it was written, so that a document can be written again."""
@@ -190,6 +193,8 @@ class Number(Values):
             if self.percent and 1.0 < number <= 100.0:
                 fix = f"Write {number:g}%."
             raise InputError(f"{what} must be {self.rule}, but is {shown}.{f' {fix}' if fix else ''}")
+        if self.quantity == "length" and number and math.isfinite(number) and not LEAST < abs(number) <= LARGEST:
+            raise InputError(f"{what} must be, in metres, more than {LEAST:g} and at most {LARGEST:g}, but is {shown}.")
         return number
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:

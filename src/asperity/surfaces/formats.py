@@ -378,7 +378,9 @@ def _attributes(file: Path) -> dict[str, Any]:
             found = dict(data._attributes)
     except _DAMAGED:
         return {}
-    return {key: value.decode("utf-8") if isinstance(value, bytes) else value for key, value in found.items()}
+    return {
+        key: value.decode("utf-8", "replace") if isinstance(value, bytes) else value for key, value in found.items()
+    }
 
 
 def _opened(path: Path, mode: Literal["r", "w"]) -> Any:
