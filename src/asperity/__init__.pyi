@@ -46,8 +46,9 @@ from .solids.library import Liquid, liquid, liquids, material, materials
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
+from .stress.loads import LineLoad, PatchLoad, PointLoad
 from .stress.regions import DepthProfile, Everywhere, Section, depths_through
-from .stress.tractions import ShearTraction, Sliding
+from .stress.tractions import LoadedBody, ShearTraction, Sliding, Tractions
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .studies.compare import compare
@@ -108,10 +109,12 @@ __all__ = [
     "Layer",
     "Layered",
     "LayeredHardness",
+    "LineLoad",
     "LinearGrading",
     "Liquid",
     "LiquidFilm",
     "LoadAtYield",
+    "LoadedBody",
     "MaxPrincipal",
     "MeanGap",
     "MeanPressure",
@@ -119,8 +122,10 @@ __all__ = [
     "NoSolutionError",
     "Outcome",
     "OutputError",
+    "PatchLoad",
     "Periodic",
     "PlasticLoad",
+    "PointLoad",
     "PowerGrading",
     "Rigid",
     "RigidBase",
@@ -134,6 +139,7 @@ __all__ = [
     "StressField",
     "Surface",
     "SurfacePair",
+    "Tractions",
     "Tresca",
     "UnitError",
     "Unloaded",

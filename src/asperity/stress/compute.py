@@ -15,7 +15,7 @@ from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from .boundaries import FreePlanes, PeriodicPlanes, require_held
 from .field import StressField
 from .regions import Everywhere, Plane, Where, planes, selection, stack
-from .tractions import Shear, ShearTraction, Sliding, Tractions
+from .tractions import LoadedBody, Shear, ShearTraction, Sliding, Tractions
 
 Direction: TypeAlias = float | tuple[float, float]
 """Angle in rad from +x towards +y, or a vector (x, y) of any length."""
@@ -50,12 +50,27 @@ class Planes(Protocol):
         """Displacement of ``plane``."""
 
 
+def _planes_of(
+    result: Loaded | LoadedBody, friction: float | Shear | None, direction: Direction, of: Of
+) -> tuple[Tractions, object]:
+    """Tractions of ``result`` on one of its bodies, and that body."""
+    require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
+    if isinstance(result, LoadedBody):
+        if friction is not None or of != "body":
+            raise InputError(
+                "friction and counter body of prescribed tractions must be left out, since LoadedBody(body, tractions) "
+                f"says both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
+            )
+        return result.tractions, result.body
+    return tractions_on(result, friction, direction, of), getattr(result.problem, of)
+
+
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
     """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
-    require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
     if not hasattr(result, "problem") or not hasattr(result, "pressure"):
         raise InputError(
-            f"result whose stresses are asked must be that of solve(problem, …), but is of type {type(result).__name__}."
+            "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, tractions), but is of "
+            f"type {type(result).__name__}."
         )
     if friction is None:
         own = getattr(result.problem, "friction", None)
@@ -71,7 +86,7 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
 
 
 def stress(
-    result: Loaded,
+    result: Loaded | LoadedBody,
     depths: Iterable[float],
     *,
     on: Where = Everywhere(),
@@ -82,7 +97,7 @@ def stress(
     dtype: str = "float64",
     threads: int | None = None,
 ) -> StressField:
-    """Stress inside a body of a contact, on planes parallel to its surface.
+    """Stress inside a body of a contact, or under prescribed tractions, on planes parallel to its surface.
 
     InputError if the body is rigid, a depth negative or below a rigid base, a position outside the grid, or layers
     that can slip on a frictionless interface carry shear that nothing holds: a mean shear on the periodic boundary,
@@ -91,7 +106,8 @@ def stress(
     Parameters
     ----------
     result
-        Result of ``solve`` (or anything with its pressure and problem).
+        Result of ``solve`` (or anything with its pressure and problem), or ``LoadedBody(body, tractions)``, which takes
+        neither ``friction`` nor ``of``.
     depths
         Depths of the planes in m, >= 0; the depth of an interface gives the stress on both of its sides.
     on
@@ -121,13 +137,13 @@ def stress(
     (free line: at the datum of the contact).
     Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
     """
-    loads = tractions_on(result, friction, direction, of)
-    job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)
+    loads, body = _planes_of(result, friction, direction, of)
+    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
     return job.whole(displacement=displacement)
 
 
 def stress_planes(
-    result: Loaded,
+    result: Loaded | LoadedBody,
     depths: Iterable[float],
     *,
     on: Where = Everywhere(),
@@ -142,8 +158,8 @@ def stress_planes(
 
     Arguments and errors as for ``stress``; give the planes to ``save_stress`` or ``export_stress_vtk`` to write a volume.
     """
-    loads = tractions_on(result, friction, direction, of)
-    job = StressPlanes(loads, getattr(result.problem, of), depths, on=on, dtype=dtype, threads=threads)
+    loads, body = _planes_of(result, friction, direction, of)
+    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
     return job.each(displacement=displacement)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, Self, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from .loads import PrescribedLoad
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,21 @@ class Tractions:
         if isinstance(self.shear, ShearTraction):
             require.field(self.shear.x, "shear traction along x (Pa)", self.grid.shape)
 
+    @classmethod
+    def of(
+        cls, grid: Grid, *loads: PrescribedLoad, boundary: Boundary = "periodic", datum: float | None = None
+    ) -> Self:
+        """Sum of ``loads``, each a ``PointLoad``, ``LineLoad`` or ``PatchLoad``, on the pixels of ``grid``.
+
+        InputError if a load is of another type, or reaches beyond the grid of a boundary that does not repeat.
+        """
+        total = np.zeros((3, *grid.shape))
+        for load in loads:
+            if not hasattr(load, "on"):
+                raise InputError(f"load on a grid must be PointLoad, LineLoad or PatchLoad, but is {load!r}.")
+            total += load.on(grid, wraps=boundary == "periodic")
+        return cls(grid, total[2], ShearTraction(total[0], total[1]), boundary, datum)
+
     @property
     def sheared(self) -> bool:
         """Whether there is any shear traction."""
@@ -135,3 +151,34 @@ class Tractions:
             x, y = self.shear.ratios
             return x * pressure, y * pressure, pressure
         return float(self.shear.x.mean(dtype=np.float64)), float(self.shear.y.mean(dtype=np.float64)), pressure
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedBody:
+    """A body whose surface carries prescribed tractions, without any contact: what ``stress`` takes in place of a result.
+
+    Parameters
+    ----------
+    body
+        ``Elastic`` or ``Layered``.
+    tractions
+        ``Tractions(grid, pressure, shear, boundary)`` of arrays, or ``Tractions.of(grid, PointLoad(...), ...)``.
+
+    Examples
+    --------
+    The largest von Mises stress below a square under 1 MPa:
+
+    >>> import asperity as asp
+    >>> grid = asp.Grid((32, 32), (1e-6, 1e-6))
+    >>> patch = asp.PatchLoad(x=(11.5e-6, 19.5e-6), y=(11.5e-6, 19.5e-6), pressure=1e6)
+    >>> loaded = asp.LoadedBody(asp.Elastic(200e9, 0.3), asp.Tractions.of(grid, patch, boundary="free"))
+    >>> field = asp.stress(loaded, depths=[1e-6, 2e-6, 4e-6])
+    >>> print(f"{field.von_mises.max():.3g}")
+    6.45e+05
+    """
+
+    body: object
+    tractions: Tractions
+
+    def __post_init__(self) -> None:
+        require.instance(self.tractions, Tractions, "tractions of a loaded body", "Write Tractions(...).")
