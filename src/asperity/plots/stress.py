@@ -186,8 +186,7 @@ def _known(quantity: str) -> Quantity:
 
 def _middle(field: StressField, axis: str) -> RealArray:
     """Coordinates of the middles of the pixels, as in all figures."""
-    middle: RealArray = getattr(field, axis) + 0.5 * field.spacing["xy".index(axis)]
-    return middle
+    return np.asarray(getattr(field, axis) + 0.5 * field.spacing["xy".index(axis)])
 
 
 def _parts(field: StressField) -> list[list[int]]:

@@ -19,20 +19,17 @@ _BLOCK = 1 << 14  # points whose temporaries stay in the cache
 
 def sqrt_J2(s: StressTensor) -> RealArray:
     """√J2 in Pa, to be compared with the yield stress in pure shear k; Peng (2001, eq. 3.33) calls it von Mises stress."""
-    root: RealArray = np.sqrt(second_invariant(s))
-    return root
+    return np.sqrt(second_invariant(s))
 
 
 def von_mises(s: StressTensor) -> RealArray:
     """Equivalent stress √(3 J2) in Pa, to be compared with the tensile yield stress Y = √3 k."""
-    equivalent: RealArray = np.sqrt(3.0 * second_invariant(s))
-    return equivalent
+    return np.asarray(np.sqrt(3.0 * second_invariant(s)))
 
 
 def hydrostatic(s: StressTensor) -> RealArray:
     """Mean normal stress in Pa, positive in tension."""
-    mean: RealArray = (s.xx + s.yy + s.zz) / 3.0
-    return mean
+    return (s.xx + s.yy + s.zz) / 3.0
 
 
 def principal_tensile(s: StressTensor) -> RealArray:
@@ -40,8 +37,7 @@ def principal_tensile(s: StressTensor) -> RealArray:
 
     It is the largest principal stress on a free surface in tension, and a lower bound of it inside the body.
     """
-    largest: RealArray = 0.5 * (s.xx + s.yy) + np.hypot(0.5 * (s.xx - s.yy), s.xy)
-    return largest
+    return 0.5 * (s.xx + s.yy) + np.hypot(0.5 * (s.xx - s.yy), s.xy)
 
 
 def principal_stresses(s: StressTensor) -> RealArray:
@@ -56,8 +52,7 @@ def principal_stresses(s: StressTensor) -> RealArray:
 def tresca(s: StressTensor) -> RealArray:
     """σ1 - σ3 in Pa, to be compared with the tensile yield stress."""
     values = principal_stresses(s)
-    difference: RealArray = values[0] - values[2]
-    return difference
+    return np.asarray(values[0] - values[2])
 
 
 def max_shear(s: StressTensor) -> RealArray:
@@ -79,8 +74,7 @@ def max_shear_normal(s: StressTensor) -> RealArray:
     The other such plane has the normal (n1 - n3)/√2.
     """
     directions = principal_directions(s)
-    normal: RealArray = (directions[0] + directions[2]) * math.sqrt(0.5)
-    return normal
+    return np.asarray((directions[0] + directions[2]) * math.sqrt(0.5))
 
 
 def _in_blocks(function: Callable[[StressTensor], RealArray], s: StressTensor, shape: tuple[int, ...]) -> RealArray:
@@ -90,8 +84,7 @@ def _in_blocks(function: Callable[[StressTensor], RealArray], s: StressTensor, s
     for first in range(0, points.xx.size, _BLOCK):
         block = slice(first, first + _BLOCK)
         out[..., block] = function(points.map(lambda component, block=block: component[block]))  # type: ignore[misc]
-    shaped: RealArray = out.reshape(*shape, *np.shape(s.xx))
-    return shaped
+    return out.reshape(*shape, *np.shape(s.xx))
 
 
 def _values(s: StressTensor) -> RealArray:
@@ -100,8 +93,7 @@ def _values(s: StressTensor) -> RealArray:
     upper, lower = middle + radius, middle - radius
     first, apart = state.first, state.apart
     ordered = [np.where(first, apart, upper), np.where(first, upper, lower), np.where(first, lower, apart)]
-    values: RealArray = state.mean + state.size * np.stack(ordered)
-    return values
+    return np.asarray(state.mean + state.size * np.stack(ordered))
 
 
 def _directions(s: StressTensor) -> RealArray:
@@ -144,8 +136,7 @@ def _kernel(a: RealArray, b: RealArray, c: RealArray, d: RealArray, e: RealArray
     vector = np.take_along_axis(crosses, best[None, None], axis=0)[0]
     length = np.sqrt(np.take_along_axis(squares, best[None], axis=0)[0])
     vector[0] = np.where(length > 0.0, vector[0], 1.0)
-    unit: RealArray = vector / np.where(length > 0.0, length, 1.0)
-    return unit
+    return np.asarray(vector / np.where(length > 0.0, length, 1.0))
 
 
 def _across(n: RealArray) -> tuple[RealArray, RealArray]:
@@ -168,8 +159,7 @@ def _form(u: RealArray, v: RealArray, m: tuple[RealArray, ...]) -> RealArray:
     x = a * v[0] + d * v[1] + e * v[2]
     y = d * v[0] + b * v[1] + f * v[2]
     z = e * v[0] + f * v[1] + c * v[2]
-    product: RealArray = u[0] * x + u[1] * y + u[2] * z
-    return product
+    return np.asarray(u[0] * x + u[1] * y + u[2] * z)
 
 
 TABOR = 2.8
@@ -250,8 +240,7 @@ class MaxPrincipal:
 
     def equivalent(self, stress: StressTensor) -> RealArray:
         """σ1 in Pa."""
-        largest: RealArray = principal_stresses(stress)[0]
-        return largest
+        return np.asarray(principal_stresses(stress)[0])
 
     def limit(self, material: Elastic) -> Limit:
         """The given strength, the same in every material."""

@@ -176,8 +176,7 @@ class StressField(Stored):
     @property
     def max_principal(self) -> RealArray:
         """σ1."""
-        largest: RealArray = self.principal[0]
-        return largest
+        return np.asarray(self.principal[0])
 
     @property
     def principal_tensile(self) -> RealArray:

@@ -36,8 +36,7 @@ def table(file: Path) -> RealArray:
     first = _first_row(lines) or 0
     delimiter, comma = _separator(lines[first])
     rows = [line.replace(",", ".") if comma else line for line in lines[first:]]
-    numbers: RealArray = np.loadtxt(rows, delimiter=delimiter, ndmin=2)
-    return numbers
+    return np.loadtxt(rows, delimiter=delimiter, ndmin=2)
 
 
 def cut_short(file: Path) -> int:

@@ -169,8 +169,7 @@ class Limit:
     @property
     def holds(self) -> BoolArray:
         """(n,) whether the value lies between the bounds; an undefined value (NaN) does not."""
-        inside: BoolArray = (self.value >= self.low) & (self.value <= self.high)
-        return inside
+        return (self.value >= self.low) & (self.value <= self.high)
 
     @property
     def bounds(self) -> str:

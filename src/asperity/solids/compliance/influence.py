@@ -46,8 +46,7 @@ def _corner(x: RealArray, y: RealArray) -> RealArray:
     """X asinh(Y/|X|) + Y asinh(X/|Y|), with its limit 0 on the axes."""
     tiny = 1e-290
     ax, ay = np.maximum(np.abs(x), tiny), np.maximum(np.abs(y), tiny)
-    result: RealArray = x * np.arcsinh(y / ax) + y * np.arcsinh(x / ay)
-    return result
+    return x * np.arcsinh(y / ax) + y * np.arcsinh(x / ay)
 
 
 # Surface response to a point force from its spectrum, for laterally isotropic bodies of any structure.
@@ -84,8 +83,7 @@ class PointKernel:
 
     def response(self, r: RealArray) -> RealArray:
         """k(r) in m/N at distances ``r`` > 0 in m."""
-        value: RealArray = self.strength(r) / (2.0 * np.pi * r)
-        return value
+        return self.strength(r) / (2.0 * np.pi * r)
 
 
 @dataclass(frozen=True)
@@ -199,8 +197,7 @@ def _gauss(kernel: PointKernel, x: RealArray, y: RealArray, grid: Grid, angular:
     node, weight = np.polynomial.legendre.leggauss(_GAUSS)
     dx, dy = grid.spacing
     points = _values(kernel, x[:, None, None] + 0.5 * dx * node[:, None], y[:, None, None] + 0.5 * dy * node, angular)
-    result: RealArray = np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area
-    return result
+    return np.asarray(np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area)
 
 
 def _corner_sums(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray:
@@ -213,8 +210,7 @@ def _corner_sums(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray
     # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral from 0 to -X
     over_x = np.vstack([(-quarter[:1] if angular.even_x else quarter[:1]), quarter])
     whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
-    sums: RealArray = np.diff(np.diff(whole, axis=0), axis=1)
-    return sums
+    return np.diff(np.diff(whole, axis=0), axis=1)
 
 
 def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular) -> RealArray:
@@ -232,8 +228,7 @@ def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular
         along, across = 1.0 / np.cosh(v), np.tanh(v)
         factor = angular.factor(across, along) if exchanged else angular.factor(along, across)
         values = kernel.moment(length[..., None] / along) * along * factor
-        integral: RealArray = values @ np.tile(0.5 * weight / panels, panels) * last
-        return integral
+        return values @ np.tile(0.5 * weight / panels, panels) * last
 
     X, Y = np.broadcast_arrays(X, Y)
     return (triangle(X, Y, exchanged=False) + triangle(Y, X, exchanged=True)) / (2.0 * np.pi)
@@ -332,8 +327,7 @@ class LineIntegral:
         else:
             rise = 0.5 * (log - 2.0 * np.log(self.d))
             closed = self.b * (x * angle - self.d * rise) + self.a * rise
-        total: RealArray = closed / np.pi + self.moment(x)
-        return total
+        return np.asarray(closed / np.pi + self.moment(x))
 
     def slope(self, x: float) -> float:
         """K at x > 0 of a cosine response."""

@@ -35,26 +35,22 @@ class Corner:
     @cached_property
     def R(self) -> RealArray:
         """Distance from the corner, kept above 1e-145."""
-        distance: RealArray = np.sqrt(np.maximum(self.X**2 + self.Y**2 + self.z**2, _TINY))
-        return distance
+        return np.sqrt(np.maximum(self.X**2 + self.Y**2 + self.z**2, _TINY))
 
     @cached_property
     def L_X(self) -> RealArray:
         """ln(R + X) up to a function of Y: Φ_YZ."""
-        length: RealArray = np.arcsinh(self.X / np.sqrt(self._yz))
-        return length
+        return np.arcsinh(self.X / np.sqrt(self._yz))
 
     @cached_property
     def L_Y(self) -> RealArray:
         """ln(R + Y) up to a function of X: Φ_XZ."""
-        length: RealArray = np.arcsinh(self.Y / np.sqrt(self._xz))
-        return length
+        return np.arcsinh(self.Y / np.sqrt(self._xz))
 
     @cached_property
     def XY(self) -> RealArray:
         """Φ_XY = ln(R + z)."""
-        logarithm: RealArray = np.log(self.R + self.z)
-        return logarithm
+        return np.asarray(np.log(self.R + self.z))
 
     @cached_property
     def ZZ(self) -> RealArray:
@@ -118,13 +114,11 @@ class Corner:
 
     @cached_property
     def _xz(self) -> RealArray:
-        square: RealArray = np.maximum(self.X**2 + self.z**2, _TINY)
-        return square
+        return np.asarray(np.maximum(self.X**2 + self.z**2, _TINY))
 
     @cached_property
     def _yz(self) -> RealArray:
-        square: RealArray = np.maximum(self.Y**2 + self.z**2, _TINY)
-        return square
+        return np.asarray(np.maximum(self.Y**2 + self.z**2, _TINY))
 
     @cached_property
     def _twist(self) -> RealArray:

@@ -127,8 +127,7 @@ def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) ->
     spectrum *= spectrum.conj()
     full = transform.backward(spectrum, out=work)
     positive_x, (_, most_y) = full[: largest[0] + 1], largest
-    sums: RealArray = np.concatenate([positive_x[:, full.shape[1] - most_y :], positive_x[:, : most_y + 1]], axis=1)
-    return sums
+    return np.concatenate([positive_x[:, full.shape[1] - most_y :], positive_x[:, : most_y + 1]], axis=1)
 
 
 def _complete_pairs(surface: Surface, largest: LagRange) -> RealArray:
@@ -136,8 +135,7 @@ def _complete_pairs(surface: Surface, largest: LagRange) -> RealArray:
         return np.full((largest[0] + 1, 2 * largest[1] + 1), float(surface.grid.n_points))
     along_x = surface.shape[0] - np.arange(largest[0] + 1.0)
     along_y = surface.shape[1] - np.abs(np.arange(-largest[1], largest[1] + 1.0))
-    pairs: RealArray = along_x[:, None] * along_y[None, :]
-    return pairs
+    return np.asarray(along_x[:, None] * along_y[None, :])
 
 
 # Structure function and scale-dependent slopes and curvatures.

@@ -92,16 +92,14 @@ def kurtosis(surface: Surface) -> float:
 
 
 def _valid(surface: Surface) -> RealArray:
-    valid: RealArray = surface.heights[~surface.mask].astype(np.float64, copy=False)
-    return valid
+    return surface.heights[~surface.mask].astype(np.float64, copy=False)
 
 
 def deviations(surface: Surface) -> RealArray:
     """Heights (N,) of the valid points less their mean, in m."""
     valid = _valid(surface)
     shifted = valid - valid[0]  # avoids cancellation with a large common offset
-    deviations: RealArray = shifted - shifted.mean()
-    return deviations
+    return np.asarray(shifted - shifted.mean())
 
 
 def _defined(value: float, what: str) -> float:
@@ -128,8 +126,7 @@ class HeightDistribution:
         """Density in 1/m of the normal distribution of the same deviation at ``height`` in m; zero for a flat map."""
         if self.deviation == 0.0:
             return np.zeros_like(height)
-        values: RealArray = np.exp(-0.5 * (height / self.deviation) ** 2) / (np.sqrt(2.0 * np.pi) * self.deviation)
-        return values
+        return np.asarray(np.exp(-0.5 * (height / self.deviation) ** 2) / (np.sqrt(2.0 * np.pi) * self.deviation))
 
 
 def height_distribution(surface: Surface, bins: int | None = None) -> HeightDistribution:

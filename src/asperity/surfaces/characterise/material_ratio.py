@@ -36,20 +36,17 @@ class MaterialRatioCurve:
     @property
     def ratios(self) -> RealArray:
         """Material ratios of ``heights``, shape (N,)."""
-        ratios: RealArray = (np.arange(self.heights.size) + 0.5) / self.heights.size
-        return ratios
+        return (np.arange(self.heights.size) + 0.5) / self.heights.size
 
     def height(self, ratio: ArrayLike) -> RealArray:
         """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
         place, below = self._place(np.asarray(ratio, dtype=float))
-        values: RealArray = self.heights[below] + (place - below) * (self._next[below] - self.heights[below])
-        return values
+        return self.heights[below] + (place - below) * (self._next[below] - self.heights[below])
 
     def ratio(self, height: ArrayLike) -> RealArray:
         """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean plane (any shape)."""
         above = np.searchsorted(-self.heights, -np.asarray(height, dtype=float), side="right")
-        shares: RealArray = above / self.heights.size
-        return shares
+        return above / self.heights.size
 
     def height_difference(self, upper: float, lower: float) -> float:
         """Sdc(p, q) = Smc(p) - Smc(q) in m for two material ratios."""

@@ -201,8 +201,7 @@ def nayak_parameter(m0: float, m2: float, m4: float) -> float:
 
 def _weighted(psd: RealArray, factor_x: RealArray, factor_y: RealArray) -> RealArray:
     """One row of sums over q_x, weighted: the matrix product does not write a field as large as the spectrum."""
-    row: RealArray = (factor_x.ravel() @ psd)[None, :] * factor_y
-    return row
+    return (factor_x.ravel() @ psd)[None, :] * factor_y
 
 
 def _without_nyquist(q: RealArray, n: int) -> RealArray:

@@ -38,8 +38,7 @@ def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
     steps_x, steps_y = lag
     h = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
-        wrapped: RealArray = _wrapped(_wrapped(h, 0, steps_x), 1, steps_y) - h
-        return wrapped
+        return _wrapped(_wrapped(h, 0, steps_x), 1, steps_y) - h
     if abs(steps_x) >= surface.shape[0] or abs(steps_y) >= surface.shape[1]:
         raise InputError(
             f"lag of a difference must be shorter than the map of {surface.shape[0]} x {surface.shape[1]} points, "
@@ -47,8 +46,7 @@ def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
         )
     first = tuple(slice(max(0, -s), n - max(0, s)) for s, n in zip(lag, h.shape, strict=True))
     second = tuple(slice(max(0, s), n - max(0, -s)) for s, n in zip(lag, h.shape, strict=True))
-    inside: RealArray = h[second] - h[first]
-    return inside
+    return h[second] - h[first]
 
 
 def second_differences(surface: Surface, axis: str) -> RealArray:
@@ -64,8 +62,7 @@ def second_differences(surface: Surface, axis: str) -> RealArray:
         raise InputError(
             f"surface must have three points or more along {axis} for a second difference, but has {h.shape[number]}."
         )
-    second: RealArray = np.diff(h, n=2, axis=number)
-    return second
+    return np.diff(h, n=2, axis=number)
 
 
 def mean_square(values: RealArray, what: str) -> float:
@@ -97,10 +94,7 @@ def _wrapped(h: RealArray, axis: int, shift: int) -> RealArray:
     shift %= h.shape[axis]
     if shift == 0:
         return h
-    moved: RealArray = np.concatenate(
-        [h[_part(axis, slice(shift, None))], h[_part(axis, slice(None, shift))]], axis=axis
-    )
-    return moved
+    return np.concatenate([h[_part(axis, slice(shift, None))], h[_part(axis, slice(None, shift))]], axis=axis)
 
 
 def _part(axis: int, part: slice) -> tuple[slice, slice]:
@@ -171,8 +165,7 @@ def _rows(h: RealArray, start: int, stop: int) -> RealArray:
         return h[start:stop]
     if start >= n and stop - start <= n - start % n:
         return h[start % n : start % n + stop - start]
-    wrapped: RealArray = h[np.arange(start, stop) % n]
-    return wrapped
+    return np.asarray(h[np.arange(start, stop) % n])
 
 
 def _columns(strip: RealArray, order: int, step: int, *, periodic: bool) -> list[RealArray]:

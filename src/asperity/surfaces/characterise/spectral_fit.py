@@ -101,8 +101,7 @@ class SpectralModel:
         """C(q) in m⁴ at the wavenumbers ``q`` (rad/m, any shape), zero at q = 0."""
         number = np.asarray(q, dtype=float)
         relative = self.law.relative(number.ravel()).reshape(number.shape)
-        values: RealArray = np.where(relative > 0.0, self.level * relative + self.floor, 0.0)
-        return values
+        return np.where(relative > 0.0, self.level * relative + self.floor, 0.0)
 
     def moments(self, shortest_wavelength: float = 0.0, longest_wavelength: float = math.inf) -> tuple[float, ...]:
         """Profile moments m0 (m²), m2, m4 (1/m²) of the continuous surface between two wavelengths (m), without floor.

@@ -65,8 +65,7 @@ def map_window(kind: str, grid: Grid) -> RealArray:
 
 
 def _normalised(weights: RealArray) -> RealArray:
-    normalised: RealArray = weights / np.sqrt(np.mean(np.square(weights)))
-    return normalised
+    return np.asarray(weights / np.sqrt(np.mean(np.square(weights))))
 
 
 _ROUNDING = 1e-9  # upper bound of the rounding error of Parseval's identity, relative

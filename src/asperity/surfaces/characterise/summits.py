@@ -67,8 +67,7 @@ class Summits:
     @property
     def curvature(self) -> RealArray:
         """Mean curvature κ = (κ_x + κ_y)/2 of each summit in 1/m, half the negative Laplacian."""
-        curvature: RealArray = 0.5 * (self.kappa_x + self.kappa_y)
-        return curvature
+        return 0.5 * (self.kappa_x + self.kappa_y)
 
     @property
     def principal_curvatures(self) -> tuple[RealArray, RealArray]:
@@ -81,8 +80,7 @@ class Summits:
         """sqrt(κ1 κ2) of each summit in 1/m, NaN where the smallest curvature is not positive."""
         largest, smallest = self.principal_curvatures
         product = np.where(smallest > 0.0, largest * smallest, np.nan)
-        geometric: RealArray = np.sqrt(product)
-        return geometric
+        return np.sqrt(product)
 
 
 @dataclass(frozen=True)
@@ -258,16 +256,14 @@ def _lines(surface: Surface, number: int) -> RealArray:
     z = z if number == 0 else z.T
     if not surface.periodic:
         return z
-    longer: RealArray = z[np.arange(z.shape[0] + 2) % z.shape[0]]
-    return longer
+    return np.asarray(z[np.arange(z.shape[0] + 2) % z.shape[0]])
 
 
 def _products(surface: Surface, z: RealArray, lag: int) -> RealArray:
     """Products of the heights of all valid pairs ``lag`` points apart."""
     starts = max(0, z.shape[0] - (2 if surface.periodic else lag))
     products = z[:starts] * z[lag : lag + starts]
-    valid: RealArray = products[~np.isnan(products)]
-    return valid
+    return products[~np.isnan(products)]
 
 
 def _mean(values: RealArray) -> float:

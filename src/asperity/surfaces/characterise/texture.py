@@ -137,5 +137,4 @@ def _bilinear(centre: Autocovariance, x: RealArray, y: RealArray) -> RealArray:
     v = centre.values
     lower = v[low_k, low_l] * (1.0 - part_l) + v[low_k, next_l] * part_l
     upper = v[next_k, low_l] * (1.0 - part_l) + v[next_k, next_l] * part_l
-    values: RealArray = np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)
-    return values
+    return np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)

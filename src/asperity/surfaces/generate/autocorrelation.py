@@ -54,15 +54,13 @@ class ExponentialAutocorrelation(Declared):
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
         """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
         beta_x, beta_y = self.decay_lengths
-        values: RealArray = self.rms_height**2 * np.exp(-np.hypot(x / beta_x, y / beta_y))
-        return values
+        return np.asarray(self.rms_height**2 * np.exp(-np.hypot(x / beta_x, y / beta_y)))
 
     def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
         """C in m⁴ of the continuous surface, 2π σ² βx βy [1 + (qx βx)² + (qy βy)²]^(-3/2) with 1/e lengths β."""
         beta_x, beta_y = self.decay_lengths
         squared = (np.asarray(qx, dtype=float) * beta_x) ** 2 + (np.asarray(qy, dtype=float) * beta_y) ** 2
-        values: RealArray = 2.0 * np.pi * self.rms_height**2 * beta_x * beta_y * (1.0 + squared) ** -1.5
-        return values
+        return 2.0 * np.pi * self.rms_height**2 * beta_x * beta_y * (1.0 + squared) ** -1.5
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
@@ -113,15 +111,13 @@ class GaussianAutocorrelation(Declared):
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
         """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
         b_x, b_y = self.decay_lengths
-        values: RealArray = self.rms_height**2 * np.exp(-np.square(x / b_x) - np.square(y / b_y))
-        return values
+        return np.asarray(self.rms_height**2 * np.exp(-np.square(x / b_x) - np.square(y / b_y)))
 
     def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
         """C in m⁴ of the continuous surface, π σ² bx by exp{-[(qx bx)² + (qy by)²]/4} with 1/e lengths b."""
         b_x, b_y = self.decay_lengths
         squared = (np.asarray(qx, dtype=float) * b_x) ** 2 + (np.asarray(qy, dtype=float) * b_y) ** 2
-        values: RealArray = np.pi * self.rms_height**2 * b_x * b_y * np.exp(-0.25 * squared)
-        return values
+        return np.pi * self.rms_height**2 * b_x * b_y * np.exp(-0.25 * squared)
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.

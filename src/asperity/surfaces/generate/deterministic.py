@@ -168,8 +168,7 @@ def flat(grid: Grid) -> Surface:
 
 def _radius_squared(grid: Grid) -> RealArray:
     x, y = grid.centred_coordinates()
-    r_squared: RealArray = x**2 + y**2
-    return r_squared
+    return x**2 + y**2
 
 
 def _wave(grid: Grid, wavelength: float, axis: int) -> RealArray:
@@ -185,8 +184,7 @@ def _wave(grid: Grid, wavelength: float, axis: int) -> RealArray:
             f"wavelength must be at least two pixels ({2.0 * spacing:g} m along {name}), but is {wavelength:g} m. "
             "Refine the grid."
         )
-    wave: RealArray = np.cos(2.0 * np.pi * waves * grid.centred_coordinates()[axis] / size)
-    return wave
+    return np.asarray(np.cos(2.0 * np.pi * waves * grid.centred_coordinates()[axis] / size))
 
 
 def _shape(grid: Grid, heights: RealArray, text: str, *, periodic: bool = False) -> Surface:
@@ -295,8 +293,7 @@ def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
         )
     period = size / count
     u = grid.centred_coordinates()[axis]
-    distance: RealArray = u - period * np.round(u / period)
-    return distance
+    return u - period * np.round(u / period)
 
 
 def _texture(grid: Grid, heights: RealArray, text: str, pitch: tuple[float, float]) -> Surface:

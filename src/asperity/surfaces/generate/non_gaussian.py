@@ -211,8 +211,7 @@ def _bounded_moments(gamma: float, delta: float) -> _Moments:
 def _logistic(u: RealArray) -> RealArray:
     """1/(1 + exp(-u)) without overflow."""
     small = np.exp(-np.abs(u))
-    values: RealArray = np.where(u >= 0.0, 1.0, small) / (1.0 + small)
-    return values
+    return np.where(u >= 0.0, 1.0, small) / (1.0 + small)
 
 
 # Distribution of heights with given skewness and kurtosis, of one of the systems that have one for every such pair.
@@ -336,8 +335,7 @@ class TwoLevels(Declared):
         z = np.linspace(low, high, max(200_001, 4 * count))
         upper = ndtr((z - self.separation) / self.upper_deviation)
         below = (1.0 - self.share) * ndtr(z) + self.share * upper
-        heights: RealArray = np.interp((np.arange(count) + 0.5) / count, below, z)
-        return heights
+        return np.interp((np.arange(count) + 0.5) / count, below, z)
 
     def describe(self) -> str:
         """Words and numbers for the history of a surface."""
@@ -412,8 +410,7 @@ def translated(
 def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
     """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, Hermite coefficients c_k."""
     squares = _hermite_squares(law)
-    values: RealArray = np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], squares]))
-    return values
+    return np.asarray(np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], squares])))
 
 
 def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[RealArray, float]:

@@ -230,8 +230,7 @@ class TabulatedSpectrum:
         """C in m⁴ at the wavenumbers ``q`` (rad/m, any shape), zero at q = 0."""
         with np.errstate(divide="ignore"):
             log_c = np.interp(np.log(q), np.log(self.q), np.log(np.maximum(self.psd, _NOTHING)), right=-np.inf)
-        values: RealArray = np.where(q > 0.0, np.exp(log_c), 0.0)
-        return values
+        return np.where(q > 0.0, np.exp(log_c), 0.0)
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0."""

@@ -221,8 +221,7 @@ def _averaged(heights: RealArray, new: int) -> RealArray:
     edges = np.arange(new + 1) * (old / new)
     whole = np.minimum(edges.astype(int), old - 1)
     at_edges = integral[whole] + (edges - whole)[:, None] * heights[whole]
-    averaged: RealArray = np.diff(at_edges, axis=0) * (new / old)
-    return averaged
+    return np.asarray(np.diff(at_edges, axis=0) * (new / old))
 
 
 def _interpolated(heights: RealArray, new: int) -> RealArray:
@@ -233,8 +232,7 @@ def _interpolated(heights: RealArray, new: int) -> RealArray:
         return np.repeat(heights, new, axis=0)
     centres = (np.arange(new) + 0.5) * (old / new) - 0.5  # pixel centres in units of the old pixel
     spline = make_interp_spline(np.arange(old, dtype=float), heights, k=3 if old > 3 else 1)
-    interpolated: RealArray = spline(centres)
-    return interpolated
+    return spline(centres)
 
 
 # Periodic surfaces by a taper at the borders or by removal of the smooth component.
@@ -298,5 +296,4 @@ def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealA
 def _tukey(count: int, width: float) -> RealArray:
     distance = (np.arange(count) + 0.5) / count
     distance = np.minimum(distance, 1.0 - distance)
-    weights: RealArray = np.sin(0.5 * np.pi * np.minimum(distance / width, 1.0)) ** 2
-    return weights
+    return np.sin(0.5 * np.pi * np.minimum(distance / width, 1.0)) ** 2

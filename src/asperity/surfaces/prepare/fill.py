@@ -51,8 +51,7 @@ def _nearest(surface: Surface) -> RealArray:
     )
     window = tuple(slice(before, before + n) for (before, _), n in zip(pad, surface.shape, strict=True))
     rows, columns = ((indices[axis][window][surface.mask] - pad[axis][0]) % surface.shape[axis] for axis in (0, 1))
-    nearest: RealArray = surface.heights[rows, columns]
-    return nearest
+    return np.asarray(surface.heights[rows, columns])
 
 
 def _harmonic(surface: Surface) -> RealArray:

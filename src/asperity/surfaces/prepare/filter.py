@@ -40,8 +40,7 @@ def gamma(order: int) -> float:
 def transmission(ratio: RealArray | float, order: int = 0) -> RealArray:
     """Amplitude transmission of a wave of length λ on an infinite surface; ``ratio`` λc/λ, both dimensionless."""
     t = (_SECOND if order == 2 else _FIRST) * np.square(np.asarray(ratio, dtype=float))
-    values: RealArray = (1.0 + t) * np.exp(-t) if order == 2 else np.exp(-t)
-    return values
+    return np.asarray((1.0 + t) * np.exp(-t) if order == 2 else np.exp(-t))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +67,7 @@ class LocalRegression:
         if len(powers) == 1:
             total = self._moment(transform, of_weights, 0, 0)
             nothing = np.full(total.shape, np.nan)
-            values: RealArray = np.divide(right[0], total, out=nothing, where=total > _NO_WEIGHT)
-            return values
+            return np.asarray(np.divide(right[0], total, out=nothing, where=total > _NO_WEIGHT))
         sums = {
             (a, b): self._moment(transform, of_weights, a, b)
             for a in range(2 * self.order + 1)

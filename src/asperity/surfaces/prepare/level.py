@@ -119,8 +119,7 @@ def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealAr
     coefficients = np.zeros((degree + 1, degree + 1))
     for (a, b), value in zip(powers, _solved(triangle, len(powers), form), strict=True):
         coefficients[a, b] = value
-    fit: RealArray = along_x @ coefficients @ along_y.T + offset
-    return fit
+    return along_x @ coefficients @ along_y.T + offset
 
 
 def _solved(triangle: RealArray, unknowns: int, form: str) -> RealArray:
@@ -130,8 +129,7 @@ def _solved(triangle: RealArray, unknowns: int, form: str) -> RealArray:
             f"surface must have enough valid points, not all on one line, to fit a {form} ({unknowns} coefficients), "
             "but has not. Use a lower form or fill the missing points."
         )
-    solution: RealArray = np.linalg.solve(triangle[:unknowns, :unknowns], triangle[:unknowns, unknowns])
-    return solution
+    return np.linalg.solve(triangle[:unknowns, :unknowns], triangle[:unknowns, unknowns])
 
 
 # Spikes and scan lines.
@@ -205,5 +203,4 @@ def _local_median(surface: Surface, window: int) -> RealArray:
 
 def _taken(values: RealArray, index: RealArray | BoolArray) -> RealArray:
     at = np.clip(index, 0, values.shape[-1] - 1)[..., None].astype(np.intp)
-    taken: RealArray = np.take_along_axis(values, at, axis=-1)[..., 0]
-    return taken
+    return np.take_along_axis(values, at, axis=-1)[..., 0]

@@ -162,8 +162,7 @@ class FullerTabor(Theory):
     def load_per_summit(self, D: ArrayLike) -> RealArray:
         """f in units of P_c, over all summits, at the separation ``D`` = d/σ_s from their mean height, any shape."""
         x, _, weight = self._summits_at(np.asarray(D, dtype=float))
-        load: RealArray = np.sum(weight * load_ratio(x), axis=-1)
-        return load
+        return np.asarray(np.sum(weight * load_ratio(x), axis=-1))
 
     def _summits_at(self, D: RealArray) -> tuple[RealArray, RealArray, RealArray]:
         """Nodes x = a/a_c, their heights s, and weights of the mean over all summits; nothing has to be inverted in x."""

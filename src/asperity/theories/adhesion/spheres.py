@@ -153,14 +153,12 @@ class JKR(_AdhesiveSphere):
 
 def load_ratio(x: RealArray) -> RealArray:
     """P/Pc of JKR at x = a/ac: (x³/6 - x^(3/2))/1.5."""
-    ratio: RealArray = (x**3 / 6.0 - x * np.sqrt(x)) / 1.5
-    return ratio
+    return (x**3 / 6.0 - x * np.sqrt(x)) / 1.5
 
 
 def approach_ratio(x: RealArray) -> RealArray:
     """δ/δc of JKR at x = a/ac: (x² - 4 sqrt(x))/3."""
-    ratio: RealArray = (x**2 - 4.0 * np.sqrt(x)) / 3.0
-    return ratio
+    return (x**2 - 4.0 * np.sqrt(x)) / 3.0
 
 
 def contact_ratio(approach: ArrayLike) -> RealArray:
@@ -293,8 +291,7 @@ def _radius(lam: float, s: RealArray) -> RealArray:
     u = 0.5 * lam * _ring(s, theta)
     # sϑ - m + 1 with m - 1 = s²/(m + 1)
     v = 2.0 / 3.0 * lam**2 * (s * theta - s**2 / (1.0 + np.hypot(1.0, s)))
-    radius: RealArray = 1.0 / (v + np.sqrt(v**2 + u))
-    return radius
+    return 1.0 / (v + np.sqrt(v**2 + u))
 
 
 @dataclass(frozen=True)

@@ -67,8 +67,7 @@ class EffectiveHardness(Theory):
 
     def at(self, depth_ratio: ArrayLike) -> RealArray:
         """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0). InputError if a depth is negative."""
-        value: RealArray = self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
-        return value
+        return self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
 
     def at_depth_ratio(self, depth_ratio: ArrayLike) -> HardnessAnswer:
         """Hardness and share of the film at h_c/h = ``depth_ratio`` (any shape, >= 0)."""
@@ -80,10 +79,8 @@ class EffectiveHardness(Theory):
         hardness_ratio = self.film / self.substrate
         yield_ratio = hardness_ratio if self.yield_ratio is None else self.yield_ratio
         if hardness_ratio <= 1.0:
-            soft: RealArray = np.exp(-yield_ratio / self.modulus_ratio * depth**2)
-            return soft
-        hard: RealArray = np.exp(-hardness_ratio / (yield_ratio * self.modulus_ratio**0.5) * depth)
-        return hard
+            return np.asarray(np.exp(-yield_ratio / self.modulus_ratio * depth**2))
+        return np.asarray(np.exp(-hardness_ratio / (yield_ratio * self.modulus_ratio**0.5) * depth))
 
 
 # Several coatings, treated successively as films on substrates.
@@ -159,12 +156,10 @@ class StackHardness:
         """
         d = np.asarray(depth, dtype=float)
         below = np.searchsorted(self._knots, d, side="right") - 1
-        value: RealArray = self._works[below] + self._integral(self._knots[below], d)
-        return value
+        return self._works[below] + self._integral(self._knots[below], d)
 
     def _integral(self, low: RealArray, high: RealArray) -> RealArray:
         nodes, weights = np.polynomial.legendre.leggauss(_ORDER)
         half = 0.5 * (high - low)
         places = (low + half)[..., None] + half[..., None] * nodes
-        value: RealArray = half * (self.at(places) @ weights)
-        return value
+        return half * (self.at(places) @ weights)

@@ -111,8 +111,7 @@ class DiscreteSummits(SeparationTheory):
     def _depths(self, h: float) -> RealArray:
         """z_i - h of the summits above ``h``, the highest first."""
         z = self._z
-        depths: RealArray = z[: np.searchsorted(-z, -h, side="left")] - h
-        return depths
+        return z[: np.searchsorted(-z, -h, side="left")] - h
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         roots = np.sqrt(self._r)

@@ -59,8 +59,7 @@ class CrestSystem:
 
     def residual(self, w: RealArray, delta: RealArray) -> RealArray:
         """r_i in m."""
-        values: RealArray = self.own_approach(w) + self.coupling @ self.loads(w) - delta
-        return values
+        return self.own_approach(w) + self.coupling @ self.loads(w) - delta
 
     def own_approach(self, w: RealArray) -> RealArray:
         """ω_i in m; the approach of a punch is the displacement of its centre by its own load, too."""
@@ -68,8 +67,7 @@ class CrestSystem:
 
     def own_slope(self, w: RealArray) -> RealArray:
         """dω_i/dw_i in 1/m."""
-        slope: RealArray = 2.0 * self.A1 + 16.0 / 3.0 * self.A2 * w
-        return slope
+        return 2.0 * self.A1 + 16.0 / 3.0 * self.A2 * w
 
     def loads(self, w: RealArray) -> RealArray:
         """F_i/E* in m²."""
@@ -77,8 +75,7 @@ class CrestSystem:
 
     def load_slope(self, w: RealArray) -> RealArray:
         """d(F_i/E*)/dw_i."""
-        values: RealArray = (4.0 * self.A1 + 32.0 / 3.0 * self.A2 * w) * np.sqrt(w)
-        return values
+        return (4.0 * self.A1 + 32.0 / 3.0 * self.A2 * w) * np.sqrt(w)
 
     def jacobian(self, w: RealArray, among: BoolArray) -> RealArray:
         """dr_i/dw_j of the crests ``among``."""
@@ -100,8 +97,7 @@ class CrestSystem:
 
     def nearness(self, w: RealArray) -> RealArray:
         """1/distance in 1/m of each crest to the next one that touches; 0 without interaction."""
-        values: RealArray = math.pi * np.max(self.coupling * (w > 0.0), axis=1, initial=0.0)
-        return values
+        return np.asarray(math.pi * np.max(self.coupling * (w > 0.0), axis=1, initial=0.0))
 
     def leading(self, count: int) -> Self:
         """The ``count`` highest crests."""
@@ -193,12 +189,10 @@ def _least_squares(
         return w
 
     def residual(x: RealArray) -> RealArray:
-        values: RealArray = system.residual(squares(x), delta)[among] / scale
-        return values
+        return system.residual(squares(x), delta)[among] / scale
 
     def jacobian(x: RealArray) -> RealArray:
-        values: RealArray = system.jacobian(squares(x), among) * (2.0 * x * unit[among] ** 2) / scale
-        return values
+        return system.jacobian(squares(x), among) * (2.0 * x * unit[among] ** 2) / scale
 
     scale = float(delta.max())
     found = least_squares(
@@ -440,8 +434,7 @@ class InteractingCrests(Theory):
     @property
     def _twice_depth(self) -> RealArray:
         """2π² h in m, the square of the wavelength over the radius."""
-        values: RealArray = 2.0 * math.pi**2 * np.asarray(self.depth)
-        return values
+        return 2.0 * math.pi**2 * np.asarray(self.depth)
 
     def _states(self, deltas: RealArray) -> list[State]:
         """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one

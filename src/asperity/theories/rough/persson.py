@@ -149,8 +149,7 @@ class PerssonGap:
     @cached_property
     def _sharpness(self) -> RealArray:
         """w(q) at the nodes: A/A_n = erf(w p/E*) with the waves from q_L to q; w² ∫ q³ C dq = 4π here."""
-        values: RealArray = np.sqrt(4.0 * math.pi / self.spectrum.partial_moment(3, self._nodes[0]))
-        return values
+        return np.asarray(np.sqrt(4.0 * math.pi / self.spectrum.partial_moment(3, self._nodes[0])))
 
     @cached_property
     def _weights(self) -> RealArray:
@@ -158,8 +157,7 @@ class PerssonGap:
         spans, steps = self._nodes
         q = np.asarray(self.spectrum.wavenumber)[0] * np.exp(spans)
         level = self.spectrum.at(spans) / (2.0 * math.pi) ** 2
-        values: RealArray = math.sqrt(math.pi) * q**3 * level * self._sharpness * steps
-        return values
+        return np.asarray(math.sqrt(math.pi) * q**3 * level * self._sharpness * steps)
 
 
 def _gauss_panels(table: RealArray) -> tuple[RealArray, RealArray]:
@@ -318,8 +316,7 @@ class Persson(Theory):
         p, s = checked(local, "pressure (Pa)"), self.spread
         # a difference of Gaussians as one Gaussian times 1 - exp, which keeps its digits near zero pressure
         front = np.exp(-((p - nominal) ** 2) / (2.0 * s**2)) / (math.sqrt(2.0 * math.pi) * s)
-        values: RealArray = front * -np.expm1(-2.0 * p * nominal / s**2)
-        return values
+        return np.asarray(front * -np.expm1(-2.0 * p * nominal / s**2))
 
     def at_local(self, local: ArrayLike, pressure: float) -> LocalPressures:
         """Distribution of the pressure at ``local`` pressures in Pa (>= 0, any shape) under the mean ``pressure`` in Pa."""
@@ -418,8 +415,7 @@ def _pressure_grid(nominal: float, highest: float, count: int) -> RealArray:
     interval = highest / count
     if nominal >= interval:
         interval = nominal / math.floor(nominal / interval)
-    grid: RealArray = interval * np.arange(math.ceil(highest / interval) + 1)
-    return grid
+    return interval * np.arange(math.ceil(highest / interval) + 1)
 
 
 def _delta(grid: RealArray, nominal: float) -> RealArray:

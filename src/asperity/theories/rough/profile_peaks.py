@@ -129,8 +129,7 @@ def peak_integral(D: ArrayLike, m: float, k: float) -> RealArray:
     """
     D = np.asarray(D, dtype=float)
     C, weight = _curvatures(D, k)
-    values: RealArray = np.sum(weight * _above(D[..., None] - C / 3.0, m), axis=-1)
-    return values
+    return np.asarray(np.sum(weight * _above(D[..., None] - C / 3.0, m), axis=-1))
 
 
 def plastic_area_share(D: ArrayLike, psi: float) -> RealArray:
@@ -145,14 +144,12 @@ def plastic_area_share(D: ArrayLike, psi: float) -> RealArray:
     depth = unit / C
     lowest = D[..., None] + depth - C / 3.0
     flowing = np.sum(weight * (_above(lowest, 1.0) + depth * _above(lowest, 0.0)), axis=-1)
-    share: RealArray = flowing / peak_integral(D, 1.0, 1.0)
-    return share
+    return np.asarray(flowing / peak_integral(D, 1.0, 1.0))
 
 
 def _above(x: RealArray, m: float) -> RealArray:
     """∫_x^∞ (s - x)^m of the normal density with variance 1/3 about zero."""
-    values: RealArray = 3.0 ** (-0.5 * m) * GaussianHeights().tail_moment(math.sqrt(3.0) * x, m)
-    return values
+    return np.asarray(3.0 ** (-0.5 * m) * GaussianHeights().tail_moment(math.sqrt(3.0) * x, m))
 
 
 def _curvatures(D: RealArray, k: float, depth: float = 0.0) -> tuple[RealArray, RealArray]:

@@ -79,14 +79,12 @@ class HertzPoint(Theory):
         distance = np.abs(np.asarray(r, dtype=float))
         sine = a / np.maximum(distance, a)
         outside = np.maximum(distance, a) * a * np.sqrt((1.0 - sine) * (1.0 + sine))
-        displacement: RealArray = scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside)
-        return displacement
+        return np.asarray(scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside))
 
 
 def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
     """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance ``r`` in m."""
-    profile: RealArray = answer.max_pressure * np.sqrt(np.maximum(1.0 - (r / answer.radius) ** 2, 0.0))
-    return profile
+    return answer.max_pressure * np.sqrt(np.maximum(1.0 - (r / answer.radius) ** 2, 0.0))
 
 
 # Hertz's line contact of two parallel cylinders in plane strain (Hertz 1882; Johnson 1985, sec. 4.2c).
@@ -148,12 +146,10 @@ def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
 
     def excess(s: RealArray) -> RealArray:
         n = np.exp(-2.0 * s)
-        rise: RealArray = np.log(elliprd(0.0, 1.0, n) / elliprd(0.0, n, 1.0)) - target
-        return rise
+        return np.asarray(np.log(elliprd(0.0, 1.0, n) / elliprd(0.0, n, 1.0)) - target)
 
     # -ln(b/a) is some 0.64 ln(B/A)
-    aspect: RealArray = np.exp(-bisected(excess, np.zeros_like(target), target))
-    return aspect
+    return np.exp(-bisected(excess, np.zeros_like(target), target))
 
 
 @dataclass(frozen=True)
@@ -208,8 +204,7 @@ class HertzEllipse(Theory):
         """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the centre under ``load`` in N, > 0."""
         along_x, along_y = self.semi_axes(require.positive(load, "load (N)"))
         inside = 1.0 - (np.asarray(x) / along_x) ** 2 - (np.asarray(y) / along_y) ** 2
-        profile: RealArray = self.at_load(load).max_pressure * np.sqrt(np.maximum(inside, 0.0))
-        return profile
+        return self.at_load(load).max_pressure * np.sqrt(np.maximum(inside, 0.0))
 
     @property
     def _axis_ratio(self) -> float:

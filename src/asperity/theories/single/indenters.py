@@ -43,8 +43,7 @@ def power_integral(rho: ArrayLike, exponent: float) -> RealArray:
     inside = np.asarray(rho, dtype=float)
     end = np.arccosh(1.0 / inside)
     s, weight = gauss(np.stack([0.0 * end, end], axis=-1), _NODES)
-    integral: RealArray = np.sum(weight * (inside[..., None] * np.cosh(s)) ** (exponent - 1.0), axis=-1)
-    return integral
+    return np.asarray(np.sum(weight * (inside[..., None] * np.cosh(s)) ** (exponent - 1.0), axis=-1))
 
 
 _EDGE = small_slope(
@@ -163,8 +162,7 @@ class FlatPunch(Theory):
         """Normal displacement in m at the distance ``r`` in m (any shape): δ inside, (2δ/π) arcsin(a/r) outside."""
         distance = np.maximum(np.abs(np.asarray(r, dtype=float)), self.radius)
         approach = self.at_load(require.positive(load, "load (N)")).approach
-        displacement: RealArray = 2.0 / np.pi * approach * np.arcsin(self.radius / distance)
-        return displacement
+        return np.asarray(2.0 / np.pi * approach * np.arcsin(self.radius / distance))
 
 
 @dataclass(frozen=True)
@@ -218,15 +216,13 @@ class SphericalIndenter(Theory):
         v, weight = gauss(np.stack([0.0 * end, end], axis=-1), _NODES)
         x = np.hypot(inside[..., None], v)
         rise = np.arctanh(x / self.radius) / x + self.radius / (self.radius**2 - x**2)
-        profile: RealArray = self.E_star / np.pi * np.sum(weight * rise, axis=-1)
-        return profile
+        return np.asarray(self.E_star / np.pi * np.sum(weight * rise, axis=-1))
 
     def _load(self, s: RealArray) -> RealArray:
         """P of s = a/R; for small s the two terms cancel to (4/3) s³, so the series of artanh is used there."""
         exact = (1.0 + s**2) * np.arctanh(s) - s
         terms = [(1.0 / (2 * n + 1) + 1.0 / (2 * n - 1)) * s ** (2 * n + 1) for n in range(1, 9)]
-        load: RealArray = self.E_star * self.radius**2 * np.where(s < 0.1, sum(terms), exact)
-        return load
+        return self.E_star * self.radius**2 * np.where(s < 0.1, sum(terms), exact)
 
 
 def _integral_artanh_over_x(s: RealArray) -> RealArray:
@@ -290,10 +286,7 @@ class LinePowerLawIndenter(Theory):
         xi = np.abs(np.asarray(x, dtype=float)) / answer.radius
         scale = self.exponent * answer.load / (np.pi * answer.radius)
         values = scale * power_integral(np.where((xi > 0.0) & (xi < 1.0), xi, 1.0), self.exponent)
-        profile: RealArray = np.where(
-            xi == 0.0, scale / (self.exponent - 1.0) if self.exponent > 1.0 else np.inf, values
-        )
-        return profile
+        return np.where(xi == 0.0, scale / (self.exponent - 1.0) if self.exponent > 1.0 else np.inf, values)
 
     @property
     def _stiff(self) -> float:

@@ -164,8 +164,7 @@ def _sticking(tangential: ArrayLike, limit: float) -> RealArray:
             f"tangential force must be at most friction coefficient times load, {limit:.6g}, but is {float(Q.max()):.6g}. "
             "Beyond it the contact slides."
         )
-    share: RealArray = np.maximum(1.0 - Q / limit, 0.0)
-    return share
+    return np.asarray(np.maximum(1.0 - Q / limit, 0.0))
 
 
 def _difference(

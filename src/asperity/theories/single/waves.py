@@ -65,20 +65,17 @@ class Westergaard(Theory):
 
     def area_fraction(self, mean_pressure: ArrayLike) -> RealArray:
         """2a/λ = (2/π) arcsin sqrt(p̄/p*), 1 from p* on; ``mean_pressure`` p̄ in Pa, >= 0, of any shape."""
-        fraction: RealArray = 2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(self._share(mean_pressure), 1.0)))
-        return fraction
+        return 2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(self._share(mean_pressure), 1.0)))
 
     def max_pressure(self, mean_pressure: ArrayLike) -> RealArray:
         """Pressure at the crest in Pa: 2 sqrt(p̄ p*), from p* on p̄ + p*."""
         share = self._share(mean_pressure)
-        crest: RealArray = self.full_contact_pressure * np.where(share < 1.0, 2.0 * np.sqrt(share), 1.0 + share)
-        return crest
+        return self.full_contact_pressure * np.where(share < 1.0, 2.0 * np.sqrt(share), 1.0 + share)
 
     def approach(self, mean_pressure: ArrayLike) -> RealArray:
         """Approach δ of the mean planes since first touch in m: Δω(1 - ln ω), ω = p̄/p*; Δ from p* on."""
         share = np.minimum(self._share(mean_pressure), 1.0)
-        approach: RealArray = self.amplitude * share * (1.0 - np.log(np.maximum(share, 1e-300)))
-        return approach
+        return self.amplitude * share * (1.0 - np.log(np.maximum(share, 1e-300)))
 
     def mean_gap(self, mean_pressure: ArrayLike) -> RealArray:
         """Mean gap Δ - δ in m."""
@@ -112,8 +109,7 @@ class Westergaard(Theory):
         )
 
     def _share(self, mean_pressure: ArrayLike) -> RealArray:
-        share: RealArray = checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
-        return share
+        return checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
 
 
 # Crossed waves: limits of light load and full contact (Johnson, Greenwood & Higginson 1985).

@@ -58,8 +58,7 @@ class GaussianHeights:
 
     def density(self, s: RealArray) -> RealArray:
         """Standard normal density."""
-        values: RealArray = np.exp(-0.5 * np.square(s)) / math.sqrt(2.0 * math.pi)
-        return values
+        return np.exp(-0.5 * np.square(s)) / math.sqrt(2.0 * math.pi)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """F_m by a Gauss rule over q = sqrt(s - D), in which half-integer powers are smooth; relative error 1e-13.
@@ -78,8 +77,7 @@ class GaussianHeights:
         q *= q
         q += D[..., None]
         weight *= self.density(q)
-        values: RealArray = weight.sum(axis=-1)
-        return values
+        return np.asarray(weight.sum(axis=-1))
 
 
 @dataclass(frozen=True)
@@ -109,8 +107,7 @@ class LaplaceHeights:
 
     def density(self, s: RealArray) -> RealArray:
         """Two-sided exponential density."""
-        values: RealArray = np.exp(-math.sqrt(2.0) * np.abs(s)) / math.sqrt(2.0)
-        return values
+        return np.exp(-math.sqrt(2.0) * np.abs(s)) / math.sqrt(2.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Closed form: the part above s = 0 as for the exponential, the part below by Kummer's function."""
@@ -120,8 +117,7 @@ class LaplaceHeights:
         rate, depth = math.sqrt(2.0), np.maximum(-D, 0.0)
         above = _exponential_tail(rate * D, m) / rate ** (m + 1.0)
         below = depth ** (m + 1.0) / (m + 1.0) * hyp1f1(1.0, m + 2.0, -rate * depth)
-        values: RealArray = (above + below) / math.sqrt(2.0)
-        return values
+        return np.asarray((above + below) / math.sqrt(2.0))
 
 
 @dataclass(frozen=True)
@@ -139,8 +135,7 @@ class UniformHeights:
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Closed form."""
         high, low = (np.maximum(end - np.asarray(D, dtype=float), 0.0) for end in (math.sqrt(3.0), -math.sqrt(3.0)))
-        values: RealArray = (high ** (m + 1.0) - low ** (m + 1.0)) / (2.0 * math.sqrt(3.0) * (m + 1.0))
-        return values
+        return (high ** (m + 1.0) - low ** (m + 1.0)) / (2.0 * math.sqrt(3.0) * (m + 1.0))
 
 
 @dataclass(frozen=True)
@@ -153,16 +148,14 @@ class TriangularHeights:
 
     def density(self, s: RealArray) -> RealArray:
         """Symmetric triangle."""
-        values: RealArray = np.maximum(math.sqrt(6.0) - np.abs(s), 0.0) / 6.0
-        return values
+        return np.maximum(math.sqrt(6.0) - np.abs(s), 0.0) / 6.0
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Closed form."""
         D = np.asarray(D, dtype=float)
         high, middle, low = (np.maximum(end - D, 0.0) for end in (math.sqrt(6.0), 0.0, -math.sqrt(6.0)))
         twice = high ** (m + 2.0) - 2.0 * middle ** (m + 2.0) + low ** (m + 2.0)
-        values: RealArray = twice / (6.0 * (m + 1.0) * (m + 2.0))
-        return values
+        return np.asarray(twice / (6.0 * (m + 1.0) * (m + 2.0)))
 
 
 @dataclass(frozen=True)
@@ -210,8 +203,7 @@ def _exponential_tail(D: RealArray, m: float) -> RealArray:
     """∫ (s - D)^m e^(-s) ds over s > max(D, 0)."""
     from scipy.special import gammaincc
 
-    values: RealArray = math.gamma(m + 1.0) * np.exp(-D) * gammaincc(m + 1.0, np.maximum(-D, 0.0))
-    return values
+    return math.gamma(m + 1.0) * np.exp(-D) * gammaincc(m + 1.0, np.maximum(-D, 0.0))
 
 
 # Distributions of summit heights from measurements and from any density.
@@ -281,8 +273,7 @@ class HistogramHeights:
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
         """Sum of the closed forms of the bins."""
         above = np.maximum(self.edges - np.asarray(D, dtype=float)[..., None], 0.0) ** (m + 1.0) / (m + 1.0)
-        values: RealArray = np.diff(above, axis=-1) @ (self.counts / np.diff(self.edges))
-        return values
+        return np.asarray(np.diff(above, axis=-1) @ (self.counts / np.diff(self.edges)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -333,5 +324,4 @@ class AnyHeights:
         """F_m by Gauss rules over q = sqrt(s - D) between the breaks above D."""
         D = np.asarray(D, dtype=float)[..., None]
         q, weight = gauss(np.sqrt(np.maximum(np.asarray(self.breaks) - D, 0.0)), _PANEL_NODES)
-        values: RealArray = np.sum(2.0 * weight * q ** (2.0 * m + 1.0) * self.density(D + q * q), axis=-1)
-        return values
+        return np.asarray(np.sum(2.0 * weight * q ** (2.0 * m + 1.0) * self.density(D + q * q), axis=-1))

@@ -53,19 +53,16 @@ class IsotropicSpectrum:
     @cached_property
     def span(self) -> RealArray:
         """ln(q/q_L) of the table, (n,), from zero at its first wavenumber q_L."""
-        spans: RealArray = np.log(np.asarray(self.wavenumber) / np.asarray(self.wavenumber)[0])
-        return spans
+        return np.asarray(np.log(np.asarray(self.wavenumber) / np.asarray(self.wavenumber)[0]))
 
     @cached_property
     def exponents(self) -> RealArray:
         """d ln C/d ln q between neighbours, (n - 1,); -2(1 + H) of a self-affine surface."""
-        slopes: RealArray = np.diff(np.log(np.asarray(self.psd))) / np.diff(self.span)
-        return slopes
+        return np.asarray(np.diff(np.log(np.asarray(self.psd))) / np.diff(self.span))
 
     def at(self, span: RealArray) -> RealArray:
         """C in m⁴ at ``span`` = ln(q/q_L) (any shape, inside the table)."""
-        values: RealArray = np.exp(np.interp(span, self.span, np.log(np.asarray(self.psd))))
-        return values
+        return np.asarray(np.exp(np.interp(span, self.span, np.log(np.asarray(self.psd)))))
 
     def partial_moment(self, order: int, span: RealArray) -> RealArray:
         """∫ q^order C dq from q_L to q_L exp(``span``), any shape, exact for the table.
@@ -106,5 +103,4 @@ def _exponential_integral(power: RealArray, length: RealArray) -> RealArray:
     """∫₀^length exp(power t) dt, also for power zero."""
     from scipy.special import exprel
 
-    values: RealArray = length * exprel(power * length)
-    return values
+    return length * exprel(power * length)

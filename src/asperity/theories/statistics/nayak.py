@@ -155,8 +155,7 @@ class NayakSummits(Theory):
         """Probability density in 1/m of the summit heights at ``height`` in m (any shape)."""
         xi = real_numbers(height, "heights (m)") / math.sqrt(self.m0)
         scale, moments = self._partial_moments(xi)
-        values: RealArray = np.exp(scale) * moments[0] / math.sqrt(self.m0)
-        return values
+        return np.exp(scale) * moments[0] / math.sqrt(self.m0)
 
     def mean_curvature_at(self, height: ArrayLike) -> RealArray:
         """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are sharper."""

@@ -105,8 +105,7 @@ class SummitList:
     @property
     def radius(self) -> RealArray:
         """(n,) radii of curvature R = 1/κ in m."""
-        radius: RealArray = 1.0 / self.curvature
-        return radius
+        return 1.0 / self.curvature
 
     @property
     def mean_radius(self) -> float:

@@ -116,8 +116,7 @@ class _Potentials:
         c: ComplexArray = zeta * k
 
         def value(third: ComplexArray | RealArray, second: ComplexArray | RealArray) -> RealArray:
-            part: RealArray = 2.0 * np.pi / a * (third - 1j * a * second).imag
-            return part
+            return 2.0 * np.pi / a * (third - 1j * a * second).imag
 
         h0, h1, h2, h3 = 1.0 / R, L, zeta * L - R, 0.25 * ((2.0 * zeta**2 - r2) * L - 3.0 * zeta * R)
         # D once: g, twice: e, three times: d

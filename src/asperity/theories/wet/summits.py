@@ -192,8 +192,7 @@ def _separations(contact: GreenwoodWilliamson) -> RealArray:
     dense = np.arange(LOWEST, -_NEAR, _FAR_STEP)
     near = np.arange(-_NEAR, min(end, _NEAR) + _STEP, _STEP)
     D = np.concatenate([dense, near, np.arange(_NEAR + _FAR_STEP, end + _FAR_STEP, _FAR_STEP)]) - contact.heights.mean
-    heights: RealArray = contact.mean_height + contact.height_deviation * D
-    return heights
+    return contact.mean_height + contact.height_deviation * D
 
 
 # Meniscus force of rough contacts while the menisci grow and reach further summits.
