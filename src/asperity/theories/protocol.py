@@ -121,13 +121,6 @@ class ContactAnswer:
         return np.divide(self.load, self.area, out=np.full_like(self.load, np.nan), where=self.area > 0.0)
 
 
-def point_contact(
-    load: RealArray, approach: RealArray, radius: RealArray, peak: RealArray, E_star: float
-) -> ContactAnswer:
-    """Answer of a round contact whose stiffness is 2E*a; ``peak`` the largest pressure."""
-    return ContactAnswer(load, approach, radius, np.pi * radius**2, peak, 2.0 * E_star * radius)
-
-
 # Limits of validity: declared by a theory as ``Bound``, checked along an answer as ``Limit``.
 
 
@@ -323,11 +316,13 @@ class SurfaceTheory(Protocol):
 
 
 class SeparationTheory(Theory):
-    """A theory that gives the pressure at a separation, ``_law``, and at a pressure searches within ``_ends``."""
+    """A theory of pressure and contacts at a separation, ``_law`` and ``_contacts``; a pressure it seeks within ``_ends``."""
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
         """Prediction at separations (n,) in m of the plane from the mean plane of the undeformed surface."""
-        raise NotImplementedError
+        h = curve(separation, "separations (m)")
+        (pressure, stiffness), (area, contacts) = self._law(h), self._contacts(h)
+        return prediction(pressure, area_fraction=area, contact_density=contacts, separation=h, stiffness=stiffness)
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa; InputError if one is not positive, or beyond the range evaluated."""
@@ -337,6 +332,10 @@ class SeparationTheory(Theory):
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         """Pressure in Pa and stiffness -dp/dh at the separations ``h`` in m, all (n,)."""
+        raise NotImplementedError
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        """Area fraction, and contacts per nominal area in 1/m², at the separations ``h`` in m, all (n,)."""
         raise NotImplementedError
 
     @property

@@ -18,6 +18,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...core.quadrature import gauss
 from ...core.spectral import RealTransform, line_transform, mode_sum, multiplicity, thread_count
 from ..prepare.level import require_complete
 from ..surface import Surface
@@ -262,10 +263,10 @@ def mean_square_after_levelling(
     filtered = 0.0
     if bend > low:
         # resolves the oscillations of the Bessel functions, of period π in q L/2
-        q, weight = _nodes(_with_ripples(low, bend, longer))
+        q, weight = gauss(_with_ripples(low, bend, longer), _NODES)
         filtered = float((weight * q * psd(q)) @ _passed(q, size, degree))
     if high > bend:
-        q, weight = _nodes(_logarithmic(max(bend, low), high))
+        q, weight = gauss(_logarithmic(max(bend, low), high), _NODES)
         filtered += float(weight @ (q * psd(q)))
     return filtered / (2.0 * np.pi)
 
@@ -291,7 +292,7 @@ def expected_difference_moments(
     low = 2.0 * np.pi / require.positive(longest_wavelength, "longest wavelength (m)")
     high = 2.0 * np.pi / require.positive(shortest_wavelength, "shortest wavelength (m)")
     kinks = [wavenumber for wavenumber in (2.0 * np.pi / bend for bend in bends) if low < wavenumber < high]
-    q, weight = _nodes(np.unique(np.append(_with_ripples(low, high, 2.0 * spacing), kinks)))
+    q, weight = gauss(np.unique(np.append(_with_ripples(low, high, 2.0 * spacing), kinks)), _NODES)
     density = weight * q * psd(q) / (2.0 * np.pi)
     # 1 - J0 cancels for waves much longer than the spacing; its series there is exact to rounding
     x = q * spacing
@@ -307,11 +308,7 @@ def effective_samples(spectrum: PowerSpectrum) -> float:
     The relative scatter from map to map is sqrt(2/N_eff) for the mean square height and sqrt(1/(2 N_eff)) for the rms
     height. The squares of a periodogram are on average twice the squared spectrum, which is accounted for.
     """
-    grid = spectrum.grid
-    columns = np.full(spectrum.psd.shape[1], 2.0)
-    columns[0] = 1.0
-    if grid.shape[1] % 2 == 0:
-        columns[-1] = 1.0
+    columns = multiplicity(spectrum.grid)
     total = float(spectrum.psd.sum(axis=0) @ columns)
     squares = float(np.einsum("ij,ij->j", spectrum.psd, spectrum.psd) @ columns)
     return 2.0 * total**2 / squares if squares > 0.0 else math.nan
@@ -348,11 +345,3 @@ def _with_ripples(low: float, high: float, length: float) -> RealArray:
     edges = _logarithmic(low, high)
     pieces = [np.linspace(a, b, 2 + int((b - a) * length / (2.0 * np.pi)))[:-1] for a, b in pairwise(edges)]
     return np.append(np.concatenate(pieces), high)
-
-
-def _nodes(edges: RealArray) -> tuple[RealArray, RealArray]:
-    """Gauss-Legendre nodes and weights on the pieces between ``edges``."""
-    x, w = np.polynomial.legendre.leggauss(_NODES)
-    half = 0.5 * np.diff(edges)[:, None]
-    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
-    return (middle + half * x).ravel(), (half * w).ravel()

@@ -13,6 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.parameters import Help
+from ...core.quadrature import gauss
 from ...core.quantity import Quantity
 from ...core.values import Positive, Pressure
 from ..ask import Way, asked
@@ -159,7 +160,5 @@ class StackHardness:
         return self._works[below] + self._integral(self._knots[below], d)
 
     def _integral(self, low: RealArray, high: RealArray) -> RealArray:
-        nodes, weights = np.polynomial.legendre.leggauss(_ORDER)
-        half = 0.5 * (high - low)
-        places = (low + half)[..., None] + half[..., None] * nodes
-        return half * (self.at(places) @ weights)
+        places, weights = gauss(np.stack([low, high], axis=-1), _ORDER)
+        return np.asarray((self.at(places) * weights).sum(axis=-1))

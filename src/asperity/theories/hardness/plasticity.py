@@ -40,7 +40,10 @@ def yield_coefficient(nu: float) -> float:
 
 def nominal_interference(E_star: float, radius: float, hardness: float) -> float:
     """δ_p = R (H/E*)² in m, the round number of Greenwood & Williamson; first yield at p_m = H/3 has (π²/16) δ_p."""
-    return _positive(radius, "radius (m)") * (_positive(hardness, "hardness (Pa)") / _modulus(E_star)) ** 2
+    return (
+        require.positive(radius, "radius (m)")
+        * (require.positive(hardness, "hardness (Pa)") / require.positive(E_star, "contact modulus E_star (Pa)")) ** 2
+    )
 
 
 def critical_interference(E_star: float, radius: float, peak: float) -> float:
@@ -49,8 +52,14 @@ def critical_interference(E_star: float, radius: float, peak: float) -> float:
     p0 = K H for Chang, Etsion & Bogy and Kogut & Etsion, C Y for Jackson & Green.
     """
     return (
-        _positive(radius, "radius (m)")
-        * (0.5 * math.pi * _positive(peak, "peak pressure (Pa)") / _modulus(E_star)) ** 2
+        require.positive(radius, "radius (m)")
+        * (
+            0.5
+            * math.pi
+            * require.positive(peak, "peak pressure (Pa)")
+            / require.positive(E_star, "contact modulus E_star (Pa)")
+        )
+        ** 2
     )
 
 
@@ -61,7 +70,8 @@ def summit_plasticity_index(height_deviation: float, interference: float) -> flo
     realistic load, above 1 plastic at any. With ω_c it is ψ_c of Chang, Etsion & Bogy, 1.1 times larger at ν = 0.3.
     """
     return math.sqrt(
-        _positive(height_deviation, "deviation of summit heights (m)") / _positive(interference, "interference (m)")
+        require.positive(height_deviation, "deviation of summit heights (m)")
+        / require.positive(interference, "interference (m)")
     )
 
 
@@ -71,16 +81,10 @@ def profile_plasticity_index(E_star: float, hardness: float, deviation: float, c
 
     Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads above 0.45.
     """
-    slope = _positive(deviation, "deviation of heights (m)") / _positive(correlation_length, "correlation length (m)")
-    return _modulus(E_star) / _positive(hardness, "hardness (Pa)") * slope
-
-
-def _positive(value: float, what: str) -> float:
-    return require.positive(value, what)
-
-
-def _modulus(E_star: float) -> float:
-    return require.positive(E_star, "contact modulus E_star (Pa)")
+    slope = require.positive(deviation, "deviation of heights (m)") / require.positive(
+        correlation_length, "correlation length (m)"
+    )
+    return require.positive(E_star, "contact modulus E_star (Pa)") / require.positive(hardness, "hardness (Pa)") * slope
 
 
 @dataclass(frozen=True, eq=False)

@@ -76,20 +76,6 @@ class DiscreteSummits(SeparationTheory):
         """Height of the highest summit in m, where contact begins."""
         return float(self._z[0])
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        depths = [self._depths(value) for value in h]
-        areas = np.array([depth @ self._r[: depth.size] for depth in depths])
-        pressure, stiffness = self._law(h)
-        return prediction(
-            pressure,
-            area_fraction=math.pi * areas / self.area,
-            contact_density=np.array([depth.size for depth in depths]) / self.area,
-            separation=h,
-            stiffness=stiffness,
-        )
-
     @property
     def roughness_ratio(self) -> float:
         """Standard deviation of the heights over the mean radius."""
@@ -122,6 +108,11 @@ class DiscreteSummits(SeparationTheory):
             sums[:, n] = shares @ depth, shares.sum()
         unit = self.E_star / self.area
         return 4.0 / 3.0 * unit * sums[0], 2.0 * unit * sums[1]
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        depths = [self._depths(value) for value in h]
+        areas = np.array([depth @ self._r[: depth.size] for depth in depths])
+        return math.pi * areas / self.area, np.array([depth.size for depth in depths]) / self.area
 
 
 # Equal spheres at equal height: a defined texture against a plane (Bhushan 1998, eq. 1-5).

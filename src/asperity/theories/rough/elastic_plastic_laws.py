@@ -32,8 +32,6 @@ from ..protocol import (
     Theory,
     bisected,
     checked,
-    curve,
-    prediction,
 )
 from ..single.hertz import HertzPoint
 from ..statistics.heights import GaussianHeights
@@ -132,23 +130,6 @@ class ElasticPlasticSummits(SeparationTheory):
     summits: GreenwoodWilliamson
     law: ElasticPlasticSphere
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        pressure, stiffness = self._law(h)
-        D = self.summits.standardised(h)
-        u, weight = self._depths(D)
-        area = np.sum(
-            weight * self.law.area_ratio(u / self._unit) * GaussianHeights().density(D[..., None] + u), axis=-1
-        )
-        return prediction(
-            pressure,
-            area_fraction=self.summits.density * float(at_first_yield(self.law).area) * area,
-            contact_density=self.summits.density * GaussianHeights().tail_moment(D, 0.0),
-            separation=h,
-            stiffness=stiffness,
-        )
-
     @property
     def _ends(self) -> tuple[float, float, float]:
         return self.summits._ends
@@ -167,6 +148,13 @@ class ElasticPlasticSummits(SeparationTheory):
         pressure: RealArray = scale * np.sum(terms, axis=-1)
         rise: RealArray = scale * np.sum(terms * (D[..., None] + u), axis=-1)
         return pressure, rise / self.summits.height_deviation
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, gaussian = self.summits.standardised(h), GaussianHeights()
+        u, weight = self._depths(D)
+        area = np.sum(weight * self.law.area_ratio(u / self._unit) * gaussian.density(D[..., None] + u), axis=-1)
+        unit = self.summits.density * float(at_first_yield(self.law).area)
+        return unit * area, self.summits.density * gaussian.tail_moment(D, 0.0)
 
     def _depths(self, D: RealArray) -> tuple[RealArray, RealArray]:
         """Nodes u = s - D > 0 and weights between the breaks of the law and where the density of heights is nothing.

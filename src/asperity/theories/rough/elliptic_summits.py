@@ -25,8 +25,6 @@ from ..protocol import (
     Modulus,
     Prediction,
     SeparationTheory,
-    curve,
-    prediction,
 )
 from ..single.hertz import Ellipse, ellipse, ellipse_of_curvatures
 from ..statistics.heights import GaussianHeights
@@ -165,29 +163,15 @@ class _OnSummits(_OfMoments):
         unit = math.sqrt(self.m0)
         return unit * _LOWEST, unit * _HIGHEST, unit
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
         t, weight = self._curvatures(h)
-        plain = weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
-        shape = self._shape(t)
-        area = np.sum(plain * t**3 * shape[..., 0] * self._heights(h, t, 1.0), axis=-1)
-        number = np.sum(plain * (t * t + np.expm1(-t * t)) * self._heights(h, t, 0.0), axis=-1)
-        pressure, stiffness = self._loads(h, t, plain * t**3.5 * shape[..., 1])
-        return prediction(
-            pressure,
-            area_fraction=math.sqrt(self.alpha / 6.0) * area,
-            contact_density=self.m4 / self.m2 / (3.0 * math.pi) * number,
-            separation=h,
-            stiffness=stiffness,
-        )
+        area = np.sum(weight * t**3 * self._shape(t)[..., 0] * self._heights(h, t, 1.0), axis=-1)
+        number = np.sum(weight * (t * t + np.expm1(-t * t)) * self._heights(h, t, 0.0), axis=-1)
+        return math.sqrt(self.alpha / 6.0) * area, self.m4 / self.m2 / (3.0 * math.pi) * number
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         t, weight = self._curvatures(h)
-        plain = weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
-        return self._loads(h, t, plain * t**3.5 * self._shape(t)[..., 1])
-
-    def _loads(self, h: RealArray, t: RealArray, weight: RealArray) -> tuple[RealArray, RealArray]:
+        weight = weight * t**3.5 * self._shape(t)[..., 1]
         unit = 4.0 / (9.0 * math.pi) * 1.5**0.25 * self.alpha**0.75 * self.E_star * math.sqrt(self.m2)
         pressure = unit * np.sum(weight * self._heights(h, t, 1.5), axis=-1)
         return pressure, 1.5 * unit / math.sqrt(self.m0) * np.sum(weight * self._heights(h, t, 0.5), axis=-1)
@@ -207,7 +191,7 @@ class _OnSummits(_OfMoments):
         return np.asarray(np.exp(-(t[..., None] ** 2) * self._shapes.r2) @ self._shapes.weights)
 
     def _curvatures(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        """Nodes t (n, nodes) where the touching summits lie, with weights.
+        """Nodes t (n, nodes) where the touching summits lie, with weights that hold φ(t).
 
         About t = D/ρ the heights H change within sqrt(1 - ρ²)/ρ, as a half-integer power beyond it for narrow spectra:
         there panels are fine, and above it they run over sqrt(t - D/ρ).
@@ -223,7 +207,8 @@ class _OnSummits(_OfMoments):
         root, weight_above = gauss(np.sqrt(np.maximum(breaks - edge, 0.0)), _NODES)
         is_above = root > 0.0
         t = np.maximum(np.where(is_above, edge + root * root, below), 0.0)
-        return t, np.where(is_above, 2.0 * root * weight_above, weight_below)
+        weight = np.where(is_above, 2.0 * root * weight_above, weight_below)
+        return t, weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
 
 
 def _shapes(*, circles: bool) -> SummitShapes:
@@ -336,20 +321,6 @@ class AnisotropicSummits(SeparationTheory):
         shape = self.ellipse
         return math.sqrt(2.0 * math.pi) * float(shape.area / shape.load)
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        D, gaussian = h / math.sqrt(self.m0), GaussianHeights()
-        pressure, stiffness = self._law(h)
-        density = math.sqrt(self.steepest * self.gentlest) / (2.0 * math.pi * self.m0)
-        return prediction(
-            pressure,
-            area_fraction=self.bearing_share * gaussian.tail_moment(D, 0.0),
-            contact_density=density * np.maximum(D, 0.0) * gaussian.density(D),
-            separation=h,
-            stiffness=stiffness,
-        )
-
     @property
     def rms_gradient(self) -> float:
         """sqrt(m20 + m02)."""
@@ -364,6 +335,11 @@ class AnisotropicSummits(SeparationTheory):
         D, gaussian = h / math.sqrt(self.m0), GaussianHeights()
         unit = self.E_star * self.rms_gradient * self.bearing_share / self.coefficient
         return unit * gaussian.tail_moment(D, 0.0), unit / math.sqrt(self.m0) * gaussian.density(D)
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, gaussian = h / math.sqrt(self.m0), GaussianHeights()
+        density = math.sqrt(self.steepest * self.gentlest) / (2.0 * math.pi * self.m0)
+        return self.bearing_share * gaussian.tail_moment(D, 0.0), density * np.maximum(D, 0.0) * gaussian.density(D)
 
 
 def equivalent_isotropic(moments: MomentTensor) -> tuple[float, float]:

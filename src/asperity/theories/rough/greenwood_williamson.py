@@ -66,20 +66,6 @@ class SphericalSummits(SeparationTheory):
         """σ_s/R."""
         return self.height_deviation / self.radius
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        D, heights = self.standardised(h), self.heights
-        pressure, stiffness = self._law(h)
-        share = math.pi * self.density * self.radius * self.height_deviation
-        return prediction(
-            pressure,
-            area_fraction=share * heights.tail_moment(D, 1.0),
-            contact_density=self.density * heights.tail_moment(D, 0.0),
-            separation=h,
-            stiffness=stiffness,
-        )
-
     def standardised(self, separation: RealArray) -> RealArray:
         """D at ``separation`` in m, in the coordinate of the distribution of heights."""
         return np.asarray((separation - self.mean_height) / self.height_deviation + self.heights.mean)
@@ -91,6 +77,10 @@ class SphericalSummits(SeparationTheory):
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         slope = 2.0 * self.pressure_unit / self.height_deviation
         return self.borne(h), slope * self.heights.tail_moment(self.standardised(h), 0.5)
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, share = self.standardised(h), math.pi * self.density * self.radius * self.height_deviation
+        return share * self.heights.tail_moment(D, 1.0), self.density * self.heights.tail_moment(D, 0.0)
 
     @property
     def _ends(self) -> tuple[float, float, float]:
@@ -385,19 +375,6 @@ class GreenwoodTripp(SeparationTheory):
         deviation = math.sqrt(2.0) * half.height_deviation
         return cls(E_star, half.density, half.radius, deviation, 2.0 * half.mean_height)
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m of the two mean planes."""
-        h = curve(separation, "separations (m)")
-        D = self._standardised(h)
-        pressure, stiffness = self._law(h)
-        return prediction(
-            pressure,
-            area_fraction=(math.pi * self._crowding) ** 2 * self.heights.tail_moment(D, 2.0),
-            contact_density=4.0 * math.pi * self.density * self._crowding * self.heights.tail_moment(D, 1.0),
-            separation=h,
-            stiffness=stiffness,
-        )
-
     @property
     def _crowding(self) -> float:
         """η β σ_s."""
@@ -421,3 +398,9 @@ class GreenwoodTripp(SeparationTheory):
         unit *= math.sqrt(self.roughness_ratio)
         slope = 2.5 * unit / self.height_deviation * self.heights.tail_moment(D, 1.5)
         return unit * self.heights.tail_moment(D, 2.5), slope
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, pairs = self._standardised(h), 4.0 * math.pi * self.density * self._crowding
+        return (math.pi * self._crowding) ** 2 * self.heights.tail_moment(D, 2.0), pairs * self.heights.tail_moment(
+            D, 1.0
+        )

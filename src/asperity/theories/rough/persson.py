@@ -15,6 +15,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.parameters import Help
+from ...core.quadrature import gauss
 from ...core.quantity import Quantity
 from ...core.values import Number, Positive, Real, Several
 from ..ask import PRESSURE, Way, asked
@@ -165,9 +166,7 @@ def _gauss_panels(table: RealArray) -> tuple[RealArray, RealArray]:
     panels = [np.linspace(a, b, max(1, math.ceil((b - a) / _WIDEST)) + 1)[1:] for a, b in pairwise(table)]
     edges = np.concatenate(panels)
     edges = np.concatenate([[0.0], edges[0] * 0.25 ** np.arange(_FINEST, 0, -1), edges])
-    x, weight = np.polynomial.legendre.leggauss(_NODES)
-    middle, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * np.diff(edges)
-    return (middle[:, None] + half[:, None] * x).ravel(), (half[:, None] * weight).ravel()
+    return gauss(edges, _NODES)
 
 
 def _squared_erf_integral() -> CubicHermiteSpline:
@@ -176,10 +175,8 @@ def _squared_erf_integral() -> CubicHermiteSpline:
     from scipy.special import erf
 
     edges = np.linspace(0.0, _GONE, 2001)
-    t, weight = np.polynomial.legendre.leggauss(4)
-    half = 0.5 * (edges[1] - edges[0])
-    nodes = (edges[:-1] + half)[:, None] + half * t
-    parts = half * (erf(nodes) ** 2 * np.exp(-(nodes**2)) / nodes) @ weight
+    t, weight = gauss(edges, 4)
+    parts = (weight * erf(t) ** 2 * np.exp(-(t**2)) / t).reshape(-1, 4).sum(axis=1)
     beyond = np.concatenate([np.cumsum(parts[::-1])[::-1], [0.0]])
     slope = np.zeros_like(edges)
     slope[1:] = -(erf(edges[1:]) ** 2) * np.exp(-(edges[1:] ** 2)) / edges[1:]

@@ -21,11 +21,8 @@ from ..protocol import (
     MEASURED_SLOPES,
     Bound,
     Modulus,
-    Prediction,
     SeparationTheory,
     Theory,
-    curve,
-    prediction,
 )
 from ..statistics.heights import GaussianHeights
 from ..statistics.roughness import Roughness
@@ -98,19 +95,6 @@ class OnionsArchard(SeparationTheory):
             )
         return cls(E_star, roughness.rms_height, roughness.correlation_length)
 
-    def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface."""
-        h = curve(separation, "separations (m)")
-        D, interval = h / self.rms_height, SAMPLING * self.correlation_length
-        pressure, stiffness = self._law(h)
-        return prediction(
-            pressure,
-            area_fraction=math.pi / 5.0 * peak_integral(D, 1.0, 1.0),
-            contact_density=peak_integral(D, 0.0, 0.0) / (5.0 * interval**2),
-            separation=h,
-            stiffness=stiffness,
-        )
-
     @property
     def _ends(self) -> tuple[float, float, float]:
         return self.rms_height * _LOWEST, self.rms_height * _HIGHEST, self.rms_height
@@ -119,6 +103,10 @@ class OnionsArchard(SeparationTheory):
         D = h / self.rms_height
         unit = 4.0 * self.E_star * self.rms_height / (15.0 * SAMPLING * self.correlation_length)
         return unit * peak_integral(D, 1.5, 0.5), 1.5 * unit / self.rms_height * peak_integral(D, 0.5, 0.5)
+
+    def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
+        D, interval = h / self.rms_height, SAMPLING * self.correlation_length
+        return math.pi / 5.0 * peak_integral(D, 1.0, 1.0), peak_integral(D, 0.0, 0.0) / (5.0 * interval**2)
 
 
 def peak_integral(D: ArrayLike, m: float, k: float) -> RealArray:
