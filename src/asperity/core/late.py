@@ -80,7 +80,7 @@ class Drawn(Shown):
         ----------
         kind
             What to draw, the most telling figure by default. Surfaces: ``heights`` or ``view``. Results: the names of their
-            figures, such as ``pressure``, ``contact``, ``gap`` or ``section``. Stress fields: a stress, such as ``von_mises``.
+            figures, such as ``pressure``, ``contact``, ``gap``, ``section`` or ``menisci``. Stress fields: a stress, such as ``von_mises``.
         ax
             Axes of matplotlib.
         options

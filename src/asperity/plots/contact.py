@@ -191,13 +191,21 @@ def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
     return plot_classes(kinds, result.problem.grid, ax, KINDS)
 
 
+MENISCI = Plot(
+    "menisci",
+    "Menisci",
+    "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
+    "reaches stay dry.",
+    plot_menisci,
+    "map",
+    enlarge_contact,
+)
+"""The figure of a contact with a film of liquid."""
+
+
 def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
     """Figures of the menisci of ``result``."""
-    caption = (
-        "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
-        "reaches stay dry."
-    )
-    return drawn([Plot("menisci", "Menisci", caption, plot_menisci, "map", enlarge_contact)], result)
+    return drawn([MENISCI], result)
 
 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
@@ -289,7 +297,7 @@ def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
     if isinstance(result, HistoryResult):
         found |= {plot.name: partial(render, plot, result) for plot in PATH_PLOTS}
     if contact.menisci is not None:
-        found["menisci"] = lambda: wet_figures(contact)[0].picture
+        found[MENISCI.name] = lambda: wet_figures(contact)[0].picture
     return found
 
 

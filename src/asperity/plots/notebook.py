@@ -14,7 +14,7 @@ from ..core.text import printable
 from ..io.words import heading_and_rows
 from ..stress.field import StressField
 from ..surfaces.surface import Surface
-from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS
+from .contact import MENISCI, PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, map_size, png, style
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
@@ -38,7 +38,7 @@ def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
 
     size, projection = _shape(thing, kind)
     with style():
-        figure = pyplot.figure(figsize=size)
+        figure = pyplot.figure(figsize=size, layout="constrained")  # labels stay inside however it is saved
         return _draw(thing, kind, figure.add_subplot(projection=projection), **options)
 
 
@@ -65,7 +65,7 @@ def _draw(thing: Any, kind: str, ax: Axes, **options: Any) -> Axes:
         draw = {"heights": plot_heights, "view": plot_surface_view}
         return draw[require.one_of(kind or "heights", draw, "figure of a surface")](thing, ax, **options)
     if isinstance(thing, ContactResult):
-        draws = {figure.name: figure.draw for figure in (*PLOTS, *PLASTIC_PLOTS)}
+        draws = {figure.name: figure.draw for figure in (*PLOTS, *PLASTIC_PLOTS, MENISCI)}
         return draws[require.one_of(kind or "pressure", draws, "figure of a result")](thing, ax, **options)
     if isinstance(thing, HistoryResult):
         loops = {figure.name: figure.draw for figure in PATH_PLOTS}

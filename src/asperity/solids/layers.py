@@ -183,7 +183,7 @@ def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered,
     return found
 
 
-def contact_modulus(body: Body, counter_body: Body) -> float:
+def contact_modulus(body: Body, counter_body: Body = Rigid()) -> float:
     """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22), of the surface materials.
 
     For a layered body the material of the outermost layer counts: it governs contacts much smaller than that layer is

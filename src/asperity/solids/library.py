@@ -226,6 +226,11 @@ def material(name: str, *, library: str | Path | None = None) -> Elastic:
     return MaterialRecord.find(name, library).body
 
 
+def full_name(name: str) -> str:
+    """Name of the built-in material that is also called ``name``, in any case; ``name`` itself if there is none."""
+    return next((record.name for record in MaterialRecord.all() if _normal(name) in record.keys), name)
+
+
 @dataclass(frozen=True)
 class Liquid:
     """What a film between surfaces needs of its liquid.

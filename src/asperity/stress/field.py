@@ -17,6 +17,7 @@ from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.spectral import thread_count
 from ..core.tensor import Displacement, StressTensor
+from ..solids.library import full_name
 from . import criteria as invariants
 from .regions import Plane, Region
 
@@ -200,14 +201,21 @@ class StressField(Stored):
         return tuple(found)
 
     def within(self, region: int | str) -> StressField:
-        """The planes of one region, by its number or name. InputError if no plane lies in such a region."""
-        keep = [k for k, plane in enumerate(self.planes) if region in (plane.region.index, plane.region.name)]
+        """The planes of one region, by its number, its name, or another name of its material in the library.
+
+        InputError if no plane lies in such a region.
+        """
+        keep = self._inside(region) or (self._inside(full_name(region)) if isinstance(region, str) else [])
         if not keep:
             names = ", ".join(f"{part.index} ({part.name})" for part in self.regions)
             raise InputError(f"region of a stress field must be one of {names}, but is {region!r}.")
         moved = None if self.displacement is None else self.displacement.map(lambda component: component[keep])
         planes = tuple(self.planes[k] for k in keep)
         return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[keep]), displacement=moved)
+
+    def _inside(self, region: int | str) -> list[int]:
+        """Numbers of the planes of one region."""
+        return [k for k, plane in enumerate(self.planes) if region in (plane.region.index, plane.region.name)]
 
     def only(self, plane: int) -> StressField:
         """The field of one plane, by its position; its arrays are views."""

@@ -148,8 +148,10 @@ def depths_through(body: object, deepest: float, *, per_region: int = 12) -> Rea
 
 # Points of every plane: all, a line along x or y (a vertical section of the body), or one (a depth profile).
 
-Position: TypeAlias = float | Literal["max"]
-"""Coordinate in m, or "max" for that of the largest pressure."""
+Position: TypeAlias = float | Literal["pressure", "max"]
+"""Coordinate in m, or "pressure" for that of the largest pressure; "max" is another word for it."""
+
+_TOP = ("pressure", "max")
 
 
 @dataclass(frozen=True)
@@ -161,12 +163,12 @@ class Everywhere:
 class Section:
     """Vertical plane x = const or y = const through the grid line nearest to the position.
 
-    InputError if none or both are given, or one is neither a number nor "max".
+    InputError if none or both are given, or one is neither a number nor a word for a place.
 
     Parameters
     ----------
     x, y
-        Exactly one of the two: position in m, or ``"max"`` for the plane through the largest pressure.
+        Exactly one of the two: position in m, or ``"pressure"`` (``"max"``) for the plane through the largest pressure.
     """
 
     x: Position | None = None
@@ -182,12 +184,12 @@ class Section:
 class DepthProfile:
     """Line into the body at the grid point nearest to (x, y), by default under the largest pressure.
 
-    InputError if a position is neither a number nor "max".
+    InputError if a position is neither a number nor a word for a place.
 
     Parameters
     ----------
     x, y
-        Position in m, or ``"max"``.
+        Position in m, or ``"pressure"`` (``"max"``) for that of the largest pressure.
     """
 
     x: Position = "max"
@@ -221,7 +223,7 @@ class Selection:
 
 
 def selection(where: Where, grid: Grid, pressure: RealArray) -> Selection:
-    """Points of ``grid`` at ``where``; "max" is where ``pressure`` is largest.
+    """Points of ``grid`` at ``where``; words for a place mean where ``pressure`` is largest.
 
     InputError if ``where`` is of another type, or a position lies outside the grid.
     """
@@ -245,12 +247,15 @@ def selection(where: Where, grid: Grid, pressure: RealArray) -> Selection:
 
 
 def _check(position: Position | None, what: str) -> None:
-    if position != "max":
-        require.finite(position, what, "Write a position, or 'max' for that of the largest pressure.")  # type: ignore[arg-type]
+    if isinstance(position, str):
+        if position not in _TOP:
+            raise InputError(f"{what} must be a number or one of {', '.join(_TOP)}, but is {position!r}.")
+    else:
+        require.finite(position, what, "Write a position, or 'pressure' for that of the largest pressure.")  # type: ignore[arg-type]
 
 
 def _nearest(position: Position, line: RealArray, top: int, axis: str) -> int:
-    if position == "max":
+    if isinstance(position, str):
         return top
     step = float(line[1] - line[0]) if line.size > 1 else np.inf
     if not line[0] - step <= position <= line[-1] + step:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
+from refusals import refused
 
 import asperity as asp
 
@@ -98,6 +99,32 @@ def test_without_axes_a_figure_of_pyplot_is_made(result):
         assert result.problem.surface.plot("view").name == "3d"
     finally:
         pyplot.close("all")
+
+
+def test_labels_of_a_new_figure_lie_inside_it(result):
+    from matplotlib import pyplot
+
+    path = asp.solve(result.problem, asp.History.ramps(asp.MeanPressure, [1e8, 0.0], steps=2))
+    try:
+        for axes in (path.plot("load_loop"), result.plot(), result.plot("section")):
+            axes.figure.canvas.draw()
+            frame = axes.figure.bbox.padded(1.0)
+            for label in (axes.xaxis.label, axes.yaxis.label):
+                box = label.get_window_extent()
+                assert frame.contains(*box.min)
+                assert frame.contains(*box.max)
+    finally:
+        pyplot.close("all")
+
+
+def test_menisci_of_a_wet_contact_are_drawn_and_dry_ones_refused(result):
+    film = asp.LiquidFilm.of(asp.liquid("water"), 5e-10)
+    wet = asp.solve(asp.ContactProblem(result.problem.surface, asp.material("DLC"), film=film), asp.MeanPressure(1e8))
+    ax = Figure().add_subplot()
+    assert wet.plot("menisci", ax) is ax
+    assert ax.has_data()
+    with refused(asp.InputError, "problem of the result"):
+        result.plot("menisci", Figure().add_subplot())
 
 
 def test_unknown_figures_are_refused(result, field):

@@ -105,6 +105,7 @@ def test_sections_and_profiles_are_parts_of_the_whole(rough_result):
     cases = (
         (asp.Section(y="max"), ("plane", "x"), (slice(None), slice(None), j)),
         (asp.Section(x="max"), ("plane", "y"), (slice(None), i, slice(None))),
+        (asp.Section(x="pressure"), ("plane", "y"), (slice(None), i, slice(None))),
         (asp.Section(y=2.2 * grid.spacing[1]), ("plane", "x"), (slice(None), slice(None), 2)),
         (asp.DepthProfile(), ("plane",), (slice(None), i, j)),
         (asp.DepthProfile(0.0, "max"), ("plane",), (slice(None), 0, j)),
@@ -139,6 +140,7 @@ def test_labels_of_planes(rough_result):
     inner = field.within("layer 2")
     assert inner.tensor.xx.shape == (2,)
     np.testing.assert_array_equal(field.within(1).normal_xx, field.normal_xx[2:4])
+    np.testing.assert_array_equal(field.within("Diamond-like carbon").normal_xx, field.within("DLC").normal_xx)
     with refused(asp.InputError, "region of a stress field", "0", "1", "2"):
         field.within("DLC2")
 
@@ -253,7 +255,7 @@ def test_more_refusals():
         asp.Section()
     with refused(asp.InputError, "section"):
         asp.Section(x=0.0, y=0.0)
-    with refused(asp.InputError, "position of a section (m)", "middle"):
+    with refused(asp.InputError, "position of a section (m)", "middle", "pressure"):
         asp.Section(x="middle")
     with refused(asp.InputError, "x of a depth profile (m)"):
         asp.DepthProfile(x="left")
