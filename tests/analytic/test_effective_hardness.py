@@ -66,16 +66,16 @@ def test_the_example_runs():
 
 
 @pytest.mark.parametrize(
-    ("values", "message"),
+    ("values", "subject"),
     [
-        ((0.0, 1.0, 1.0), "film .Pa."),
-        ((1.0, -1.0, 1.0), "substrate .Pa."),
-        ((1.0, 1.0, 0.0), "modulus_ratio"),
-        ((1.0, 1.0, 1.0, 0.0), "yield_ratio"),
+        ((0.0, 1.0, 1.0), "film (Pa) of effective-hardness"),
+        ((1.0, -1.0, 1.0), "substrate (Pa) of effective-hardness"),
+        ((1.0, 1.0, 0.0), "modulus_ratio of effective-hardness"),
+        ((1.0, 1.0, 1.0, 0.0), "yield_ratio of effective-hardness"),
     ],
 )
-def test_values_must_be_positive(values, message):
-    with pytest.raises(InputError, match=message):
+def test_values_must_be_positive(values, subject):
+    with refused(InputError, subject):
         EffectiveHardness(*values)
 
 

@@ -97,7 +97,7 @@ def test_all_names_are_listed_and_found_and_others_are_not() -> None:
     exec("from asperity import *", found)  # noqa: S102 - the statement itself is under test
     assert set(PUBLIC) <= set(found)
     assert all(found[name] is getattr(asperity, name) for name in PUBLIC)
-    with pytest.raises(AttributeError, match="module 'asperity' has no attribute 'phlogiston'"):
+    with pytest.raises(AttributeError, match="phlogiston"):
         asperity.phlogiston  # type: ignore[attr-defined]  # noqa: B018 - reading the attribute is the test
 
 

@@ -167,7 +167,7 @@ def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
         (("--deepest", "0nm"), "--deepest must be greater than zero"),
         (("--criterion", "hope"), "--criterion must be 'von_mises' or 'tresca'"),
         (("--tensile-strength", "1"), "--tensile-strength must have a unit"),
-        (("--stress-in", "counter"), "inside the counter body, which is rigid"),
+        (("--stress-in", "counter"), "must deform, but the counter body is rigid"),
         (("--stress-in", "air"), "--stress-in must be one of body, counter"),
         (("--stress-precision", "half"), "--stress-precision must be 'double' or 'single'"),
         (("--friction", "0.1", "--body", "DLC:5nm~/steel"), "shear traction must be zero"),

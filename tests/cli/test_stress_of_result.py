@@ -103,7 +103,7 @@ def test_a_coupled_pressure_belongs_to_its_friction(run: Runner, tmp_path: Path,
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        (("--stress-in", "counter"), "inside the counter body, which is rigid"),
+        (("--stress-in", "counter"), "must deform, but the counter body is rigid"),
         (("--depths", "1nm,5"), "part 2 of --depths must have a unit"),
         (("--section", "z=1nm"), "--section must be a position"),
     ],

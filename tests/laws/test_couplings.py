@@ -225,14 +225,12 @@ def test_menisci_that_run_away_with_friction_and_hardness_are_explained(surface)
     soft = asp.Elastic(1e9, 0.15)
     film = replace(FILM, thickness=2 * NM, meniscus_height=2 * NM)
     posed = asp.ContactProblem(surface, soft, film=film, friction=FRICTION)
-    with pytest.raises(
-        asp.NoSolutionError, match=r"runs away: under the external force of .* times the external force"
-    ):
+    with refused(asp.NoSolutionError, "meniscus force", "4.8e-10 N"):
         asp.solve(posed, asp.MeanPressure(1e3))
     weak = asp.ContactProblem(
         surface, BODY, law=asp.Hardness(8e6), film=replace(film, thickness=4 * NM, meniscus_height=4 * NM)
     )
-    with pytest.raises(asp.NoSolutionError, match="The contact bears no more"):
+    with refused(asp.NoSolutionError, "mean pressure with the menisci"):
         asp.solve(weak, asp.MeanPressure(5e6))
     with refused(asp.NoSolutionError, "Step 2 of the history: mean pressure"):
         asp.solve(replace(weak, film=None), asp.History([asp.MeanPressure(1e4), asp.MeanPressure(9e6)]))
@@ -243,8 +241,10 @@ def test_what_does_not_settle_is_said_in_the_words_of_the_worst(surface):
     found = asp.solve(posed, LOAD, on_failure="return")
     assert found.status.outcome == "stagnated"
     assert "by shear" in found.status.message
-    with pytest.raises(asp.ConvergenceError, match="lower the friction"):
+    assert "friction" in found.status.remedy
+    with pytest.raises(asp.ConvergenceError) as caught:
         asp.solve(posed, LOAD)
+    assert caught.value.result.status == found.status
     hasty = asp.solve(problem(surface, film=FILM), LOAD, rounds=asp.Rounds(most=2), on_failure="return")
     assert hasty.status.outcome == "iteration limit"
     assert "meniscus force still changes" in hasty.status.message

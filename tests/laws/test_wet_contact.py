@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from contact_cases import elastic, wetted
+from refusals import refused
 
 import asperity as asp
 
@@ -109,15 +110,13 @@ def test_stiffer_bodies_and_rougher_surfaces_stick_less(problem):
 
 def test_a_force_that_runs_away_is_an_error_with_its_numbers(problem):
     soft = asp.ContactProblem(problem.surface, elastic(1e9))
-    with pytest.raises(
-        asp.NoSolutionError, match=r"runs away: under the external force of .* times the external force"
-    ):
+    with refused(asp.NoSolutionError, "meniscus force", "5.76e-09 N"):
         wetted(soft, asp.MeanPressure(1e3), lubricant(2.0 * NM, meniscus_height=2.0 * NM))
 
 
 def test_menisci_that_exceed_the_hardness_are_an_error(problem):
     weak = asp.ContactProblem(problem.surface, elastic(100e9), law=asp.Hardness(8e6))
-    with pytest.raises(asp.NoSolutionError, match="The contact bears no more"):
+    with refused(asp.NoSolutionError, "mean pressure with the menisci"):
         wetted(weak, asp.MeanPressure(5e6), lubricant(4.0 * NM))
 
 
@@ -125,8 +124,10 @@ def test_too_few_rounds_are_told(problem):
     wet = wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.Rounds(most=2), on_failure="return")
     assert not wet.converged
     assert "still changes by" in wet.status.message
-    with pytest.raises(asp.ConvergenceError, match="Allow more rounds"):
+    assert wet.status.remedy
+    with pytest.raises(asp.ConvergenceError) as caught:
         wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.Rounds(most=2))
+    assert caught.value.result.status == wet.status
 
 
 def test_plastic_contacts_keep_what_earlier_loads_indented(problem):

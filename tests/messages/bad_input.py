@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
 import numpy as np
 from cli.conftest import BODY, LOAD
 from contact_cases import elastic, rough
+from study_cases import plan
 
 import asperity as asp
 
@@ -119,6 +121,33 @@ def _holed() -> asp.Surface:
     return asp.Surface(heights, 1.0)
 
 
+GRID = asp.Grid((16, 16), (1.0, 1.0))
+
+
+def _spectrum(shortest: float) -> asp.generate.SelfAffine:
+    return asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(1.0), hurst=0.8, rolloff_wavelength=8.0, shortest_wavelength=shortest
+    )
+
+
+def _asked(name: str, *, radius: float, E_star: float, **values: float) -> object:
+    return asp.theories.evaluate(asp.theories.theory(name)(E_star, radius), **values)
+
+
+def _read(name: str, content: str, **scales: object) -> asp.Surface:
+    Path(name).write_text(content)
+    return asp.read(name, height_unit="nm", **scales)  # type: ignore[arg-type]
+
+
+def _materials(content: str) -> object:
+    Path("own.toml").write_text(content)
+    return asp.materials(Path("own.toml"))
+
+
+def _axis(path: str, values: list[object]) -> dict[str, object]:
+    return {"path": path, "values": values}
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -164,5 +193,117 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a pressure above the hardness": lambda: asp.solve(_problem(law=asp.Hardness(1.0)), asp.MeanPressure(2.0)),
     "tolerance -1": lambda: asp.solvers.ActiveSet(tolerance=-1.0),
     "no iterations": lambda: asp.solvers.ActiveSet(max_iterations=0),
+    "a history of nothing": lambda: asp.History([]),
+    "a history of a control": lambda: asp.History(asp.MeanPressure(0.1)),  # type: ignore[arg-type]
+    "a history of a number": lambda: asp.History(0.1),  # type: ignore[arg-type]
+    "a number in a history": lambda: asp.History([asp.MeanPressure(0.1), 0.2]),  # type: ignore[list-item]
+    "ramps to nowhere": lambda: asp.ramps(asp.Force, [0.0]),
+    "a ramp that stands": lambda: asp.ramps(asp.Force, [1.0, 1.0]),
+    "a ramp of no control": lambda: asp.ramps("force", [1.0]),  # type: ignore[arg-type]
+    "two iterations": lambda: asp.solve(
+        _problem(surface=rough((32, 32))),
+        asp.MeanPressure(0.05),
+        solver=asp.solvers.ConjugateGradient(max_iterations=2),
+    ),
+    "a second step above the hardness": lambda: asp.solve(
+        _problem(law=asp.Hardness(1.0)), asp.History([asp.MeanPressure(0.1), asp.MeanPressure(2.0)])
+    ),
+    "a position that no load reaches": lambda: asp.solve(
+        asp.ContactProblem(
+            asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3),
+            asp.Elastic(135e9, 0.3),
+            boundary=asp.Free(),
+            law=asp.Hardness(200e6),
+        ),
+        asp.MeanGap(1e-12),
+    ),
+    "a flat that yields as a whole": lambda: asp.plastic_load(
+        _problem(surface=asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), law=asp.Hardness(0.4))
+    ),
+    "a film of no thickness": lambda: asp.LiquidFilm(thickness=0.0, surface_tension=0.03),
+    "a meniscus below the film": lambda: asp.LiquidFilm(thickness=2e-9, surface_tension=0.03, meniscus_height=1e-9),
+    "a liquid that does not wet": lambda: asp.LiquidFilm(
+        thickness=1e-9, surface_tension=0.03, contact_angles=(2.0, 2.0)
+    ),
+    "a layer of text": lambda: asp.Layer("DLC", 1e-9),  # type: ignore[arg-type]
+    "a layer of negative thickness": lambda: asp.Layer(elastic(1.0), -1e-9),
+    "an interface of text": lambda: asp.Layer(elastic(1.0), 1.0, "bonded"),  # type: ignore[arg-type]
+    "a layer for a list": lambda: asp.Layered(asp.Layer(elastic(1.0), 1.0), elastic(1.0)),  # type: ignore[arg-type]
+    "a rigid base": lambda: asp.Layered([], asp.Rigid()),  # type: ignore[arg-type]
+    "a grading of text": lambda: asp.graded(elastic(1.0), elastic(2.0), 1.0, grading="linear"),  # type: ignore[arg-type]
+    "no depths": lambda: asp.stress(_solved(), []),
+    "a depth above the surface": lambda: asp.stress(_solved(), [-1.0]),
+    "stresses in a rigid body": lambda: asp.stress(_solved(), [0.0], of="counter_body"),
+    "stresses in a third body": lambda: asp.stress(_solved(), [0.0], of="third"),
+    "stresses on text": lambda: asp.stress(_solved(), [0.0], on="x"),  # type: ignore[arg-type]
+    "sliding in no direction": lambda: asp.stress(_solved(), [0.0], friction=0.3, direction=(0.0, 0.0)),
+    "a section beyond the surface": lambda: asp.stress(_solved(), [0.0], on=asp.Section(y=1e3)),
+    "no strength": lambda: asp.load_at_yield(
+        lambda load: asp.stress(asp.solve(_problem(), asp.MeanPressure(load)), [0.0]), 0.1
+    ),
+    "a theory by another name": lambda: asp.theories.theory("herz"),
+    "a theory asked nothing": lambda: _asked("hertz", radius=1.0, E_star=1.0),
+    "a theory asked what it does not know": lambda: _asked("hertz", radius=1.0, E_star=1.0, pressure=1e6),
+    "a theory asked a negative load": lambda: _asked("hertz", radius=1.0, E_star=1.0, load=-1.0),
+    "a concave tip": lambda: asp.theories.PowerLawIndenter(1.0, 1.0, 0.5),
+    "a contact wider than the sphere": lambda: asp.theories.SphericalIndenter(1.0, 1.0).at_radius(1.0),
+    "kurtosis that no heights have": lambda: asp.generate.HeightMoments(2.0, 3.0),
+    "kurtosis of two heights": lambda: asp.generate.HeightMoments(1.0, 2.0, system="pearson"),
+    "kurtosis near two heights": lambda: asp.generate.HeightMoments(1.0, 2.0),
+    "a wave that does not fit": lambda: asp.generate.sinusoid(GRID, amplitude=0.1, wavelength=5.0),
+    "a wave shorter than two pixels": lambda: asp.generate.sinusoid(GRID, amplitude=0.1, wavelength=1.0),
+    "a sphere that ends on the grid": lambda: asp.generate.sphere(GRID, radius=1.0, exact=True),
+    "grooves that do not fit": lambda: asp.generate.grooves(GRID, pitch=5.0, width=1.0, depth=0.1),
+    "grooves wider than their pitch": lambda: asp.generate.grooves(GRID, pitch=8.0, width=9.0, depth=0.1),
+    "a surface of waves shorter than two pixels": lambda: asp.generate.gaussian(GRID, _spectrum(shortest=1.0), seed=1),
+    "wavelengths in disorder": lambda: _spectrum(shortest=9.0),
+    "an amplitude without a kind": lambda: asp.generate.SelfAffine(
+        amplitude=1e-9, hurst=0.8, rolloff_wavelength=8.0, shortest_wavelength=2.0
+    ),
+    "a spectrum in descending order": lambda: asp.generate.TabulatedSpectrum([2.0, 1.0], [1.0, 2.0]),
+    "a spectrum of a plane": lambda: asp.generate.spectrum_of(asp.Surface(np.zeros((8, 8)), 1.0)),
+    "no cut-off": lambda: asp.filtered(rough((32, 32))),
+    "a cut-off of three pixels": lambda: asp.filtered(rough((32, 32)), short=3.0),
+    "a cut-off in the wrong unit": lambda: asp.filtered(rough((32, 32)), long=1e3),
+    "cut-offs in disorder": lambda: asp.filtered(rough((32, 32)), short=20.0, long=10.0),
+    "a plane through a line": lambda: asp.levelled(asp.Surface(np.ones((1, 8)), 1.0)),
+    "a crop that ends before its start": lambda: asp.cropped(rough((8, 8)), x=(2.0, 1.0)),
+    "a crop beyond the surface": lambda: asp.cropped(rough((8, 8)), x=(0.0, 99.0)),
+    "a line in both directions": lambda: asp.sliced(rough((8, 8)), x=0.0, y=0.0),
+    "an even window": lambda: asp.despiked(rough((8, 8)), window=4),
+    "surfaces that do not overlap": lambda: asp.on_common_grid(
+        asp.Surface(np.eye(8), 1.0), asp.Surface(np.eye(8), 1.0), shift=(25.0, 0.0)
+    ),
+    "a theory to compare by another name": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories=["gw"]),
+    "a name for a list": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories="persson"),
+    "points in no order": lambda: _read("points.txt", "0 0 1\n1 0.1 1\n2.7 0.4 1\n3 1.3 2\n", size=(1.0, 1.0)),
+    "points on the same node": lambda: _read("points.txt", 2 * "0 0 1\n0 1 1\n1 0 1\n1 1 1\n", size=(1.0, 1.0)),
+    "points of unknown unit": lambda: _read("points.txt", "0 0 1\n0 1 1\n1 0 1\n1 1 1\n"),
+    "a map of unknown unit": lambda: asp.read("rough.txt", size=(1.0, 1.0)),
+    "a map of no width": lambda: asp.read("rough.txt", size=(1.0, 0.0), height_unit="nm"),
+    "a scale of grey for a matrix": lambda: asp.read("rough.txt", size=(1.0, 1.0), height_unit="nm", z_scale=1.0),
+    "a material file of another kind": lambda: _materials('[steel]\nE = "1 GPa"'),
+    "a material without its modulus": lambda: _materials("[material.X]\npoisson_ratio = 0.3"),
+    "a material with a density": lambda: _materials("[material.X]\ndensity = 1"),
+    "a modulus without unit": lambda: _materials("[material.X]\nyoungs_modulus = 1e9\npoisson_ratio = 0.3"),
+    "a study of nothing": lambda: plan(),
+    "two axes of one value": lambda: plan(axes=[_axis("surface.seed", [1]), _axis("surface.seed", [1])]),
+    "two axes of the control": lambda: plan(
+        axes=[_axis("control.mean_pressure", ["1 MPa"]), _axis("control.force", ["1 N"])]
+    ),
+    "an axis of another unit": lambda: plan(axes=[_axis("control.force", ["1 m"])]),
+    "an axis of negative forces": lambda: plan(axes=[_axis("control.force", ["-1 N"])]),
+    "an axis by half": lambda: plan(axes=[{"path": "body.layers.0.thickness", "first": "1 nm"}]),
+    "an axis of unknown path": lambda: plan(axes=[_axis("surface.seeds", [1])]),
+    "an unknown quantity": lambda: plan(axes=[_axis("surface.seed", [1])], quantities=["area"]),
+    "a quantity without its table": lambda: plan(axes=[_axis("surface.seed", [1])], quantities=["max_von_mises"]),
+    "levels that fall": lambda: plan(convergence={"of": "grid", "levels": [64, 32, 16]}),
+    "two levels": lambda: plan(convergence={"of": "grid", "levels": [16, 32]}),
+    "a number that is no seed": lambda: plan(
+        monte_carlo={"seed": 1, "samples": 3, "random": [{"path": "control.mean_pressure", "distribution": "seed"}]}
+    ),
+    "an axis too long": lambda: plan(
+        axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
+    ),
 }
 """Calls of the library, by what is wrong."""

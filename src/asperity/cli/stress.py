@@ -90,5 +90,6 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
         )
         raise InputError(
             f"--coupled needs the pressure under the friction asked for, but that of the result was solved {holds}. "
-            "Solve again: asperity contact --from problem.toml --coupled with that friction."
+            "Solve again: asperity contact --from problem.toml --coupled with that friction.",
+            subject="--coupled",
         )

@@ -120,7 +120,8 @@ def _bracket(
         if load > _LARGEST * hardest:
             raise NoSolutionError(
                 f"No load below the hardness brings more than {fraction:g} of the real area to it, but all of it at once does. "
-                "Such smooth surfaces yield as a whole; ask for a smaller share."
+                "Such smooth surfaces yield as a whole; ask for a smaller share.",
+                subject=f"plastic share {fraction:g}",
             )
         above = at(min(load * _UP, math.sqrt(load * hardest)))
         if above.plastic_area_fraction > fraction:

@@ -154,15 +154,16 @@ def steps(
     def run() -> Iterator[ContactResult]:
         latest = state
         for number, step in enumerate(ordered, start=1):
+            where = f"Step {number} of the history"
             try:
                 result = prepared.step(step.normal, latest)
             except NoSolutionError as error:
-                raise NoSolutionError(f"Step {number} of the history: {error}") from error
+                raise NoSolutionError(f"{where}: {error}", subject=f"{where}: {error.subject}") from error
             if result.converged:
                 latest = result.state
             elif on_failure == "raise":
                 status = result.status
-                raise ConvergenceError(f"Step {number} of the history: {status.message} {status.remedy}", result)
+                raise ConvergenceError(f"{where}: {status.message} {status.remedy}", result, subject=where)
             yield result
 
     return run()

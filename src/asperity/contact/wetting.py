@@ -54,7 +54,7 @@ class LiquidFilm:
 
     def __post_init__(self) -> None:
         require.positive(self.surface_tension, "surface tension of a film (N/m)")
-        require.positive(self.thickness, "thickness of a film (m)", "For a dry contact use solve.")
+        require.positive(self.thickness, "thickness of a film (m)", "For a dry contact leave the film out.")
         if math.isnan(self.meniscus_height):
             object.__setattr__(self, "meniscus_height", self.thickness)
         if not require.finite(self.meniscus_height, "meniscus height (m)") >= self.thickness:

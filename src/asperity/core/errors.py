@@ -4,13 +4,17 @@ from __future__ import annotations
 
 
 class AsperityError(Exception):
-    """Base of every exception that asperity raises on purpose."""
+    """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand before "must"."""
+
+    def __init__(self, message: str, *, subject: str = "") -> None:
+        super().__init__(message)
+        self._subject = subject
 
     @property
     def subject(self) -> str:
         """Name of the input that is wrong, such as ``"load (N)"`` or ``"control.force"``; empty if none is."""
         before, must, _ = str(self).partition(" must ")
-        return before if must else ""
+        return self._subject or (before if must else "")
 
 
 class InputError(AsperityError, ValueError):
@@ -36,6 +40,6 @@ class OutputError(AsperityError, OSError):
 class ConvergenceError(AsperityError, RuntimeError):
     """A solver did not reach its tolerance; ``result`` holds the unconverged answer, flagged as such."""
 
-    def __init__(self, message: str, result: object = None) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, result: object = None, *, subject: str = "") -> None:
+        super().__init__(message, subject=subject)
         self.result = result

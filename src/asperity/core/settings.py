@@ -125,7 +125,7 @@ def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mappi
         lines = problems(error, json_schema(model), names or {})
     if len(lines) == 1:
         raise InputError(f"{where}: {lines[0]}")
-    raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines))
+    raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines), subject=where)
 
 
 @lru_cache(maxsize=8)

@@ -97,7 +97,7 @@ def parse_in(text: str, unit: str, what: str) -> float:
         like = f"in a unit such as {unit}" if unit else "a plain number"
         raise UnitError(f"{what} must be {like}, but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
-        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.") from None
+        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 
 
 def _split(text: str, example: str, what: str, *, plain: bool) -> tuple[float, str]:
@@ -128,7 +128,7 @@ def unit_factor(name: str, kind: str, what: str) -> float:
     except pint.DimensionalityError:
         raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
-        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.") from None
+        raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 
 
 def _meant(name: str, unit: str) -> str:

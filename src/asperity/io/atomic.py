@@ -93,7 +93,8 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
         raise
     except OSError as error:
         raise OutputError(
-            f"{target} cannot be written: {error.strerror or error}; check rights, path and free space."
+            f"{target} cannot be written: {error.strerror or error}; check rights, path and free space.",
+            subject=str(target),
         ) from error
     finally:
         if partial != absolute:
@@ -223,7 +224,7 @@ def _exists(target: Path) -> bool:
         return False
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise OutputError(f"{target} cannot be written: {reason}; choose another name.") from None
+        raise OutputError(f"{target} cannot be written: {reason}; choose another name.", subject=str(target)) from None
     return True
 
 

@@ -181,7 +181,7 @@ class Stress(Part):
         if isinstance(getattr(problem, ask.of), Rigid):
             asked, other = ("counter body", "body") if ask.of == "counter_body" else ("body", "counter_body")
             raise InputError(
-                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body "
+                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the other body "
                 f'(inside = "{other}" in a document, or --stress-in {other}).'
             )
         ask.check(problem)

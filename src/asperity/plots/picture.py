@@ -283,7 +283,10 @@ def save_pictures(
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"folder of the plots {place} cannot be made: {error.strerror}; choose another.") from error
+        raise OutputError(
+            f"folder of the plots {place} cannot be made: {error.strerror}; choose another.",
+            subject="folder of the plots",
+        ) from error
     paths = tuple(place / f"{name}.png" for name in pictures)
     for make, path in zip(pictures.values(), paths, strict=True):
         with atomic_file(path, overwrite=overwrite) as file:

@@ -125,7 +125,7 @@ class StressRequest:
         if isinstance(body, Rigid):
             asked = self.of.replace("_", " ")
             raise InputError(
-                f"stresses are asked for inside the {asked}, which is rigid; ask for them in the other body."
+                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the other body."
             )
         planes(body, self.depths or (0.0,))
         boundary: Any = problem.boundary.name

@@ -172,7 +172,10 @@ def load_at_yield(
     for evaluation in range(1, require.integer(max_evaluations, 1, "number of loads tried") + 1):
         report = first_yield(field_at(math.exp(at)), criterion)
         if math.isnan(report.load_factor):
-            raise NoSolutionError("no material of the body has a known strength; give yield_stress or hardness.")
+            raise NoSolutionError(
+                "no material of the body has a known strength; give yield_stress or hardness.",
+                subject="strength of the body",
+            )
         miss = math.log(report.load_factor) if math.isfinite(report.load_factor) else 3.0
         if abs(miss) <= tolerance:
             return LoadAtYield(math.exp(at), report, evaluation)
@@ -183,7 +186,8 @@ def load_at_yield(
         at -= max(-5.0, min(5.0, miss / slope))
     raise NoSolutionError(
         f"no load at yield was found in {max_evaluations} loads; the last load factor is {report.load_factor:.4g}. "
-        "Check that the depths hold the place of first yield, or start nearer."
+        "Check that the depths hold the place of first yield, or start nearer.",
+        subject="load at yield",
     )
 
 

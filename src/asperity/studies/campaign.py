@@ -199,11 +199,14 @@ def prepare_study(
         target.mkdir(parents=True, exist_ok=True)
         free = shutil.disk_usage(target).free
     except OSError as error:
-        raise OutputError(f"folder {target} cannot be made: {error.strerror}; choose another.") from error
+        raise OutputError(
+            f"folder {target} cannot be made: {error.strerror}; choose another.", subject="folder of a study"
+        ) from error
     if (needed := BYTES_OF_A_RECORD * campaign.plan.n_cases) > free:
         raise OutputError(
             f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but {free / 2**30:.3g} GiB are "
-            f"free at {target}; give fewer points or samples, or another folder (--out)."
+            f"free at {target}; give fewer points or samples, or another folder (--out).",
+            subject=f"results of {campaign.plan.n_cases} cases",
         )
     _write(target / STUDY, study_text(loaded, target))
     return campaign

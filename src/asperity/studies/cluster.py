@@ -29,7 +29,8 @@ class DaskCluster:
             distributed: Any = importlib.import_module("distributed")
         except ImportError:
             raise InputError(
-                'a Dask cluster needs the package distributed, which is missing: pip install "asperity[dask]".'
+                'a Dask cluster needs the package distributed, which is missing: pip install "asperity[dask]".',
+                subject="package distributed",
             ) from None
         try:
             client = distributed.Client(self.address, set_as_default=False, timeout=10)

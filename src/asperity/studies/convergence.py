@@ -55,7 +55,9 @@ def convergence(steps: Sequence[float], values: Sequence[float]) -> Convergence:
     """
     h, y = tuple(map(float, steps)), tuple(map(float, values))
     if len(h) < 3 or len(h) != len(y):
-        raise InputError(f"convergence needs at least three steps and as many values, but has {len(h)} and {len(y)}.")
+        raise InputError(
+            f"steps of a convergence study must be at least three, with as many values, but are {len(h)} and {len(y)}."
+        )
     if any(b >= a for a, b in pairwise(h)) or h[-1] <= 0.0:
         raise InputError(f"steps of a convergence study must be positive and fall, but are {h}.")
     coarse, fine = y[-3] - y[-2], y[-2] - y[-1]
@@ -84,7 +86,8 @@ def level_axis(base: Base, table: ConvergenceTable) -> Axis:
     if points is None:
         raise InputError(
             f"convergence of the {table.of} needs a generated surface, but the surface is read from a file. Vary the "
-            "points of a step resample by an axis instead."
+            "points of a step resample by an axis instead.",
+            subject=f"convergence of the {table.of}",
         )
     place = locate(base.document, "surface.points")
     return Axis("level", "1", place.path, [_level(base, table.of, level, points) for level in table.levels])

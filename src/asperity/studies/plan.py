@@ -245,7 +245,8 @@ def computed(document: ProblemDocument, asked: Iterable[str]) -> tuple[str, ...]
             there[item.name] = given
             if item.name in wanted and not given:
                 raise InputError(
-                    f"quantity {item.name} needs the table [{part.table}] in the problem, but it is missing; add it."
+                    f"quantity {item.name} needs the table [{part.table}] in the problem, but it is missing; add it.",
+                    subject=f"quantity {item.name}",
                 )
     for name in wanted:
         if name not in there:

@@ -89,11 +89,14 @@ class Store:
         self.path = path
         self._synced = time.monotonic()
         if path.exists() and not path.is_file():
-            raise OutputError(f"results {path} cannot be written: it is no ordinary file.")
+            raise OutputError(f"results {path} cannot be written: it is no ordinary file.", subject=f"results {path}")
         try:
             self._file: IO[bytes] = path.open("ab")
         except OSError as error:
-            raise OutputError(f"results {path} cannot be written: {error.strerror}; check rights and space.") from error
+            raise OutputError(
+                f"results {path} cannot be written: {error.strerror}; check rights and space.",
+                subject=f"results {path}",
+            ) from error
         try:
             _lock(self._file, path)
             self._file.truncate(max((end for end, *_ in _lines(path)), default=0))
@@ -111,7 +114,10 @@ class Store:
                 os.fsync(self._file.fileno())
                 self._synced = time.monotonic()
         except OSError as error:
-            raise OutputError(f"results {self.path} cannot be written: {error.strerror}; free some space.") from error
+            raise OutputError(
+                f"results {self.path} cannot be written: {error.strerror}; free some space.",
+                subject=f"results {self.path}",
+            ) from error
 
     def __enter__(self) -> Store:
         return self
@@ -188,5 +194,6 @@ def _lock(file: IO[bytes], path: Path) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         raise OutputError(
-            f"results {path} are being written by another process; wait for it, or give another folder by --out."
+            f"results {path} are being written by another process; wait for it, or give another folder by --out.",
+            subject=f"results {path}",
         ) from None

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import RealArray
-from ..core.errors import FileFormatError, InputError, UnitError
+from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
 from ..core.status import free_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
@@ -88,7 +88,7 @@ def read_instrument(
     try:
         return Surface(heights, size[0] / nx, size[1] / ny, periodic=periodic, origin=origin)
     except InputError as exc:
-        raise FileFormatError(f"file {file} does not hold a usable map: {exc}") from exc
+        raise FileFormatError(f"file {file} does not hold a usable map: {exc}", subject=exc.subject) from exc
 
 
 def _require_whole(
@@ -98,10 +98,15 @@ def _require_whole(
     pixels that are not square. Returns the ``size`` that is still to be used: None if it confirms the one in the file.
     """
     if line := cut_short(file):
-        raise FileFormatError(f"file {file} was cut short or is damaged: line {line} is no complete row of numbers.")
+        raise FileFormatError(
+            f"file {file} was cut short or is damaged: line {line} is no complete row of numbers.",
+            subject=f"file {file}",
+        )
     lines = stated_lines(file)
     if lines is not None and lines != info.shape[1]:
-        raise FileFormatError(f"file {file} was cut short or is damaged: it has {info.shape[1]} of {lines} lines.")
+        raise FileFormatError(
+            f"file {file} was cut short or is damaged: it has {info.shape[1]} of {lines} lines.", subject=f"file {file}"
+        )
     if info.size is None or lines is not None or header.get("nb_grid_pts_y") is not None:
         return size
     if size is not None and np.allclose(size, info.size, rtol=_SQUARE, atol=0.0):
@@ -115,7 +120,8 @@ def _require_whole(
         raise FileFormatError(
             f"file {file} holds {nx} x {ny} points on {lengths}, pixels of {show(length_x / nx, 'm')} x "
             f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. If it is complete, confirm its size with size=... "
-            f'(--size "{lengths}").'
+            f'(--size "{lengths}").',
+            subject=f"size of file {file}",
         )
     return size
 
@@ -210,15 +216,18 @@ def _scales(
         lacking.append('height_unit="nm" (--height-unit nm)')
     if lacking:
         raise FileFormatError(
-            f"channel {info.name!r} of file {file} does not state its size or unit: pass {' and '.join(lacking)}."
+            f"channel {info.name!r} of file {file} does not state its size or unit: pass {' and '.join(lacking)}.",
+            subject=f"size and unit of channel {info.name!r} of file {file}",
         )
     if info.size is not None and size is not None:
         raise FileFormatError(
-            f"file {file} states its own size {info.size[0]:g} x {info.size[1]:g} m, so size (--size) must be left out."
+            f"file {file} states its own size {info.size[0]:g} x {info.size[1]:g} m, so size (--size) must be left out.",
+            subject=f"size of file {file}",
         )
     if info.unit and height_unit is not None:
         raise FileFormatError(
-            f"file {file} states its own unit {info.unit}, so height_unit (--height-unit) must be left out."
+            f"file {file} states its own unit {info.unit}, so height_unit (--height-unit) must be left out.",
+            subject=f"height unit of file {file}",
         )
     try:
         factor = unit_factor(info.unit or str(height_unit), "length", "height_unit")
@@ -262,7 +271,8 @@ def _right_handed(values: Any, info: ChannelInfo, file: Path) -> RealArray:
     """Heights [x, y] with y upwards; the library counts y downwards from the top row of the picture."""
     if values.shape != info.shape:
         raise FileFormatError(
-            f"file {file} states {info.shape} points for channel {info.name!r}, but holds {values.shape}."
+            f"file {file} states {info.shape} points for channel {info.name!r}, but holds {values.shape}.",
+            subject=f"points of file {file}",
         )
     heights: RealArray = np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan)
     return heights[:, ::-1]
@@ -450,7 +460,7 @@ def read_plain(
     try:
         return Surface(found.values * factor, dx, dy, origin=origin)
     except InputError as exc:
-        raise FileFormatError(f"file {file} does not hold a usable map: {exc}") from exc
+        raise FileFormatError(f"file {file} does not hold a usable map: {exc}", subject=exc.subject) from exc
 
 
 def _numbers(file: Path) -> _Plain:
@@ -475,17 +485,24 @@ def _grey_levels(file: Path) -> _Plain:
         if picture.width * picture.height > _MOST_PIXELS:
             raise InputError(
                 f"it states {picture.width} x {picture.height} pixels, above the limit of {_MOST_PIXELS:.0e} for a "
-                "picture; save a map of that size as .npy"
+                "picture; save a map of that size as .npy",
+                subject="pixels of the picture",
             )
         if picture.mode == "F":
             return _Plain(np.flipud(np.asarray(picture, dtype=np.float64)).T)
         if picture.mode in ("RGB", "RGBA", "P"):
             colours = np.asarray(picture.convert("RGB"))
             if (colours != colours[:, :, :1]).any():
-                raise InputError("it is a colour picture, and colours are no heights; export it in grey")
+                raise InputError(
+                    "it is a colour picture, and colours are no heights; export it in grey",
+                    subject="colours of the picture",
+                )
             return _Plain(np.flipud(colours[:, :, 0].astype(np.float64)).T, 255.0)
         if picture.mode not in _FULL_SCALE:
-            raise InputError(f"its pixels are of type {picture.mode}; use 8 or 16 bit grey or floating point")
+            raise InputError(
+                f"its pixels are of type {picture.mode}; use 8 or 16 bit grey or floating point",
+                subject="pixels of the picture",
+            )
         levels = np.asarray(picture.convert("L") if picture.mode == "LA" else picture)
         return _Plain(np.flipud(levels.astype(np.float64)).T, _FULL_SCALE[picture.mode])
 
@@ -499,19 +516,22 @@ def _given_size(
             raise FileFormatError(
                 f"file {file} is a list of points x y z on {found.values.shape[0]} x {found.values.shape[1]} nodes "
                 f"with steps of {found.spacing[0]:.6g} x {found.spacing[1]:.6g} in a unit that it does not state: pass "
-                'lateral_unit="um" (--lateral-unit um) instead of a size.'
+                'lateral_unit="um" (--lateral-unit um) instead of a size.',
+                subject=f"lateral unit of file {file}",
             )
         metre = unit_factor(lateral_unit, "length", "lateral_unit")
         nx, ny = found.values.shape
         return (found.spacing[0] * metre * nx, found.spacing[1] * metre * ny), f"points x y in {lateral_unit}, "
     if lateral_unit is not None:
         raise FileFormatError(
-            f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out."
+            f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out.",
+            subject=f"lateral unit of file {file}",
         )
     if size is None:
         raise FileFormatError(
             f'file {file} does not state its size: pass size=(Lx, Ly) in m (--size "20 um x 20 um") '
-            f"and {'z_scale=... (--z-scale)' if file.suffix.lower() in _PICTURES else 'height_unit=... (--height-unit)'}."
+            f"and {'z_scale=... (--z-scale)' if file.suffix.lower() in _PICTURES else 'height_unit=... (--height-unit)'}.",
+            subject=f"size of file {file}",
         )
     return checked_size(size, f"file {file}", found.values.shape), ""
 
@@ -523,15 +543,20 @@ def _height_factor(
     if full_scale is None:
         if height_unit is None:
             raise FileFormatError(
-                f'file {file} does not state the unit of its heights: pass height_unit="nm" (--height-unit nm).'
+                f'file {file} does not state the unit of its heights: pass height_unit="nm" (--height-unit nm).',
+                subject=f"height unit of file {file}",
             )
         if z_scale is not None:
-            raise FileFormatError(f"file {file} holds heights, not grey levels: leave out z_scale (--z-scale).")
+            raise FileFormatError(
+                f"file {file} holds heights, not grey levels: leave out z_scale (--z-scale).",
+                subject=f"z_scale of file {file}",
+            )
         return unit_factor(height_unit, "length", "height_unit"), f"heights in {height_unit}"
     if z_scale is None or height_unit is not None:
         raise FileFormatError(
             f"file {file} is a picture with grey levels: pass z_scale=... in m for its full scale "
-            '(--z-scale "100 nm") instead of a height_unit.'
+            '(--z-scale "100 nm") instead of a height_unit.',
+            subject=f"z_scale of file {file}",
         )
     z_scale = require.positive(z_scale, "z_scale (m)")
     return z_scale / full_scale, f"full grey scale {full_scale:g} = {z_scale:g} m"
@@ -548,7 +573,8 @@ def _picture(file: Path) -> Iterator[Any]:
             if needed > free:
                 raise InputError(
                     f"its {picture.width} × {picture.height} pixels need about {needed / 2**30:.1f} GiB of memory where "
-                    f"{free / 2**30:.1f} GiB are free"
+                    f"{free / 2**30:.1f} GiB are free",
+                    subject="pixels of the picture",
                 )
             yield picture
 
@@ -560,4 +586,7 @@ def _reported(file: Path) -> Iterator[None]:
         yield
     except Exception as exc:  # decoders raise many types on damaged files
         reason = " ".join(str(exc).split())[:200].rstrip(".")
-        raise FileFormatError(f"file {file} cannot be read as a map of heights: {reason}.") from exc
+        subject = exc.subject if isinstance(exc, AsperityError) else ""
+        raise FileFormatError(
+            f"file {file} cannot be read as a map of heights: {reason}.", subject=subject or f"file {file}"
+        ) from exc

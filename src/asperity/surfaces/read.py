@@ -69,10 +69,14 @@ def read(
         )
     else:
         if z_scale is not None:
-            raise FileFormatError(f"file {file} is not a picture, so z_scale (--z-scale) must be left out.")
+            raise FileFormatError(
+                f"file {file} is not a picture, so z_scale (--z-scale) must be left out.",
+                subject=f"z_scale of file {file}",
+            )
         if lateral_unit is not None:
             raise FileFormatError(
-                f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out."
+                f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out.",
+                subject=f"lateral unit of file {file}",
             )
         surface = instrument.read_instrument(file, channel=channel, size=size, height_unit=height_unit)
     if min(surface.shape) < 2:
@@ -97,7 +101,8 @@ def _require_nothing_more(file: Path, channel: str | int | None, *scales: object
     if any(scale is not None for scale in scales):
         raise FileFormatError(
             f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
-            "(--size, --height-unit, --z-scale)."
+            "(--size, --height-unit, --z-scale).",
+            subject=f"size and unit of file {file}",
         )
 
 
@@ -106,13 +111,15 @@ def _checked(path: str | os.PathLike[str]) -> Path:
     file = Path(path)
     try:
         if not file.exists():
-            raise FileFormatError(f"file {file} does not exist. Check the name and the folder.")
+            raise FileFormatError(f"file {file} does not exist. Check the name and the folder.", subject=f"file {file}")
         if not file.is_file():
             raise FileFormatError(f"file {file} must be a file with heights, but is a folder or device.")
         with file.open("rb") as stream:
             start = stream.read(4096)
     except OSError as exc:
-        raise FileFormatError(f"file {file} cannot be opened: {exc.strerror}. Check its permissions.") from exc
+        raise FileFormatError(
+            f"file {file} cannot be opened: {exc.strerror}. Check its permissions.", subject=f"file {file}"
+        ) from exc
     if len(start) < 4096 and not start.strip():
         raise FileFormatError(f"file {file} must hold heights, but is empty.")
     return file

@@ -67,35 +67,45 @@ def gridded(points: RealArray) -> tuple[RealArray, None, tuple[float, float]]:
     nx, ny = int(i.max()) + 1, int(j.max()) + 1
     if nx * ny > _SPARSE * len(points):
         raise InputError(
-            f"its three columns are no regular grid of points x y z: {len(points)} of {nx} x {ny} nodes{_MAP}"
+            f"its three columns are no regular grid of points x y z: {len(points)} of {nx} x {ny} nodes{_MAP}",
+            subject=_COLUMNS,
         )
     if len(np.unique(i * ny + j)) < len(points):
-        raise InputError(f"its three columns, taken as points x y z, give several heights at one node{_MAP}")
+        raise InputError(
+            f"its three columns, taken as points x y z, give several heights at one node{_MAP}", subject=_COLUMNS
+        )
     heights = np.full((nx, ny), np.nan)
     heights[i, j] = points[:, 2]
     return heights, None, (dx, dy)
 
 
+_COLUMNS = "points x y z in three columns"
 _MAP = "; resample scattered points first, and save a map of three columns as .npy"
 
 
 def _nodes(coordinates: RealArray, axis: str) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.int64]], float]:
     """Node numbers of ``coordinates`` and their step."""
     if not np.isfinite(coordinates).all():
-        raise InputError(f"its three columns, taken as points x y z, have a coordinate {axis} that is no number{_MAP}")
+        raise InputError(
+            f"its three columns, taken as points x y z, have a coordinate {axis} that is no number{_MAP}",
+            subject=_COLUMNS,
+        )
     places = np.unique(coordinates)
     extent = float(places[-1] - places[0])
     gaps = np.diff(places)
     gaps = gaps[gaps > 1e-6 * extent]
     steps = round(extent / float(np.median(gaps))) if gaps.size else 0
     if steps == 0:
-        raise InputError(f"its three columns, taken as points x y z, have one value of {axis} only{_MAP}")
+        raise InputError(
+            f"its three columns, taken as points x y z, have one value of {axis} only{_MAP}", subject=_COLUMNS
+        )
     step = extent / steps
     numbers = np.rint((coordinates - places[0]) / step)
     if np.abs((coordinates - places[0]) / step - numbers).max() > _OFF_GRID:
         raise InputError(
             f"its three columns, taken as points x y z, are no regular grid: {places.size} values of {axis} from "
-            f"{places[0]:g} to {places[-1]:g}{_MAP}"
+            f"{places[0]:g} to {places[-1]:g}{_MAP}",
+            subject=_COLUMNS,
         )
     return numbers.astype(np.int64), step
 

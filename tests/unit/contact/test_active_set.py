@@ -32,19 +32,20 @@ def posed(shape: tuple[int, int], boundary: Any = None, load: float = 0.05) -> C
 
 
 @pytest.mark.parametrize(
-    ("settings", "message"),
+    ("settings", "subject", "shown"),
     [
-        ({"tolerance": 0.0}, "tolerance of the solver active_set must be greater than 0 and less than 1"),
-        ({"tolerance": 1.0}, "tolerance of the solver active_set"),
-        ({"max_iterations": 0}, "iteration limit of the solver active_set must be a whole number of at least 1"),
+        ({"tolerance": 0.0}, "tolerance of the solver active_set", "0.0"),
+        ({"tolerance": 1.0}, "tolerance of the solver active_set", "1.0"),
+        ({"max_iterations": 0}, "iteration limit of the solver active_set", "0"),
         (
             {"precision": "half"},
-            "precision of the solver active_set must be one of mixed, double, single, but is 'half'",
+            "precision of the solver active_set",
+            "'half'",
         ),
     ],
 )
-def test_bad_settings_are_refused(settings: dict[str, Any], message: str) -> None:
-    with pytest.raises(asp.InputError, match=message):
+def test_bad_settings_are_refused(settings: dict[str, Any], subject: str, shown: str) -> None:
+    with refused(asp.InputError, subject, shown):
         ActiveSet(**settings)
 
 

@@ -214,10 +214,12 @@ def test_a_failed_first_step_leaves_the_given_state() -> None:
 
 
 def test_a_failed_step_raises_with_its_number_and_result() -> None:
-    with pytest.raises(asp.ConvergenceError, match=r"Step 2 of the history: Stagnated above .* Try another") as caught:
+    with refused(asp.ConvergenceError, "Step 2 of the history") as caught:
         asp.solve(problem(), asp.History(pressures(LOADS)), solver=Flaky(at=0.1))
     assert isinstance(caught.value.result, asp.ContactResult)
     assert caught.value.result.control == asp.MeanPressure(0.1)
+    assert caught.value.result.status.outcome == "stagnated"
+    assert caught.value.result.status.remedy in str(caught.value)
 
 
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
@@ -259,16 +261,16 @@ def test_inputs_are_left_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("controls", "message"),
+    ("controls", "subject", "shown"),
     [
-        ([], "must hold at least one control, but hold none"),
-        (asp.MeanPressure(0.1), r"must be a sequence, but are MeanPressure.*Write History\(\[MeanPressure"),
-        (0.1, r"must be a sequence of controls, but are 0\.1"),
-        ([asp.MeanPressure(0.1), 0.2], r"step 2 of a history must be .*, but is 0\.2"),
+        ([], "steps of a history", "none"),
+        (asp.MeanPressure(0.1), "steps of a history", "History([MeanPressure(value=0.1)])"),
+        (0.1, "steps of a history", "0.1"),
+        ([asp.MeanPressure(0.1), 0.2], "step 2 of a history", "0.2"),
     ],
 )
-def test_wrong_controls_are_refused_before_any_step(controls: Any, message: str) -> None:
-    with pytest.raises(asp.InputError, match=message):
+def test_wrong_controls_are_refused_before_any_step(controls: Any, subject: str, shown: str) -> None:
+    with refused(asp.InputError, subject, shown):
         steps(problem(), controls)
 
 

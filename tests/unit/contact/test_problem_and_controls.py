@@ -11,7 +11,7 @@ import asperity as asp
 @pytest.mark.parametrize("control", [asp.MeanPressure, asp.Force, asp.Approach, asp.MeanGap])
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "10 kPa"])
 def test_controls_must_be_positive(control, bad):
-    with pytest.raises(asp.InputError, match=control.name):
+    with refused(asp.InputError, f"{control.name} ({control.unit})", str(bad)):
         control(bad)
 
 
@@ -19,7 +19,8 @@ def test_controls_must_be_positive(control, bad):
     ("modulus", "ratio"), [(0, 0.3), (-1e9, 0.3), (np.nan, 0.3), (1e9, 0.51), (1e9, -1.0), (1e9, 0.7)]
 )
 def test_elastic_constants_have_ranges(modulus, ratio):
-    with pytest.raises(asp.InputError, match=r"Young's modulus|Poisson's ratio"):
+    subject, value = ("Poisson's ratio", ratio) if modulus == 1e9 else ("Young's modulus (Pa)", modulus)
+    with refused(asp.InputError, subject, str(value)):
         asp.Elastic(modulus, ratio)
 
 
@@ -56,7 +57,7 @@ def test_surfaces_must_share_a_grid():
 )
 def test_wrong_types_are_named(field, value):
     arguments = {"surface": rough((4, 4)), "body": elastic(1.0), field: value}
-    with pytest.raises(asp.InputError, match=f"{field} of a ContactProblem must be"):
+    with refused(asp.InputError, f"{field} of a ContactProblem", type(value).__name__):
         asp.ContactProblem(**arguments)
 
 
@@ -78,8 +79,9 @@ def test_position_beyond_full_contact_is_refused():
 def test_unconverged_is_an_exception_that_holds_the_result_or_a_flag():
     problem = asp.ContactProblem(rough((32, 32)), elastic(1.0))
     hasty = asp.solvers.ConjugateGradient(max_iterations=2)
-    with pytest.raises(asp.ConvergenceError, match=r"Iteration limit.*max_iterations") as caught:
+    with pytest.raises(asp.ConvergenceError, match="max_iterations") as caught:
         asp.solve(problem, asp.MeanPressure(0.05), solver=hasty)
+    assert caught.value.result.status.outcome == "iteration limit"
     assert caught.value.result.certificate.iterations == 2
     returned = asp.solve(problem, asp.MeanPressure(0.05), solver=hasty, on_failure="return")
     assert not returned.converged
@@ -138,8 +140,9 @@ def test_a_position_that_no_load_reaches_is_flagged():
     missed = asp.solve(problem, asp.MeanGap(1e-12), on_failure="return")
     assert not missed.converged
     assert "No load reaches the prescribed position" in missed.status.message
-    with pytest.raises(asp.ConvergenceError, match="Prescribe a load"):
+    with pytest.raises(asp.ConvergenceError) as caught:
         asp.solve(problem, asp.MeanGap(1e-12))
+    assert caught.value.result.status == missed.status
 
 
 def test_solver_by_its_name_only_is_refused_with_the_way_out():
@@ -160,7 +163,8 @@ def test_control_of_another_type_is_refused():
 )
 @pytest.mark.parametrize("method", list(asp.solvers.SOLVERS))
 def test_solvers_check_their_settings(method, settings):
-    with pytest.raises(asp.InputError, match=f"solver {method} must be"):
+    subject = "tolerance" if "tolerance" in settings else "iteration limit"
+    with refused(asp.InputError, f"{subject} of the solver {method}", *map(str, settings.values())):
         asp.solvers.SOLVERS[method](**settings)
 
 

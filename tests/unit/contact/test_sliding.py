@@ -145,8 +145,9 @@ def test_a_pressure_that_does_not_settle_is_said_so():
     assert result.status.outcome == "stagnated"
     assert "displacement by shear of the sliding contact still changes by" in result.status.message
     assert result.status.remedy
-    with pytest.raises(asp.ConvergenceError, match="still changes"):
+    with pytest.raises(asp.ConvergenceError) as caught:
         solve_sliding(problem, asp.MeanPressure(1e8), 20.0)
+    assert caught.value.result.status == result.status
 
 
 def test_progress_counts_the_iterations_of_all_rounds():

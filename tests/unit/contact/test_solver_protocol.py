@@ -260,13 +260,13 @@ def test_solvers_are_found_by_name(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "subject"),
     [
-        (("newton",), "solver must be one of active_set, conjugate_gradient, .*lemke"),
-        (("lemke", 0.0), "tolerance of the solver lemke must be greater than 0 and less than 1"),
-        (("lemke", 1e-5, 0), "iteration limit of the solver lemke must be a whole number of at least 1"),
+        (("newton",), "solver"),
+        (("lemke", 0.0), "tolerance of the solver lemke"),
+        (("lemke", 1e-5, 0), "iteration limit of the solver lemke"),
     ],
 )
-def test_bad_settings_are_refused(arguments: tuple[object, ...], message: str) -> None:
-    with pytest.raises(InputError, match=message):
+def test_bad_settings_are_refused(arguments: tuple[object, ...], subject: str) -> None:
+    with refused(InputError, subject):
         solver_by_name(*arguments)

@@ -168,15 +168,15 @@ def test_films_from_humidity():
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("options", "subject"),
     [
-        ({"thickness": 0.0}, "For a dry contact use solve"),
-        ({"thickness": 2e-9, "meniscus_height": 1e-9}, "at least the thickness"),
-        ({"thickness": 1e-9, "contact_angles": (2.0, 2.0)}, "no meniscus forms"),
-        ({"thickness": 1e-9, "surface_tension": -1.0}, "surface tension"),
-        ({"thickness": 1e-9, "viscosity": -1.0}, "viscosity"),
+        ({"thickness": 0.0}, "thickness of a film (m)"),
+        ({"thickness": 2e-9, "meniscus_height": 1e-9}, "meniscus height (m)"),
+        ({"thickness": 1e-9, "contact_angles": (2.0, 2.0)}, "contact angles"),
+        ({"thickness": 1e-9, "surface_tension": -1.0}, "surface tension of a film (N/m)"),
+        ({"thickness": 1e-9, "viscosity": -1.0}, "viscosity (Pa s) of a film"),
     ],
 )
-def test_films_out_of_range_are_refused(options, message):
-    with pytest.raises(InputError, match=message):
+def test_films_out_of_range_are_refused(options, subject):
+    with refused(InputError, subject):
         LiquidFilm(**{"surface_tension": 0.03, **options})

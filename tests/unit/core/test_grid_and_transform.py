@@ -49,19 +49,19 @@ def test_counts_and_spacings_come_back_in_their_type():
 
 
 @pytest.mark.parametrize(
-    ("shape", "spacing"),
+    ("shape", "spacing", "subject", "shown"),
     [
-        ((0, 4), (1, 1)),
-        ((4, 4), (0, 1)),
-        ((4, 4), (1, -1)),
-        ((4.5, 4), (1, 1)),
-        ((4, 4), (np.nan, 1)),
-        (5, (1, 1)),
-        ((4, 4), 1.0),
+        ((0, 4), (1, 1), "number of grid points along x", "0"),
+        ((4, 4), (0, 1), "grid spacing along x (m)", "0"),
+        ((4, 4), (1, -1), "grid spacing along y (m)", "-1"),
+        ((4.5, 4), (1, 1), "number of grid points along x", "4.5"),
+        ((4, 4), (np.nan, 1), "grid spacing along x (m)", "nan"),
+        (5, (1, 1), "grid shape", "5"),
+        ((4, 4), 1.0, "grid spacing", "1.0"),
     ],
 )
-def test_bad_grids(shape, spacing):
-    with pytest.raises(asp.InputError, match="grid"):
+def test_bad_grids(shape, spacing, subject, shown):
+    with refused(asp.InputError, subject, shown):
         asp.Grid(shape, spacing)
 
 

@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
 from asperity import UnitError
 from asperity.core import units
@@ -31,24 +32,23 @@ def test_parse(text, kind, value):
 
 
 @pytest.mark.parametrize(
-    ("text", "kind", "words"),
+    ("text", "kind", "shown"),
     [
-        ("5", "length", "must have a unit"),
-        ("", "length", "number with a unit"),
-        ("nm", "length", "number with a unit"),
-        ("5 kPa", "length", "must be a length"),
-        ("5 nm", "pressure", "must be a pressure"),
-        ("5 bananas", "length", "unknown unit 'bananas'"),
-        ("50mpa", "pressure", "unknown unit 'mpa'; write MPa or mPa."),
-        ("5 nm nm nm)", "length", "unit"),
-        ("1,5 nm", "length", "unit"),
-        ("nan nm", "length", "number with a unit"),
+        ("5", "length", ["5 nm", "'5'"]),
+        ("", "length", ["5 nm", "''"]),
+        ("nm", "length", ["5 nm", "'nm'"]),
+        ("5 kPa", "length", ["length", "'kPa'"]),
+        ("5 nm", "pressure", ["pressure", "'nm'"]),
+        ("5 bananas", "length", ["'bananas'"]),
+        ("50mpa", "pressure", ["'mpa'", "MPa", "mPa"]),
+        ("5 nm nm nm)", "length", ["'nm nm nm)'"]),
+        ("1,5 nm", "length", ["',5 nm'"]),
+        ("nan nm", "length", ["'nan nm'"]),
     ],
 )
-def test_refused_with_the_name_of_the_input(text, kind, words):
-    with pytest.raises(UnitError, match="layer thickness") as caught:
+def test_refused_with_the_name_of_the_input(text, kind, shown):
+    with refused(UnitError, "layer thickness", *shown):
         units.parse(text, kind, "layer thickness")
-    assert words in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -115,15 +115,15 @@ def test_parse_in_any_unit(text, unit, value):
 
 
 @pytest.mark.parametrize(
-    ("text", "unit", "words"),
+    ("text", "unit", "subject", "shown"),
     [
-        ("3", "1/m^2", "x must have a unit, such as \"1 um\\*\\*-2\", but is '3' without one"),
-        ("3 m", "1/m^2", "x must be in a unit such as 1/m\\^2, but its unit is 'm'"),
-        ("3 m", "", "x must be a plain number, but its unit is 'm'"),
-        ("3 foo", "m", "unknown unit 'foo'; use for example m"),
-        ("many", "", "x must be a number, but is 'many'"),
+        ("3", "1/m^2", "x", "um**-2"),
+        ("3 m", "1/m^2", "x", "1/m^2"),
+        ("3 m", "", "x", "'m'"),
+        ("3 foo", "m", "x", "'foo'"),
+        ("many", "", "x", "'many'"),
     ],
 )
-def test_units_of_another_kind_are_refused(text, unit, words):
-    with pytest.raises(UnitError, match=words):
+def test_units_of_another_kind_are_refused(text, unit, subject, shown):
+    with refused(UnitError, subject, shown):
         units.parse_in(text, unit, "x")

@@ -13,11 +13,12 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from refusals import refused
 from study_cases import PROBLEM, plan
 
 import asperity as asp
 from asperity.core import units
-from asperity.core.errors import AsperityError, FileFormatError, InputError, OutputError
+from asperity.core.errors import AsperityError, FileFormatError, InputError, OutputError, UnitError
 from asperity.core.text import LARGEST, printable, read_text
 from asperity.run.build import build
 from asperity.run.document import checked, read_table
@@ -30,7 +31,7 @@ def test_only_units_reach_the_library_of_units() -> None:
     for good in ("nm", "N/m", "Pa*s", "1/m**2", "um**-2", "m^-1", "N/(m*s)", "cm**3/mol", "m**0.5", "µm", "°", "%"):
         assert units._GRAMMAR.fullmatch(good), good
     for bad in ("m*9**9**9**9", "m**99", "9**9", "m**m", "x" * 70, "m;m", "__import__", "m/m/m/m/m/m/m/m", "m\x1b"):
-        with pytest.raises(InputError, match="unknown unit"):
+        with refused(UnitError, "length", repr(bad)):
             units.parse(f"1 {bad}", "length", "length")
 
 
@@ -57,7 +58,7 @@ def test_documents_that_are_none(tmp_path: Path, form: str) -> None:
             with pytest.raises(FileFormatError):
                 read_table(file)
     file.write_bytes(b'a = "\xff"')
-    with pytest.raises(FileFormatError, match="UTF-8"):
+    with refused(FileFormatError, "problem document", "UTF-8"):
         read_table(file)
     for name in ("none", "x" * 300, "a\0b", ".", "/dev/zero"):
         with pytest.raises(FileFormatError):
@@ -66,19 +67,19 @@ def test_documents_that_are_none(tmp_path: Path, form: str) -> None:
             asp.material("steel", library=tmp_path / name)
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / f"pipe.{form}")
-        with pytest.raises(FileFormatError, match="pipe"):
+        with refused(FileFormatError, "document", "pipe"):
             read_text(tmp_path / f"pipe.{form}", "document")
 
 
 def test_grids_and_studies_that_no_machine_holds() -> None:
     surface = {**PROBLEM["surface"], "points": [400_000, 400_000]}  # type: ignore[dict-item]
-    with pytest.raises(InputError, match=r"400000 x 400000 need about .* GiB"):
+    with refused(InputError, "points of the surface", "400000 x 400000"):
         build(checked({**PROBLEM, "surface": surface}))
     axis = {"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa"}
-    with pytest.raises(InputError, match="at most 100000 points"):
+    with refused(InputError, "axis of a study", "100000", "1000000000"):
         plan(axes=[{**axis, "count": 1_000_000_000}])
     many = {"seed": 1, "samples": 8_100_000_000_000, "random": [{"path": "surface.seed", "distribution": "seed"}]}
-    with pytest.raises(InputError, match=r"8.1e\+12 cases"):
+    with refused(InputError, "study", "8.1e+12"):
         plan(monte_carlo=many)
 
 
@@ -112,7 +113,7 @@ def test_results_are_not_followed_elsewhere(tmp_path: Path) -> None:
     def huge(file: Any) -> None:
         file.create_dataset("a", (10**13,), "f8", chunks=(1024,))
 
-    for make, words in (
+    for make, shown in (
         (link, "link"),
         (raw, "another file"),
         (virtual, "another file"),
@@ -123,7 +124,7 @@ def test_results_are_not_followed_elsewhere(tmp_path: Path) -> None:
             file.attrs["asperity_format"] = 2
             make(file)
         for read in (asp.load, asp.open_tree, load_outcome):
-            with pytest.raises(FileFormatError, match=words):
+            with refused(FileFormatError, "result file", shown):
                 read(tmp_path / "r.nc")
 
 

@@ -128,6 +128,7 @@ def test_menisci_of_a_wet_contact_are_drawn_and_dry_ones_refused(result):
 
 
 def test_unknown_figures_are_refused(result, field):
-    for thing in things(result, field):
-        with pytest.raises(asp.InputError, match="must be one of"):
+    subjects = "figure of a surface", "figure of a result", "stress to draw", "stress to draw"
+    for thing, subject in zip(things(result, field), subjects, strict=True):
+        with refused(asp.InputError, subject, "'sound'"):
             thing.plot("sound", Figure().add_subplot())

@@ -227,7 +227,7 @@ def test_existing_files_are_kept_unless_overwritten(elastic: asp.ContactResult, 
     assert (tmp_path / "heights.png").read_text() == "mine"
     plots.save_surface_plot(elastic.problem.surface, tmp_path / "heights.png", overwrite=True)
     assert (tmp_path / "heights.png").read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(OutputError, match="cannot be made"):
+    with refused(OutputError, "folder of the plots"):
         plots.save_plots(elastic, tmp_path / "heights.png" / "deeper")
 
 

@@ -15,26 +15,26 @@ HARD, SOFT, BASE = elastic(400e9, 0.2), elastic(3e9, 0.4), elastic(200e9, 0.3)
 
 
 @pytest.mark.parametrize(
-    ("make", "message"),
+    ("make", "subject", "shown"),
     [
-        (lambda: asp.Layer("DLC", 1e-9), r"material of a layer must be of type Elastic.*material\(\"DLC\"\)"),
-        (lambda: asp.Layer(HARD, -1e-9), r"thickness of a layer \(m\) must be at least zero, but is -1e-09"),
-        (lambda: asp.Layer(HARD, math.nan), r"thickness of a layer \(m\) must be a finite number"),
-        (lambda: asp.Layer(HARD, "5 nm"), r"thickness of a layer \(m\) must be a number, but is '5 nm'"),
-        (lambda: asp.Layer(HARD, 1.0, "bonded"), r"interface of a layer must be Bonded\(\) or Frictionless\(\)"),
-        (lambda: asp.Layered(asp.Layer(HARD, 1.0), BASE), r"a list of Layer, but is a single Layer; write \[layer\]"),
-        (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body must be of type Layer"),
-        (lambda: asp.Layered([], asp.Rigid()), r"base of a Layered body must be .*RigidBase\(\), but is Rigid"),
-        (lambda: asp.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer"),
-        (lambda: asp.graded(HARD, SOFT, 0.0), r"thickness of a graded layer \(m\) must be greater than zero"),
-        (lambda: asp.graded(HARD, SOFT, math.inf), r"thickness of a graded layer \(m\) must be a finite"),
-        (lambda: asp.graded(HARD, SOFT, 1.0, sublayers=0), "number of sublayers of a graded layer"),
-        (lambda: asp.graded(HARD, SOFT, 1.0, grading="linear"), r"grading must be LinearGrading\(\)"),
-        (lambda: asp.PowerGrading(-1.0), "exponent of a graded layer must be greater than zero"),
+        (lambda: asp.Layer("DLC", 1e-9), "material of a layer", "'DLC'"),
+        (lambda: asp.Layer(HARD, -1e-9), "thickness of a layer (m)", "-1e-09"),
+        (lambda: asp.Layer(HARD, math.nan), "thickness of a layer (m)", "nan"),
+        (lambda: asp.Layer(HARD, "5 nm"), "thickness of a layer (m)", "'5 nm'"),
+        (lambda: asp.Layer(HARD, 1.0, "bonded"), "interface of a layer", "'bonded'"),
+        (lambda: asp.Layered(asp.Layer(HARD, 1.0), BASE), "layers of a Layered body", "[layer]"),
+        (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body", "Elastic("),
+        (lambda: asp.Layered([], asp.Rigid()), "base of a Layered body", "Rigid"),
+        (lambda: asp.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer", "'steel'"),
+        (lambda: asp.graded(HARD, SOFT, 0.0), "thickness of a graded layer (m)", "0.0"),
+        (lambda: asp.graded(HARD, SOFT, math.inf), "thickness of a graded layer (m)", "inf"),
+        (lambda: asp.graded(HARD, SOFT, 1.0, sublayers=0), "number of sublayers of a graded layer", "0"),
+        (lambda: asp.graded(HARD, SOFT, 1.0, grading="linear"), "grading", "str"),
+        (lambda: asp.PowerGrading(-1.0), "exponent of a graded layer", "-1.0"),
     ],
 )
-def test_refusals(make, message):
-    with pytest.raises(asp.InputError, match=message):
+def test_refusals(make, subject, shown):
+    with refused(asp.InputError, subject, shown):
         make()
 
 

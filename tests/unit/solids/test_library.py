@@ -188,48 +188,87 @@ GOOD = 'youngs_modulus = "1 GPa"\npoisson_ratio = 0.3\n'
 
 
 @pytest.mark.parametrize(
-    ("text", "error", "message"),
+    ("text", "error", "subject", "shown"),
     [
-        ("[material", FileFormatError, "material file must be valid TOML, but .*own.toml is not"),
-        ("", InputError, r"material file .*own.toml must hold tables \[material.* but has no such table"),
-        ("material = 3", InputError, "must hold tables"),
-        ('[steel]\nE = "1 GPa"', InputError, "must hold tables .* but has the key 'steel'"),
-        ("[material]\nX = 3", InputError, "entry of material 'X' in .*own.toml must be a table .* but is 3"),
-        ("[material.X]\npoisson_ratio = 0.3", InputError, "youngs_modulus of material 'X' in .* must be given"),
-        ('[material.X]\nyoungs_modulus = "1 GPa"', InputError, "poisson_ratio of material 'X' in .* must be given"),
-        ("[material.X]\ndensity = 1\n" + GOOD, InputError, "key of material 'X' .* must be one of .* but is 'density'"),
+        ("[material", FileFormatError, "material file", "TOML"),
+        ("", InputError, "material file {}", "no such table"),
+        ("material = 3", InputError, "material file {}", "no such table"),
+        ('[steel]\nE = "1 GPa"', InputError, "material file {}", "'steel'"),
+        ("[material]\nX = 3", InputError, "entry of material 'X' in {}", "3"),
+        ("[material.X]\npoisson_ratio = 0.3", InputError, "youngs_modulus of material 'X' in {}", "missing"),
+        ('[material.X]\nyoungs_modulus = "1 GPa"', InputError, "poisson_ratio of material 'X' in {}", "missing"),
+        ("[material.X]\ndensity = 1\n" + GOOD, InputError, "key of material 'X' in {}", "'density'"),
         (
             '[material.X]\nyoungs_modulus = "1"\npoisson_ratio = 0.3',
             UnitError,
-            "youngs_modulus of material 'X' .* unit",
+            "youngs_modulus of material 'X' in {}",
+            "'1'",
         ),
-        ("[material.X]\nyoungs_modulus = 1e9\npoisson_ratio = 0.3", UnitError, "youngs_modulus .* must have a unit"),
-        ('[material.X]\nyoungs_modulus = "1 nm"\npoisson_ratio = 0.3', UnitError, "must be a pressure"),
-        ('[material.X]\nyoungs_modulus = "-1 Pa"\npoisson_ratio = 0.3', InputError, "greater than zero"),
-        ('[material.X]\nhardness = "0 Pa"\n' + GOOD, InputError, "hardness of material 'X' .* greater than zero"),
+        (
+            "[material.X]\nyoungs_modulus = 1e9\npoisson_ratio = 0.3",
+            UnitError,
+            "youngs_modulus of material 'X' in {}",
+            "'1000000000.0'",
+        ),
+        (
+            '[material.X]\nyoungs_modulus = "1 nm"\npoisson_ratio = 0.3',
+            UnitError,
+            "youngs_modulus of material 'X' in {}",
+            "'nm'",
+        ),
+        (
+            '[material.X]\nyoungs_modulus = "-1 Pa"\npoisson_ratio = 0.3',
+            InputError,
+            "youngs_modulus of material 'X' in {} (Pa)",
+            "-1.0",
+        ),
+        ('[material.X]\nhardness = "0 Pa"\n' + GOOD, InputError, "hardness of material 'X' in {} (Pa)", "0.0"),
         (
             '[material.X]\nyoungs_modulus = "1 Pa"\npoisson_ratio = 0.51',
             InputError,
-            "poisson_ratio .* at most 0.5.*incompressible",
+            "poisson_ratio of material 'X' in {}",
+            "0.51",
         ),
-        ('[material.X]\nyoungs_modulus = "1 Pa"\npoisson_ratio = "a"', InputError, "poisson_ratio .* a number"),
-        ('[material.X]\naliases = "Y"\n' + GOOD, InputError, "aliases of material 'X' .* list of names"),
-        ("[material.X]\nnote = 1\n" + GOOD, InputError, "note of material 'X' .* must be text"),
+        (
+            '[material.X]\nyoungs_modulus = "1 Pa"\npoisson_ratio = "a"',
+            UnitError,
+            "poisson_ratio of material 'X' in {}",
+            "'a'",
+        ),
+        ('[material.X]\naliases = "Y"\n' + GOOD, InputError, "aliases of material 'X' in {}", "'Y'"),
+        ("[material.X]\nnote = 1\n" + GOOD, InputError, "note of material 'X' in {}", "1"),
         (
             '[material.X]\nhardness = { source = "a" }\n' + GOOD,
             InputError,
-            "hardness .* must have a value .* keys source",
+            "hardness of material 'X' in {}",
+            "keys source",
         ),
-        ('[material.X]\nhardness = { value = "1 Pa", by = "a" }\n' + GOOD, InputError, "hardness .* keys value, by"),
-        ('[material.X]\nhardness = { value = "1 Pa", source = 1 }\n' + GOOD, InputError, "source of hardness .* text"),
-        (f'[material.X]\naliases = ["y"]\n{GOOD}[material.Y]\n{GOOD}', InputError, "distinct, but 'y' belongs to both"),
+        (
+            '[material.X]\nhardness = { value = "1 Pa", by = "a" }\n' + GOOD,
+            InputError,
+            "hardness of material 'X' in {}",
+            "keys value, by",
+        ),
+        (
+            '[material.X]\nhardness = { value = "1 Pa", source = 1 }\n' + GOOD,
+            InputError,
+            "source of hardness of material 'X' in {}",
+            "1",
+        ),
+        (
+            f'[material.X]\naliases = ["y"]\n{GOOD}[material.Y]\n{GOOD}',
+            InputError,
+            "names and aliases in material file {}",
+            "'y' belongs to both 'X' and 'Y'",
+        ),
     ],
 )
 def test_faulty_own_file_is_refused_in_one_sentence(
-    tmp_path: Path, text: str, error: type[Exception], message: str
+    tmp_path: Path, text: str, error: type[InputError], subject: str, shown: str
 ) -> None:
-    with pytest.raises(error, match=message):
-        materials(own_file(tmp_path, text))
+    file = own_file(tmp_path, text)
+    with refused(error, subject.format(file), shown):
+        materials(file)
 
 
 def test_missing_unreadable_and_binary_files_are_refused(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import importlib
 import numpy as np
 import pytest
 from contact_cases import wetted
+from refusals import refused
 from study_cases import InProcess, plan
 
 import asperity as asp
@@ -93,5 +94,5 @@ def test_a_force_that_runs_away_is_a_record_with_its_reason(tmp_path):
 
 def test_menisci_need_a_film():
     dry = {key: value for key, value in WET.items() if key != "film"}
-    with pytest.raises(asp.InputError, match=r"needs the table \[film\]"):
+    with refused(asp.InputError, "quantity meniscus_force", "[film]"):
         plan(problem=dry, axes=[{"path": "control.mean_pressure", "values": ["1 MPa"]}], quantities=["meniscus_force"])

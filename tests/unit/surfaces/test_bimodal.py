@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from ensemble import average, require_accepted, rows
+from refusals import refused
 from scipy.special import ndtr
 from scipy.stats import norm
 
@@ -129,17 +130,29 @@ def test_seeds_reproduce_and_streams_are_independent(keep):
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: two_process(GRID, FINE, COARSE, offset=np.nan, seed=1), "offset"),
-        (lambda: two_process(GRID, FINE, COARSE, offset=0.0, seed=1, keep="both"), "keep of two_process"),
-        (lambda: bimodal(GRID, FINE, COARSE, share=1.0, separation=1.0, patches=FINE, seed=1), "share"),
-        (lambda: particles(GRID, FINE, density=1e5, radius=1.0, seed=1), "at most"),
-        (lambda: particles(GRID, FINE, density=1e-3, radius=1.0, radius_deviation=-1.0, seed=1), "deviation"),
-        (lambda: particles(GRID, FINE, density=1e-2, radius=70.0, seed=1), "fit into the grid"),
-        (lambda: particles(GRID, FINE, density=1e-3, radius=7.0, exposure=2.5, seed=1), "exposure"),
+        (lambda: two_process(GRID, FINE, COARSE, offset=np.nan, seed=1), "offset (m) of two_process()", "nan"),
+        (lambda: two_process(GRID, FINE, COARSE, offset=0.0, seed=1, keep="both"), "keep of two_process()", "'both'"),
+        (
+            lambda: bimodal(GRID, FINE, COARSE, share=1.0, separation=1.0, patches=FINE, seed=1),
+            "share of bimodal()",
+            "1.0",
+        ),
+        (lambda: particles(GRID, FINE, density=1e5, radius=1.0, seed=1), "particles", "1.64e+09"),
+        (
+            lambda: particles(GRID, FINE, density=1e-3, radius=1.0, radius_deviation=-1.0, seed=1),
+            "radius_deviation (m) of particles()",
+            "-1.0",
+        ),
+        (lambda: particles(GRID, FINE, density=1e-2, radius=70.0, seed=1), "particles", "70 m"),
+        (
+            lambda: particles(GRID, FINE, density=1e-3, radius=7.0, exposure=2.5, seed=1),
+            "exposure of particles()",
+            "2.5",
+        ),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -151,16 +152,16 @@ ONE = Surface(np.zeros((20, 20)), 1.0)
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: on_common_grid(ONE, ONE, shift=(25.0, 0.0)), "overlap by at least two pixels"),
-        (lambda: on_common_grid(ONE, ONE, shift=(18.5, 0.0)), "overlap by at least two pixels"),
-        (lambda: on_common_grid(ONE, ONE, spacing=(2.0, 1.0)), "not be coarser"),
-        (lambda: on_common_grid(ONE, ONE, spacing=(0.5, -1.0)), "along y"),
-        (lambda: on_common_grid(ONE, ONE, angle=np.nan), "angle"),
-        (lambda: on_common_grid(ONE, ONE, mirrored="z"), "mirror"),
+        (lambda: on_common_grid(ONE, ONE, shift=(25.0, 0.0)), "surfaces", "0 m"),
+        (lambda: on_common_grid(ONE, ONE, shift=(18.5, 0.0)), "surfaces", "1.5 m"),
+        (lambda: on_common_grid(ONE, ONE, spacing=(2.0, 1.0)), "pixel of the common grid along x", "2 m"),
+        (lambda: on_common_grid(ONE, ONE, spacing=(0.5, -1.0)), "pixel of the common grid along y (m)", "-1.0"),
+        (lambda: on_common_grid(ONE, ONE, angle=np.nan), "angle of the counter surface (rad)", "nan"),
+        (lambda: on_common_grid(ONE, ONE, mirrored="z"), "mirror of the counter surface", "'z'"),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()

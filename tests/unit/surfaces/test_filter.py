@@ -8,6 +8,7 @@ from ensemble import average, require_accepted, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_data import FOLDER, every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -220,21 +221,21 @@ def test_white_noise_is_reduced_as_the_standard_implies():
 
 
 @pytest.mark.parametrize(
-    ("choice", "words"),
+    ("choice", "subject", "shown"),
     [
-        ({}, "neither"),
-        ({"short": 3.0}, "at least 4 pixels"),
-        ({"short": 1e3}, "at most 1 times the longer side"),
-        ({"long": 1e3}, "at most 10 times the longer side"),
-        ({"short": (8.0, 5.0)}, "along y"),
-        ({"short": 20.0, "long": 10.0}, "below the long one"),
-        ({"short": -1.0}, "greater than zero"),
-        ({"short": 10.0, "kind": "spline"}, "kind of filter"),
-        ({"short": 10.0, "order": 3}, "order of a filter"),
-        ({"short": 10.0, "reach": 0.0}, "reach"),
-        ({"short": 10.0, "kind": "sharp"}, "must be periodic"),
+        ({}, "cut-off of a filter", "neither"),
+        ({"short": 3.0}, "short cut-off of a filter", "3 m"),
+        ({"short": 1e3}, "short cut-off of a filter", "1 km"),
+        ({"long": 1e3}, "long cut-off of a filter", "1 km"),
+        ({"short": (8.0, 5.0)}, "short cut-off of a filter", "5 m"),
+        ({"short": 20.0, "long": 10.0}, "short cut-off of a filter", "20.0"),
+        ({"short": -1.0}, "short cut-off of a filter (m)", "-1.0"),
+        ({"short": 10.0, "kind": "spline"}, "kind of filter", "'spline'"),
+        ({"short": 10.0, "order": 3}, "order of a filter", "3"),
+        ({"short": 10.0, "reach": 0.0}, "reach of a filter (cut-offs)", "0.0"),
+        ({"short": 10.0, "kind": "sharp"}, "surface", "gaussian"),
     ],
 )
-def test_refusals(choice, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(choice, subject, shown):
+    with refused(InputError, subject, shown):
         filtered(Surface(np.random.default_rng(1).standard_normal((32, 32)), 1.0, 1.5), **choice)

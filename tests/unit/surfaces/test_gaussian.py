@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from ensemble import periodic_statistics
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -167,24 +168,36 @@ def test_exact_rms_rescales_one_realisation(case):
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: _self_affine(1e-9), "RmsHeight"),
-        (lambda: _self_affine(RmsHeight(1e-9), hurst=1.2), "hurst"),
-        (lambda: _self_affine(RmsHeight(1e-9), hurst=0.0), "hurst"),
-        (lambda: _self_affine(RmsHeight(1e-9), shortest_wavelength=3e-6), "shortest <= roll-off <= longest"),
-        (lambda: _self_affine(RmsHeight(1e-9), longest_wavelength=1e-6), "shortest <= roll-off <= longest"),
-        (lambda: RmsHeight(0.0), "RmsHeight"),
-        (lambda: RmsSlope(-1.0), "RmsSlope"),
-        (lambda: PlateauPSD(np.nan), "PlateauPSD"),
-        (lambda: ExponentialAutocorrelation(1.0, 1.0, drop=1.0), "drop"),
-        (lambda: _self_affine(RmsHeight(1e-9)).lattice_psd(Grid((32, 32), (2e-7, 1e-7))), "two pixels"),
-        (lambda: _self_affine(RmsHeight(1e-9)).lattice_psd(Grid((1, 1), (1e-8, 1e-8))), "Enlarge the grid"),
-        (lambda: ExponentialAutocorrelation(1.0, 1.0).lattice_psd(Grid((32, 32), (0.05, 0.05))), "Enlarge the grid"),
-        (lambda: gaussian(*CASES["G1"], seed=-1), "seed"),
-        (lambda: gaussian(*CASES["G1"], seed=1.5), "seed"),
+        (lambda: _self_affine(1e-9), "amplitude of a self-affine spectrum", "1e-09"),
+        (lambda: _self_affine(RmsHeight(1e-9), hurst=1.2), "hurst of SelfAffine", "1.2"),
+        (lambda: _self_affine(RmsHeight(1e-9), hurst=0.0), "hurst of SelfAffine", "0.0"),
+        (
+            lambda: _self_affine(RmsHeight(1e-9), shortest_wavelength=3e-6),
+            "wavelengths of a self-affine spectrum",
+            "3e-06, 2e-06, inf",
+        ),
+        (
+            lambda: _self_affine(RmsHeight(1e-9), longest_wavelength=1e-6),
+            "wavelengths of a self-affine spectrum",
+            "2e-07, 2e-06, 1e-06",
+        ),
+        (lambda: RmsHeight(0.0), "value (m) of RmsHeight", "0.0"),
+        (lambda: RmsSlope(-1.0), "value of RmsSlope", "-1.0"),
+        (lambda: PlateauPSD(np.nan), "value (m^4) of PlateauPSD", "nan"),
+        (lambda: ExponentialAutocorrelation(1.0, 1.0, drop=1.0), "drop of ExponentialAutocorrelation", "1.0"),
+        (
+            lambda: _self_affine(RmsHeight(1e-9)).lattice_psd(Grid((32, 32), (2e-7, 1e-7))),
+            "shortest wavelength",
+            "2e-07",
+        ),
+        (lambda: _self_affine(RmsHeight(1e-9)).lattice_psd(Grid((1, 1), (1e-8, 1e-8))), "grid", "1e-08"),
+        (lambda: ExponentialAutocorrelation(1.0, 1.0).lattice_psd(Grid((32, 32), (0.05, 0.05))), "grid size", "1.6"),
+        (lambda: gaussian(*CASES["G1"], seed=-1), "seed of gaussian()", "-1"),
+        (lambda: gaussian(*CASES["G1"], seed=1.5), "seed of gaussian()", "1.5"),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()

@@ -360,16 +360,16 @@ def test_surfaces_are_equal_to_the_bit_for_any_number_of_threads():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: gold(amplitude=3.0), "two-slope spectrum must be an RmsHeight"),
-        (lambda: replace(gold(), exponents=(1.0,)), "2 values"),
-        (lambda: replace(gold(), exponents=(1.0, -2.0)), "exponents of TwoSlopes"),
-        (lambda: replace(gold(), crossover_wavelength=95.0), "crossover <= roll-off"),
-        (lambda: replace(gold(), shortest_wavelength=-1.0), "at least zero"),
-        (lambda: replace(gold(), exponents=(3.0, 3.0), amplitude=RmsSlope(1.0)).psd(1.0), "finite"),
-        (lambda: gold(shortest=5.0).lattice_psd(GOLD), "two pixels"),
-        (lambda: gaussian(GOLD, gold(), seed=1, variant="other"), "variant"),
+        (lambda: gold(amplitude=3.0), "amplitude of a two-slope spectrum", "3.0"),
+        (lambda: replace(gold(), exponents=(1.0,)), "exponents of TwoSlopes", "(1.0,)"),
+        (lambda: replace(gold(), exponents=(1.0, -2.0)), "exponents of TwoSlopes", "-2.0"),
+        (lambda: replace(gold(), crossover_wavelength=95.0), "wavelengths of a two-slope spectrum", "95"),
+        (lambda: replace(gold(), shortest_wavelength=-1.0), "shortest_wavelength (m) of TwoSlopes", "-1.0"),
+        (lambda: replace(gold(), exponents=(3.0, 3.0), amplitude=RmsSlope(1.0)).psd(1.0), "shortest wavelength", "0"),
+        (lambda: gold(shortest=5.0).lattice_psd(GOLD), "shortest wavelength", "5 m"),
+        (lambda: gaussian(GOLD, gold(), seed=1, variant="other"), "variant of gaussian()", "'other'"),
         (
             lambda: gaussian(
                 Grid((16, 16), (1e-9, 1e-9)),
@@ -377,12 +377,13 @@ def test_surfaces_are_equal_to_the_bit_for_any_number_of_threads():
                 seed=1,
                 periodic=False,
             ),
-            "much smaller than the longest waves",
+            "grid of a window",
+            "1.6e-08",
         ),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -141,19 +142,27 @@ def test_origin_names_the_measured_surface():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: TabulatedSpectrum([1.0], [1.0]), "two columns"),
-        (lambda: TabulatedSpectrum([1.0, 2.0], [1.0, 2.0, 3.0]), "two columns"),
-        (lambda: TabulatedSpectrum([2.0, 1.0], [1.0, 2.0]), "ascending"),
-        (lambda: TabulatedSpectrum([0.0, 1.0], [1.0, 2.0]), "positive and ascending"),
-        (lambda: TabulatedSpectrum([1.0, 2.0], [0.0, 0.0]), "positive somewhere"),
-        (lambda: TabulatedSpectrum([1.0, 2.0], [-1.0, 1.0]), "not be negative"),
-        (lambda: spectrum_of(flat(Grid((8, 8), (1.0, 1.0)))), "rough"),
-        (lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=1e9), "rough beyond"),
-        (lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=-1.0), "at least zero"),
+        (lambda: TabulatedSpectrum([1.0], [1.0]), "table of a spectrum", "(1,)"),
+        (lambda: TabulatedSpectrum([1.0, 2.0], [1.0, 2.0, 3.0]), "table of a spectrum", "(3,)"),
+        (lambda: TabulatedSpectrum([2.0, 1.0], [1.0, 2.0]), "wavenumbers of a spectrum (rad/m)", "ascending"),
+        (lambda: TabulatedSpectrum([0.0, 1.0], [1.0, 2.0]), "wavenumbers of a spectrum (rad/m)", "ascending"),
+        (lambda: TabulatedSpectrum([1.0, 2.0], [0.0, 0.0]), "spectrum C (m^4) of a table", "positive"),
+        (lambda: TabulatedSpectrum([1.0, 2.0], [-1.0, 1.0]), "spectrum C (m^4) of a table", "negative"),
+        (lambda: spectrum_of(flat(Grid((8, 8), (1.0, 1.0)))), "surface whose spectrum is to be generated", "0 m^4"),
+        (
+            lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=1e9),
+            "surface whose spectrum is to be generated",
+            "1e+09 m^4",
+        ),
+        (
+            lambda: spectrum_of(gaussian(Grid((64, 64), (1.0, 1.0)), BAND, seed=1), floor=-1.0),
+            "floor (m^4) of spectrum_of()",
+            "-1.0",
+        ),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()

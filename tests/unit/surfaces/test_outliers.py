@@ -227,15 +227,15 @@ def test_blunt_tip_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "subject", "shown"),
     [
-        (lambda: despiked(rough(), 0.0), "threshold"),
-        (lambda: despiked(rough(), window=4), "odd"),
-        (lambda: despiked(rough(), window=1), "window"),
-        (lambda: line_corrected(rough(), "z"), "axis of line_corrected"),
-        (lambda: tip_limited(rough(), -1.0), "radius .m. of tip_limited"),
+        (lambda: despiked(rough(), 0.0), "threshold of despiked()", "0.0"),
+        (lambda: despiked(rough(), window=4), "window of despiked()", "4"),
+        (lambda: despiked(rough(), window=1), "window of despiked()", "1"),
+        (lambda: line_corrected(rough(), "z"), "axis of line_corrected()", "'z'"),
+        (lambda: tip_limited(rough(), -1.0), "radius (m) of tip_limited()", "-1.0"),
     ],
 )
-def test_refusals(make, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(make, subject, shown):
+    with refused(InputError, subject, shown):
         make()

@@ -80,7 +80,7 @@ def test_list_of_points(tmp_path, name, header, mark, comma):
     expected[1, 1] = np.nan
     np.testing.assert_allclose(surface.heights, expected)
     for given in ({}, {"size": SIZE}, {"size": SIZE, "height_unit": "nm"}):
-        with pytest.raises(FileFormatError, match=r"3 x 4 nodes.*--lateral-unit"):
+        with refused(FileFormatError, f"lateral unit of file {tmp_path / name}", "3 x 4", "--lateral-unit"):
             read(tmp_path / name, **given)
 
 
@@ -89,7 +89,7 @@ def test_list_of_points(tmp_path, name, header, mark, comma):
 )
 def test_three_columns_that_are_no_grid_are_refused(tmp_path, points):
     (tmp_path / "a.txt").write_text("\n".join(" ".join(map(str, point)) for point in points))
-    with pytest.raises(FileFormatError, match="three columns"):
+    with refused(FileFormatError, "points x y z in three columns"):
         read(tmp_path / "a.txt", size=SIZE, height_unit="nm")
 
 
@@ -102,7 +102,7 @@ def test_matrix_with_decimal_commas_and_column_names(tmp_path, header, mark):
 
 def test_one_length_is_no_size_of_a_map_with_unequal_sides(tmp_path):
     np.save(tmp_path / "a.npy", EXPECTED)
-    with pytest.raises(FileFormatError, match=r"pixels would be 250 nm x 333.3 nm.*1um x 750 nm"):
+    with refused(FileFormatError, f"size of file {tmp_path / 'a.npy'}", "250 nm x 333.3 nm", "1um x 750 nm"):
         read(tmp_path / "a.npy", size=Lengths().read("1um", "--size"), height_unit="nm")
     surface = read(tmp_path / "a.npy", size=Lengths().read("1um x 1um", "--size"), height_unit="nm")
     assert "pixels of 250 nm x 333.3 nm" in surface.origin.history[0]
@@ -110,7 +110,7 @@ def test_one_length_is_no_size_of_a_map_with_unequal_sides(tmp_path):
 
 def test_picture_of_huge_size_is_refused_before_it_is_unpacked(tmp_path):
     Image.new("L", (13_000, 13_000)).save(tmp_path / "a.png")
-    with pytest.raises(FileFormatError, match="13000 x 13000 pixels"):
+    with refused(FileFormatError, "pixels of the picture", "13000 x 13000"):
         read(tmp_path / "a.png", size=SIZE, z_scale=1e-7)
 
 
@@ -149,40 +149,40 @@ def test_channels_of_a_plain_file(tmp_path):
     assert info.shape == (4, 3)
     assert info.size is None
     assert info.default
-    with pytest.raises(FileFormatError, match="channel of file"):
+    with refused(FileFormatError, f"channel of file {path}", "'Phase'"):
         read(path, channel="Phase", size=SIZE, height_unit="nm")
 
 
 @pytest.mark.parametrize(
-    ("name", "options", "words"),
+    ("name", "options", "subject", "shown"),
     [
-        ("a.txt", {}, "--size"),
-        ("a.txt", {"size": SIZE}, "--height-unit"),
-        ("a.txt", {"size": (1e-6, 0.0), "height_unit": "nm"}, "two positive lengths"),
-        ("a.txt", {"size": 1e-6, "height_unit": "nm"}, "two positive lengths"),
-        ("a.txt", {"size": SIZE, "height_unit": "nm", "z_scale": 1.0}, "--z-scale"),
-        ("a.png", {"size": SIZE}, "--z-scale"),
-        ("a.png", {"z_scale": 1e-9}, "--size"),
-        ("a.png", {"size": SIZE, "height_unit": "nm"}, "--z-scale"),
-        ("colour.png", {"size": SIZE, "z_scale": 1e-9}, "colour"),
-        ("empty.txt", {}, "is empty"),
-        ("blank.txt", {}, "is empty"),
-        ("ragged.txt", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
-        ("words.txt", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
-        ("line.txt", {"size": SIZE, "height_unit": "nm"}, "2 x 2"),
-        ("gone.txt", {}, "does not exist"),
-        ("folder", {}, "folder"),
-        ("broken.png", {"size": SIZE, "z_scale": 1e-9}, "cannot be read"),
-        ("broken.npy", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
-        ("cube.npy", {"size": SIZE, "height_unit": "nm"}, "two-dimensional"),
-        ("object.npy", {"size": SIZE, "height_unit": "nm"}, "cannot be read"),
-        ("nothing.txt", {"size": SIZE, "height_unit": "nm"}, "valid point"),
-        ("noise.xyz1", {}, "unknown format"),
+        ("a.txt", {}, "size of file {}", "--size"),
+        ("a.txt", {"size": SIZE}, "height unit of file {}", "--height-unit"),
+        ("a.txt", {"size": (1e-6, 0.0), "height_unit": "nm"}, "size of file {}", "(1e-06, 0.0)"),
+        ("a.txt", {"size": 1e-6, "height_unit": "nm"}, "size of file {}", "but is 1e-06"),
+        ("a.txt", {"size": SIZE, "height_unit": "nm", "z_scale": 1.0}, "z_scale of file {}", "--z-scale"),
+        ("a.png", {"size": SIZE}, "z_scale of file {}", "--z-scale"),
+        ("a.png", {"z_scale": 1e-9}, "size of file {}", "--size"),
+        ("a.png", {"size": SIZE, "height_unit": "nm"}, "z_scale of file {}", "--z-scale"),
+        ("colour.png", {"size": SIZE, "z_scale": 1e-9}, "colours of the picture", "grey"),
+        ("empty.txt", {}, "file {}", "empty"),
+        ("blank.txt", {}, "file {}", "empty"),
+        ("ragged.txt", {"size": SIZE, "height_unit": "nm"}, "file {}", "row 2"),
+        ("words.txt", {"size": SIZE, "height_unit": "nm"}, "file {}", "text matrix"),
+        ("line.txt", {"size": SIZE, "height_unit": "nm"}, "file {}", "2 x 2"),
+        ("gone.txt", {}, "file {}", "exist"),
+        ("folder", {}, "file {}", "folder or device"),
+        ("broken.png", {"size": SIZE, "z_scale": 1e-9}, "file {}", "map of heights"),
+        ("broken.npy", {"size": SIZE, "height_unit": "nm"}, "file {}", "map of heights"),
+        ("cube.npy", {"size": SIZE, "height_unit": "nm"}, "content of file {}", "two-dimensional"),
+        ("object.npy", {"size": SIZE, "height_unit": "nm"}, "file {}", "allow_pickle"),
+        ("nothing.txt", {"size": SIZE, "height_unit": "nm"}, "surface heights", "every p"),
+        ("noise.xyz1", {}, "file {}", "unknown format"),
     ],
 )
-def test_refusals_are_one_sentence_with_the_remedy(tmp_path, name, options, words):
+def test_refusals_are_one_sentence_with_the_remedy(tmp_path, name, options, subject, shown):
     _write_bad_files(tmp_path)
-    with pytest.raises(FileFormatError, match=words) as caught:
+    with refused(FileFormatError, subject.format(tmp_path / name), shown) as caught:
         read(tmp_path / name, **options)
     assert name in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -202,7 +202,7 @@ def test_unreadable_file(tmp_path, monkeypatch):
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(Path, "open", refuse)  # file modes do not bind a privileged user
-    with pytest.raises(FileFormatError, match="Permission denied"):
+    with refused(FileFormatError, f"file {path}", "Permission denied"):
         read(path)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from ensemble import average, require_accepted, rows
 from reference_data import every_row, reference
+from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
@@ -113,27 +114,31 @@ def test_profile_is_the_same_for_all_y_and_reproducible():
 
 
 @pytest.mark.parametrize(
-    ("change", "words"),
+    ("change", "subject", "shown"),
     [
-        ({"dimension": 2.0}, "dimension"),
-        ({"dimension": 3.0}, "dimension"),
-        ({"roughness": 0.0}, "roughness"),
-        ({"gamma": 1.0}, "greater than 1"),
-        ({"gamma": 1.000001}, "between 1 and 100000"),
-        ({"ridges": 0}, "ridges"),
-        ({"shortest_wavelength": 20.0}, "not be longer"),
-        ({"length": -1.0}, "length"),
-        ({"seed": -1}, "seed"),
+        ({"dimension": 2.0}, "dimension of weierstrass_mandelbrot()", "2.0"),
+        ({"dimension": 3.0}, "dimension of weierstrass_mandelbrot()", "3.0"),
+        ({"roughness": 0.0}, "roughness (m) of weierstrass_mandelbrot()", "0.0"),
+        ({"gamma": 1.0}, "gamma of weierstrass_mandelbrot()", "1.0"),
+        ({"gamma": 1.000001}, "waves of a Weierstrass-Mandelbrot function", "13862960"),
+        ({"ridges": 0}, "ridges of weierstrass_mandelbrot()", "0"),
+        ({"shortest_wavelength": 20.0}, "shortest wave", "20 m"),
+        ({"length": -1.0}, "length (m) of weierstrass_mandelbrot()", "-1.0"),
+        ({"seed": -1}, "seed of weierstrass_mandelbrot()", "-1"),
     ],
 )
-def test_refusals(change, words):
-    with pytest.raises(InputError, match=words):
+def test_refusals(change, subject, shown):
+    with refused(InputError, subject, shown):
         weierstrass_mandelbrot(Grid((8, 8), (1.0, 1.0)), **{"dimension": 2.5, "roughness": 1.0, "seed": 1, **change})
 
 
 @pytest.mark.parametrize(
-    ("change", "words"), [({"dimension": 2.0}, "dimension"), ({"shortest_wavelength": 1e3}, "between 1")]
+    ("change", "subject"),
+    [
+        ({"dimension": 2.0}, "dimension of weierstrass_mandelbrot_profile()"),
+        ({"shortest_wavelength": 1e3}, "waves of a Weierstrass-Mandelbrot function"),
+    ],
 )
-def test_profile_refusals(change, words):
-    with pytest.raises(InputError, match=words):
+def test_profile_refusals(change, subject):
+    with refused(InputError, subject):
         weierstrass_mandelbrot_profile(Grid((8, 1), (1.0, 1.0)), **{"dimension": 1.5, "roughness": 1.0, **change})

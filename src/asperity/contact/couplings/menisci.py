@@ -177,7 +177,7 @@ class MeniscusCoupling(Coupling):
         if external is None:
             return replace(exchange, x=np.asarray(latest), target=np.asarray(latest), residual=0.0, note=note)
         if found.regime == "flooded" and note.was_open:
-            raise NoSolutionError(f"{self._runaway(external, note)} {_FULL}")
+            raise NoSolutionError(f"{self._runaway(external, note)} {_FULL}", subject="meniscus force")
         reference = external or max(latest, x) or 1.0
         step = latest - x
         note = replace(note, direction=note.direction or math.copysign(1.0, step) if step else note.direction)
@@ -197,7 +197,8 @@ class MeniscusCoupling(Coupling):
         if note.rounds == 0 or not float(exchange.x) > 0.0:
             return None
         force = replace(note, force=float(exchange.x))
-        return NoSolutionError(f"{self._runaway(note.external, force)} The contact bears no more: {error}")
+        words = f"{self._runaway(note.external, force)} The contact bears no more: {error}"
+        return NoSolutionError(words, subject=f"{error.subject} with the menisci")
 
     def settled(self, exchange: Exchange) -> str:
         """That the force is steady, and how the liquid stands."""

@@ -432,7 +432,8 @@ def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[R
     if negative > CLIP_LIMIT:
         raise InputError(
             "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis needs: its spectrum "
-            f"would be negative by {negative:.2g} of the whole. Use rank_ordered(), or predistorted=False."
+            f"would be negative by {negative:.2g} of the whole. Use rank_ordered(), or predistorted=False.",
+            subject="autocorrelation of the Gaussian field",
         )
     return np.maximum(values, 0.0), negative
 

@@ -213,7 +213,10 @@ def _not_solved(system: CrestSystem, w: RealArray) -> InputError | ConvergenceEr
             f"contact radii must stay below {TWO_TERMS:.3f} wavelengths, where the two terms of the sine end, but a crest "
             "is pressed deeper. Lower the pressure or the approach."
         )
-    return ConvergenceError(f"interacting crests did not converge in {_STEPS} steps; the crests may be too close.")
+    return ConvergenceError(
+        f"interacting crests did not converge in {_STEPS} steps; the crests may be too close.",
+        subject="interacting crests",
+    )
 
 
 def settled(
