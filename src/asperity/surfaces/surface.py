@@ -132,3 +132,18 @@ class Surface(Drawn):
         NaN marks a missing point; the periodic flag stays.
         """
         return Surface(heights, self.dx, self.dy, periodic=self.periodic, origin=self.origin.continued(step))
+
+
+def generated(
+    grid: Grid,
+    heights: RealArray,
+    source: str,
+    how: str,
+    *,
+    periodic: bool = True,
+    citation_keys: tuple[str, ...] = (),
+) -> Surface:
+    """Surface that the generator ``source`` made; ``how``, in words and numbers, begins its history."""
+    keys = tuple(dict.fromkeys(citation_keys))
+    origin = Origin(source, history=(f"generated: {how}",), citation_keys=keys)
+    return Surface(heights, *grid.spacing, periodic=periodic, origin=origin)

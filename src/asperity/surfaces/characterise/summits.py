@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
 import numpy as np
@@ -93,17 +93,17 @@ class SummitStatistics:
     smallest principal curvature is not positive; ``bandwidth`` = density × radius × deviation of heights (η R σ_s).
     """
 
-    count: int
-    density: float
-    mean_height: float
-    height_deviation: float
-    mean_curvature: float
-    curvature_deviation: float
-    mean_geometric_curvature: float
-    radius: float
-    mean_radius: float
-    saddles: int
-    bandwidth: float
+    count: int = 0
+    density: float = math.nan
+    mean_height: float = math.nan
+    height_deviation: float = math.nan
+    mean_curvature: float = math.nan
+    curvature_deviation: float = math.nan
+    mean_geometric_curvature: float = math.nan
+    radius: float = math.nan
+    mean_radius: float = math.nan
+    saddles: int = 0
+    bandwidth: float = math.nan
 
 
 def summits(surface: Surface, neighbours: int = 8) -> Summits:
@@ -136,7 +136,7 @@ def summits(surface: Surface, neighbours: int = 8) -> Summits:
 def summit_statistics(found: Summits) -> SummitStatistics:
     """Averages of the summits ``found``."""
     if found.count == 0:
-        return _NO_SUMMITS if math.isnan(found.density) else replace(_NO_SUMMITS, density=0.0)
+        return SummitStatistics(density=found.density)
     curvature, geometric = found.curvature, found.geometric_curvature
     mean_curvature, height_deviation = float(curvature.mean()), float(found.height.std())
     valid = geometric[~np.isnan(geometric)]
@@ -153,21 +153,6 @@ def summit_statistics(found: Summits) -> SummitStatistics:
         saddles=int(np.count_nonzero(found.principal_curvatures[1] <= 0.0)),
         bandwidth=found.density * height_deviation / mean_curvature,
     )
-
-
-_NO_SUMMITS = SummitStatistics(
-    count=0,
-    density=math.nan,
-    mean_height=math.nan,
-    height_deviation=math.nan,
-    mean_curvature=math.nan,
-    curvature_deviation=math.nan,
-    mean_geometric_curvature=math.nan,
-    radius=math.nan,
-    mean_radius=math.nan,
-    saddles=0,
-    bandwidth=math.nan,
-)
 
 
 def _compared(h: RealArray, neighbours: int) -> tuple[BoolArray, BoolArray]:

@@ -18,7 +18,7 @@ from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.units import show
 from ...core.values import Density, Fraction, Length, NonNegativeLength, Number, Seed, SignedLength
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 from .gaussian import Spectrum, random_field, sub_seeds
 
 _KEYS = ("PengBhushan2000",)
@@ -52,10 +52,11 @@ def bimodal(
     mask /= np.sqrt(np.mean(np.square(mask)))
     heights = np.where(mask < float(ndtri(share)), texture + separation, other)
     text = (
-        f"generated: two textures, {share:.4g} of the area {first.describe(grid)}, {show(separation, 'm')} above "
+        f"two textures, {share:.4g} of the area {first.describe(grid)}, {show(separation, 'm')} above "
         f"{second.describe(grid)}, in patches of {patches.describe(grid)}, seed {seed}"
     )
-    return _surface(grid, heights, "bimodal", text, (first, second, patches))
+    keys = (*citation_keys(first, second, patches), *_KEYS)
+    return generated(grid, heights, "bimodal", text, citation_keys=keys)
 
 
 @checked
@@ -77,10 +78,11 @@ def two_process(
     first, second = (random_field(grid, s, n) for s, n in zip((plateau, valleys), sub_seeds(seed, 2), strict=True))
     heights = (np.minimum if keep == "lower" else np.maximum)(first, second + offset)
     text = (
-        f"generated: two processes, the {keep} of {plateau.describe(grid)} and, {show(offset, 'm')} above, "
+        f"two processes, the {keep} of {plateau.describe(grid)} and, {show(offset, 'm')} above, "
         f"{valleys.describe(grid)}, seed {seed}"
     )
-    return _surface(grid, heights, "two processes", text, (plateau, valleys))
+    keys = (*citation_keys(plateau, valleys), *_KEYS)
+    return generated(grid, heights, "two processes", text, citation_keys=keys)
 
 
 @checked
@@ -118,10 +120,11 @@ def particles(
     for place, size in zip(places, _radii(draw, count, radius, radius_deviation), strict=True):
         _add_sphere(heights, ground, grid, place, float(size), exposure)
     text = (
-        f"generated: {count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
+        f"{count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
         f"on {matrix.describe(grid)}, seed {seed}"
     )
-    return _surface(grid, heights, "particles", text, (matrix,))
+    keys = (*citation_keys(matrix), *_KEYS)
+    return generated(grid, heights, "particles", text, citation_keys=keys)
 
 
 def _radii(draw: np.random.Generator, count: int, mean: float, deviation: float) -> RealArray:
@@ -153,9 +156,3 @@ def _add_sphere(
     cap = np.where(square >= 0.0, base + np.sqrt(np.maximum(square, 0.0)), -np.inf)
     at = np.ix_(nodes[0] % grid.shape[0], nodes[1] % grid.shape[1])
     heights[at] = np.maximum(heights[at], cap)
-
-
-def _surface(grid: Grid, heights: RealArray, source: str, text: str, parts: tuple[Spectrum, ...]) -> Surface:
-    dx, dy = grid.spacing
-    keys = tuple(dict.fromkeys((*citation_keys(*parts), *_KEYS)))
-    return Surface(heights, dx, dy, periodic=True, origin=Origin(source, history=(text,), citation_keys=keys))

@@ -13,7 +13,7 @@ from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.units import show
 from ...core.values import Axis, Length, NonNegativeLength, Number, Positive
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 
 # Deterministic shapes: heights positive out of the body, highest point at zero, centred at node (nx//2, ny//2).
 #
@@ -188,9 +188,7 @@ def _wave(grid: Grid, wavelength: float, axis: int) -> RealArray:
 
 
 def _shape(grid: Grid, heights: RealArray, text: str, *, periodic: bool = False) -> Surface:
-    dx, dy = grid.spacing
-    origin = Origin(source=text.split(",")[0], history=(f"generated: {text}",))
-    return Surface(np.broadcast_to(heights, grid.shape), dx, dy, periodic=periodic, origin=origin)
+    return generated(grid, np.broadcast_to(heights, grid.shape), text.split(",")[0], text, periodic=periodic)
 
 
 Pitches: TypeAlias = Annotated[

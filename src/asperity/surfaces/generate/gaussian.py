@@ -15,7 +15,7 @@ from ...core.parameters import checked
 from ...core.spectral import RealTransform, fast_length, mode_sum, thread_count
 from ...core.units import show
 from ...core.values import Seed
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 from .power_laws import mean_square
 
 # From an autocovariance function to the spectrum of a periodic lattice: circulant embedding.
@@ -259,18 +259,22 @@ def gaussian(
     parent = grid if periodic else parent_grid(grid, spectrum)
     psd = spectrum.lattice_psd(parent)
     target = np.sqrt(mean_square(parent, psd))
-    heights = _synthesised(parent, psd, seed, variant)
-    text = f"generated: Gaussian, {spectrum.describe(parent)}, {VARIANTS[variant]} seed {seed}"
+    transform = RealTransform(parent.shape, thread_count())
+    nested = variant == "nested"
+    modes = wave_noise(parent.shape, seed) if nested else transform.forward(node_noise(parent.shape, seed))
+    if variant == "fixed":
+        modes *= np.sqrt(parent.n_points) / np.abs(modes)
+    modes *= np.sqrt(psd / parent.pixel_area)
+    heights = transform.backward(modes)
+    text = f"Gaussian, {spectrum.describe(parent)}, {VARIANTS[variant]} seed {seed}"
     if not periodic:
         heights = heights[: grid.shape[0], : grid.shape[1]]
         text += f", window of a periodic surface of {parent.shape[0]} x {parent.shape[1]} points"
     if exact_rms:
         heights *= target / heights.std()
         text += f", rescaled to the rms height {show(target, 'm')}"
-    dx, dy = grid.spacing
     keys = (*citation_keys(spectrum), *(("Wu2000",) if variant == "fixed" else ()))
-    origin = Origin(source="gaussian", history=(text,), citation_keys=keys)
-    return Surface(heights, dx, dy, periodic=periodic, origin=origin)
+    return generated(grid, heights, "gaussian", text, periodic=periodic, citation_keys=keys)
 
 
 def parent_grid(grid: Grid, spectrum: object) -> Grid:
@@ -304,13 +308,3 @@ def filtered_noise(grid: Grid, eigenvalues: RealArray, seed: int) -> RealArray:
     modes = transform.forward(node_noise(grid.shape, seed))
     modes *= np.sqrt(eigenvalues)
     return transform.backward(modes)
-
-
-def _synthesised(grid: Grid, psd: RealArray, seed: int, variant: str) -> RealArray:
-    transform = RealTransform(grid.shape, thread_count())
-    nested = variant == "nested"
-    spectrum = wave_noise(grid.shape, seed) if nested else transform.forward(node_noise(grid.shape, seed))
-    if variant == "fixed":
-        spectrum *= np.sqrt(grid.n_points) / np.abs(spectrum)
-    spectrum *= np.sqrt(psd / grid.pixel_area)
-    return transform.backward(spectrum)

@@ -17,7 +17,7 @@ from ...core.parameters import Declared, checked
 from ...core.pearson import Pearson, require_possible
 from ...core.spectral import RealTransform, thread_count
 from ...core.values import Fraction, Positive, Real, Seed
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 from .gaussian import CLIP_LIMIT, Spectrum, filtered_noise, lattice_eigenvalues, negative_part
 from .power_laws import mean_square
 
@@ -57,14 +57,10 @@ class Johnson:
         """z(G): the number of this distribution for each standard normal number; increasing."""
         if self.kind == "normal":
             return normal
-        u = (normal - self.gamma) / self.delta
-        if self.kind == "unbounded":
-            values: RealArray = self.xi + self.scale * np.sinh(u)
-        elif self.kind == "bounded":
-            values = self.xi + self.scale * _logistic(u)
-        else:
-            values = self.xi + self.scale * np.exp(u)
-        return values
+        from scipy.special import expit
+
+        shape = {"unbounded": np.sinh, "bounded": expit, "lognormal": np.exp}[self.kind]
+        return np.asarray(self.xi + self.scale * shape((normal - self.gamma) / self.delta))
 
 
 def johnson(skewness: float, kurtosis: float) -> Johnson:
@@ -83,7 +79,10 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     w = _lognormal_w(skewness)
     line = w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
     if abs(kurtosis - line) <= _ON_LINE * line:
-        return Johnson("normal", 0.0, 1.0, 0.0, 1.0) if skewness == 0.0 else _lognormal(w)
+        if skewness == 0.0:
+            return Johnson("normal", 0.0, 1.0, 0.0, 1.0)
+        scale = 1.0 / math.sqrt(w * (w - 1.0))  # exp(G/δ) has the mean w^½ and the variance w (w - 1)
+        return Johnson("lognormal", 0.0, 1.0 / math.sqrt(math.log(w)), -scale * math.sqrt(w), scale)
     return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
 
 
@@ -107,12 +106,6 @@ def _lognormal_w(skewness: float) -> float:
     return float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - square, 1.0, upper + 1e-15, xtol=1e-15, rtol=1e-14))
 
 
-def _lognormal(w: float) -> Johnson:
-    """exp(G/δ) scaled to zero mean and unit variance: mean w^½, variance w (w - 1)."""
-    scale = 1.0 / math.sqrt(w * (w - 1.0))
-    return Johnson("lognormal", 0.0, 1.0 / math.sqrt(math.log(w)), -scale * math.sqrt(w), scale)
-
-
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one root."""
     from scipy.optimize import brentq
@@ -125,7 +118,8 @@ def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     def excess(w: float) -> float:
         return (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square
 
-    low = _root_of_line(kurtosis)  # the lognormal with this kurtosis, m = 0
+    # the lognormal with this kurtosis, m = 0
+    low = float(brentq(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0))
     high = math.sqrt(math.sqrt(2.0 * kurtosis - 2.0) - 1.0)  # the symmetric one, m = w - 1
     w, omega = high, 0.0
     if square > 0.0:
@@ -135,13 +129,6 @@ def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     variance = 0.5 * (w - 1.0) * (w * math.cosh(2.0 * omega) + 1.0)
     scale, delta = 1.0 / math.sqrt(variance), 1.0 / math.sqrt(math.log(w))
     return Johnson("unbounded", omega * delta, delta, scale * math.sqrt(w) * math.sinh(omega), scale)
-
-
-def _root_of_line(kurtosis: float) -> float:
-    """w with w⁴ + 2 w³ + 3 w² - 3 = kurtosis."""
-    from scipy.optimize import brentq
-
-    return float(brentq(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0))
 
 
 def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
@@ -206,12 +193,6 @@ def _bounded_moments(gamma: float, delta: float) -> _Moments:
     deviation = math.sqrt(square)
     unit = math.exp(largest)
     return _Moments(mean * unit, deviation * unit, third / deviation**3, fourth / square**2)
-
-
-def _logistic(u: RealArray) -> RealArray:
-    """1/(1 + exp(-u)) without overflow."""
-    small = np.exp(-np.abs(u))
-    return np.where(u >= 0.0, 1.0, small) / (1.0 + small)
 
 
 # Distribution of heights with given skewness and kurtosis, of one of the systems that have one for every such pair.
@@ -401,10 +382,9 @@ def translated(
         else "of the Gaussian field"
     )
     what = f"skewness {skewness:.4g}, kurtosis {kurtosis:.4g} ({law.label}), {how}"
-    text = f"generated: translation, {spectrum.describe(grid)}, {what}, PCG64 seed {seed}"
-    keys = tuple(dict.fromkeys((*citation_keys(spectrum), *law.citation_keys)))
-    origin = Origin("translation", history=(text,), citation_keys=keys)
-    return Surface(heights, *grid.spacing, periodic=True, origin=origin)
+    text = f"translation, {spectrum.describe(grid)}, {what}, PCG64 seed {seed}"
+    keys = (*citation_keys(spectrum), *law.citation_keys)
+    return generated(grid, heights, "translation", text, citation_keys=keys)
 
 
 def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:

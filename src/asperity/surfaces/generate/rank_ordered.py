@@ -15,7 +15,7 @@ from ...core.parameters import checked
 from ...core.spectral import RealTransform, mode_sum, thread_count
 from ...core.status import NoProgress, Progress
 from ...core.values import Count, Positive, Seed
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 from .gaussian import Spectrum
 from .non_gaussian import Marginal
 from .power_laws import mean_square
@@ -57,22 +57,15 @@ def rank_ordered(
     ``describe``; ``progress`` receives the relative error of the amplitudes.
     Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
     """
-    target = _target(grid, spectrum, heights)
-    values = np.random.Generator(np.random.PCG64(seed)).permutation(target.heights).reshape(grid.shape)
+    psd = spectrum.lattice_psd(grid)
+    square = mean_square(grid, psd)
+    wanted = heights.sorted_heights(grid.n_points)
+    wanted = wanted - wanted.mean()
+    wanted *= np.sqrt(square / np.mean(np.square(wanted)))
+    amplitude = np.sqrt(psd * (grid.n_points / grid.pixel_area))
+    target = _Target(grid, amplitude, wanted, RealTransform(grid.shape, thread_count()))
+    values = np.random.Generator(np.random.PCG64(seed)).permutation(wanted).reshape(grid.shape)
     values, iterations, settled = _iterated(values, target, (tolerance, max_iterations), progress)
-    exact = f"amplitudes to {_require_joined(values, target, heights, iterations):.1e}"
-    if last == "spectrum":
-        values = _with_amplitudes(target.transform.forward(values), target)
-        exact = f"heights to {_height_error(values, target):.1e}"
-    state = f"{iterations} iterations, {'settled' if settled else 'not settled'}, {exact}"
-    text = f"generated: rank-ordered, {spectrum.describe(grid)}, {heights.describe()}, {state}, PCG64 seed {seed}"
-    keys = tuple(dict.fromkeys((*citation_keys(spectrum), *citation_keys(heights), *_KEYS)))
-    dx, dy = grid.spacing
-    return Surface(values, dx, dy, periodic=True, origin=Origin("rank-ordered", history=(text,), citation_keys=keys))
-
-
-def _require_joined(values: RealArray, target: _Target, heights: Marginal, iterations: int) -> float:
-    """Relative error of the amplitudes of ``values``, which must be small enough."""
     error = _amplitude_error(target.transform.forward(values), target)
     if error > _ERROR_LIMIT:
         raise InputError(
@@ -80,17 +73,15 @@ def _require_joined(values: RealArray, target: _Target, heights: Marginal, itera
             f"{iterations} iterations the amplitudes are off by {error:.2g}: waves of so few lengths cannot add up to heights "
             f"of {heights.describe()}. Use a broader spectrum or other heights."
         )
-    return error
-
-
-def _target(grid: Grid, spectrum: Spectrum, heights: Marginal) -> _Target:
-    psd = spectrum.lattice_psd(grid)
-    square = mean_square(grid, psd)
-    wanted = heights.sorted_heights(grid.n_points)
-    wanted = wanted - wanted.mean()
-    wanted *= np.sqrt(square / np.mean(np.square(wanted)))
-    amplitude = np.sqrt(psd * (grid.n_points / grid.pixel_area))
-    return _Target(grid, amplitude, wanted, RealTransform(grid.shape, thread_count()))
+    exact = f"amplitudes to {error:.1e}"
+    if last == "spectrum":
+        values = _with_amplitudes(target.transform.forward(values), target)
+        apart = np.sort(values, axis=None) - wanted
+        exact = f"heights to {np.sqrt(np.mean(np.square(apart)) / np.mean(np.square(wanted))):.1e}"
+    state = f"{iterations} iterations, {'settled' if settled else 'not settled'}, {exact}"
+    text = f"rank-ordered, {spectrum.describe(grid)}, {heights.describe()}, {state}, PCG64 seed {seed}"
+    keys = (*citation_keys(spectrum), *citation_keys(heights), *_KEYS)
+    return generated(grid, values, "rank-ordered", text, citation_keys=keys)
 
 
 def _iterated(
@@ -126,9 +117,3 @@ def _amplitude_error(modes: ComplexArray, target: _Target) -> float:
     """sqrt(Σ (|F| - |F0|)² / Σ |F0|²) over all modes."""
     missing = mode_sum(target.grid, np.square(np.abs(modes) - target.amplitude))
     return float(np.sqrt(missing / mode_sum(target.grid, np.square(target.amplitude))))
-
-
-def _height_error(values: RealArray, target: _Target) -> float:
-    """Rms difference between the sorted values and the wanted heights, relative to the rms height."""
-    difference = np.sort(values, axis=None) - target.heights
-    return float(np.sqrt(np.mean(np.square(difference)) / np.mean(np.square(target.heights))))

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from ...core.grid import Grid
 from ...core.parameters import Declared, checked
 from ...core.units import show
 from ...core.values import Hurst, Length, NonNegativeLength, Number, Positive
-from ..characterise.spectrum import PowerSpectrum, default_edges, radial_spectrum
+from ..characterise.spectrum import PowerSpectrum, default_edges, power_spectrum, radial_spectrum
 from ..surface import Surface
 from .gaussian import Spectrum
 from .power_laws import (
@@ -37,10 +37,6 @@ from .power_laws import (
     lattice_psd,
     require_amplitude,
 )
-
-if TYPE_CHECKING:
-    from ..characterise.spectrum import PowerSpectrum
-
 
 __all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes"]
 
@@ -62,8 +58,8 @@ class _PowerLawSpectrum(ABC):
     @cached_property
     def law(self) -> PowerLaws:
         """Shape of the spectrum."""
-        low, high = _limits(self.longest_wavelength, self.shortest_wavelength)
-        return PowerLaws(*self.bends, low, high)
+        high = math.inf if self.shortest_wavelength == 0.0 else 2.0 * np.pi / self.shortest_wavelength
+        return PowerLaws(*self.bends, 2.0 * np.pi / self.longest_wavelength, high)
 
     @property
     def correlation_range(self) -> float:
@@ -170,11 +166,6 @@ def _require_ascending(waves: tuple[float, ...], order: str, what: str) -> None:
         raise InputError(f"wavelengths of a {what} spectrum must satisfy {order}, but are {listed} m.")
 
 
-def _limits(longest: float, shortest: float) -> tuple[float, float]:
-    """Smallest and largest wavenumber in rad/m."""
-    return 2.0 * np.pi / longest, math.inf if shortest == 0.0 else 2.0 * np.pi / shortest
-
-
 def _ends(shortest: float, longest: float) -> str:
     short = "all short waves of the grid" if shortest == 0.0 else f"shortest wave {show(shortest, 'm')}"
     return short if math.isinf(longest) else f"{short}, longest wave {show(longest, 'm')}"
@@ -265,7 +256,8 @@ class MeasuredSpectrum:
 
         measured = self.spectrum.grid
         psd = self.spectrum.psd.copy()
-        psd[0, 0] = _beside_mean(psd)
+        beside = [*(psd[k, 0] for k in (1, -1) if psd.shape[0] > 1), *psd[0, 1:2]]  # modes next to the mean
+        psd[0, 0] = float(np.mean(beside)) if beside else 0.0
         plane = _plane(psd, measured.shape[1])
         step_x, step_y = (2.0 * np.pi / side for side in measured.size)
         qx, qy = grid.wavevector()
@@ -304,8 +296,6 @@ def spectrum_of(
     ``window`` is that of ``power_spectrum``, ``per_decade`` the rings per factor of ten in wavenumber of an isotropic spectrum.
     Raises InputError if points are missing, all heights are equal, or nothing is left above the floor.
     """
-    from ..characterise.spectrum import power_spectrum
-
     spectrum = power_spectrum(surface, window)
     source = surface.origin.source or "a surface"
     keys = tuple(dict.fromkeys((*surface.citation_keys, *spectrum.citation_keys)))
@@ -324,12 +314,6 @@ def _on_modes(number: RealArray) -> RealArray:
     """Numbers of modes, whole where they differ from a whole one by rounding only."""
     whole = np.round(number)
     return np.where(np.abs(number - whole) < 1e-9, whole, number)
-
-
-def _beside_mean(psd: RealArray) -> float:
-    """Mean of C over the modes next to the mean, along x and y."""
-    neighbours = [*(psd[k, 0] for k in (1, -1) if psd.shape[0] > 1), *psd[0, 1:2]]
-    return float(np.mean(neighbours)) if neighbours else 0.0
 
 
 def _require_some(psd: RealArray, floor: float) -> None:

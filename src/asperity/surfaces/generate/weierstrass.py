@@ -13,9 +13,10 @@ from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.units import show
 from ...core.values import Count, Length, Number, Seed
-from ..surface import Origin, Surface
+from ..surface import Surface, generated
 
 _MOST_WAVES = 100_000
+_SOURCE = "Weierstrass-Mandelbrot"
 
 
 @checked
@@ -37,7 +38,13 @@ def weierstrass_mandelbrot(
     for many ridges; prefer :func:`gaussian` unless a published case is to be repeated.
     """
     longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
-    powers = _powers(gamma, longest, shortest, ridges)
+    if shortest > longest:
+        raise InputError(
+            f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
+        )
+    count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
+    _require_count(count * ridges)
+    powers = np.arange(count, dtype=float)
     phases = _phases(seed, (ridges, powers.size))
     angle = np.pi * np.arange(1, ridges + 1)[:, None] / ridges
     q = 2.0 * np.pi * gamma**powers / longest
@@ -45,10 +52,10 @@ def weierstrass_mandelbrot(
     amplitude = np.broadcast_to(-level * gamma ** ((dimension - 3.0) * powers), phases.shape)
     heights = _waves(grid, (q * np.cos(angle)).ravel(), (q * np.sin(angle)).ravel(), amplitude.ravel(), phases.ravel())
     text = (
-        f"generated: Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
+        f"Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
         f"{ridges} ridges, {powers.size} waves each from {show(longest, 'm')} down, PCG64 seed {seed}"
     )
-    return _surface(grid, heights, text, ("Ausloos1985", "Yan1998"))
+    return generated(grid, heights, _SOURCE, text, periodic=False, citation_keys=("Ausloos1985", "Yan1998"))
 
 
 @checked
@@ -76,10 +83,11 @@ def weierstrass_mandelbrot_profile(
     profile = np.cos(2.0 * np.pi * gamma**powers * x + phases) @ amplitude
     how = "phases 0" if seed is None else f"phases of PCG64 seed {seed}"
     text = (
-        f"generated: Weierstrass-Mandelbrot profile, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
+        f"Weierstrass-Mandelbrot profile, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
         f"powers {first} to {int(powers[-1])}, {how}"
     )
-    return _surface(grid, np.broadcast_to(profile[:, None], grid.shape), text, ("Majumdar1990",))
+    heights = np.broadcast_to(profile[:, None], grid.shape)
+    return generated(grid, heights, _SOURCE, text, periodic=False, citation_keys=("Majumdar1990",))
 
 
 def _phases(seed: int, shape: tuple[int, ...]) -> RealArray:
@@ -89,17 +97,6 @@ def _phases(seed: int, shape: tuple[int, ...]) -> RealArray:
 def _limits(longest: float | None, shortest: float | None, size: float, spacing: float) -> tuple[float, float]:
     """Longest and shortest wave in m: the size and two pixels if they are not given."""
     return size if longest is None else longest, 2.0 * spacing if shortest is None else shortest
-
-
-def _powers(gamma: float, longest: float, shortest: float, ridges: int) -> RealArray:
-    """n = 0 … n_max."""
-    if shortest > longest:
-        raise InputError(
-            f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
-        )
-    count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
-    _require_count(count * ridges)
-    return np.arange(count, dtype=float)
 
 
 def _require_count(count: int) -> None:
@@ -117,9 +114,3 @@ def _waves(grid: Grid, qx: RealArray, qy: RealArray, amplitude: RealArray, phase
     heights: RealArray = (np.cos(along_x) * amplitude) @ np.cos(along_y).T
     heights -= (np.sin(along_x) * amplitude) @ np.sin(along_y).T
     return heights
-
-
-def _surface(grid: Grid, heights: RealArray, text: str, keys: tuple[str, ...]) -> Surface:
-    dx, dy = grid.spacing
-    origin = Origin(source="Weierstrass-Mandelbrot", history=(text,), citation_keys=keys)
-    return Surface(heights, dx, dy, origin=origin)
