@@ -15,7 +15,7 @@ import asperity as asp
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.catalogue import theory as theory_by_name
 from asperity.theories.rough.majumdar_bhushan import MajumdarBhushan
-from asperity.theories.statistics.roughness import Roughness
+from asperity.theories.statistics.roughness import Fractal, Roughness
 
 AREA = 1e-8
 DIMENSIONS = st.floats(1.1, 1.9)
@@ -135,3 +135,18 @@ def test_the_theory_of_a_surface():
     assert whole.holds.all()
     with refused(InputError, "roughness for the theory majumdar-bhushan"):
         MajumdarBhushan.from_roughness(Roughness(1e-18, 1e-2, 1e14, area=1e-8), 1e11, hardness=1e9)
+
+
+def test_it_is_for_few_contacts_of_surfaces_that_are_self_affine_over_a_decade():
+    def broken(longest):
+        measured = Roughness(1e-18, 1e-2, 1e14, area=AREA, fractal=Fractal(1.4, 1e-12, 4e-9, longest))
+        theory = MajumdarBhushan.from_roughness(measured, 1e11, hardness=5e9)
+        return [limit.criterion for limit in theory.validity(curve, measured) if not limit.holds.all()]
+
+    curve = MajumdarBhushan(1.4, 1e-12, 1e11, 5e9, AREA).at_pressure([1e6, 1e7])
+    assert broken(5e-8) == broken(math.nan) == []
+    assert broken(3e-8) == ["longest over shortest length of self-affine profiles"]
+    theory = MajumdarBhushan(1.4, 1e-12, 1e11, 5e9, AREA)
+    crowded = theory.at_pressure([1e6, 1e8])
+    assert crowded.area_fraction[1] > 0.02
+    assert theory.validity(crowded)[0].holds.tolist() == [True, False]

@@ -97,7 +97,8 @@ def _fractal(surface: Surface) -> Fractal | None:
     if not all(fit.self_affine and fit.roughness > 0.0 for fit in found):
         return None
     roughness = math.exp(0.5 * sum(math.log(fit.roughness) for fit in found))
-    return Fractal(0.5 * sum(fit.dimension for fit in found), roughness)
+    lengths = max(fit.first_lag for fit in found), min(fit.last_lag for fit in found)
+    return Fractal(0.5 * sum(fit.dimension for fit in found), roughness, *lengths)
 
 
 def _correlation_length(surface: Surface) -> float:

@@ -5,12 +5,10 @@ from __future__ import annotations
 import difflib
 import math
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from importlib import resources
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self, get_type_hints
 
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
@@ -38,21 +36,25 @@ class Sourced:
 class Record:
     """A named substance: ``name`` and ``aliases`` find it, in any case; ``note`` is its condition or a caveat.
 
-    A kind of substance adds its values as fields, None where not known, and has in ``noun`` what messages and tables of
-    files call it, and in ``kinds`` the kind of quantity of each value, "ratio" for a Poisson's ratio.
+    A kind of substance adds its values as fields, marked with the kind of quantity ("ratio" for a Poisson's ratio), with the
+    default None where a file may leave them out, and has in ``noun`` what messages and tables of files call it.
     """
 
     name: str
     aliases: tuple[str, ...] = ()
     note: str = ""
     noun: ClassVar[str]
-    kinds: ClassVar[Mapping[str, str]]
-    required: ClassVar[tuple[str, ...]]
+
+    @classmethod
+    def kinds(cls) -> dict[str, str]:
+        """Kind of quantity of each value, by key."""
+        hints = get_type_hints(cls, include_extras=True)
+        return {key: hint.__metadata__[0] for key, hint in hints.items() if hasattr(hint, "__metadata__")}
 
     @property
     def values(self) -> dict[str, Sourced]:
         """The known values by key."""
-        found = {key: getattr(self, key) for key in self.kinds}
+        found = {key: getattr(self, key) for key in self.kinds()}
         return {key: value for key, value in found.items() if value is not None}
 
     @property
@@ -133,13 +135,15 @@ class Record:
     @classmethod
     def _of(cls, table: Any, name: str, where: str) -> Self:
         """The record ``name`` of a table; ``where`` it stands, for messages."""
+        kinds, defaults = cls.kinds(), {item.name: item.default for item in fields(cls)}
+        required = [key for key in kinds if defaults[key] is MISSING]
         if not isinstance(table, dict):
-            raise InputError(f"entry {where} must be a table with {' and '.join(cls.required)}, but is {table!r}.")
-        known = (*cls.kinds, "aliases", "note")
+            raise InputError(f"entry {where} must be a table with {' and '.join(required)}, but is {table!r}.")
+        known = (*kinds, "aliases", "note")
         unknown = sorted(set(table) - set(known))
         if unknown:
             raise InputError(f"key {where} must be one of {', '.join(known)}, but is {unknown[0]!r}.")
-        for key in cls.required:
+        for key in required:
             if key not in table:
                 raise InputError(f"{key} {where} must be given, but is missing.")
         aliases, note = table.get("aliases", []), table.get("note", "")
@@ -147,9 +151,7 @@ class Record:
             raise InputError(f'aliases {where} must be a list of names, such as ["steel"], but is {aliases!r}.')
         if not isinstance(note, str):
             raise InputError(f"note {where} must be text, but is {note!r}.")
-        values: Any = {
-            key: _sourced(table[key], kind, f"{key} {where}") for key, kind in cls.kinds.items() if key in table
-        }
+        values: Any = {key: _sourced(table[key], kind, f"{key} {where}") for key, kind in kinds.items() if key in table}
         return cls(name=name, aliases=tuple(aliases), note=note, **values)
 
 
@@ -180,20 +182,11 @@ def _sourced(entry: Any, kind: str, what: str) -> Sourced:
 class MaterialRecord(Record):
     """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material."""
 
-    youngs_modulus: Sourced
-    poisson_ratio: Sourced
-    hardness: Sourced | None = None
-    yield_stress: Sourced | None = None
+    youngs_modulus: Annotated[Sourced, "pressure"]
+    poisson_ratio: Annotated[Sourced, "ratio"]
+    hardness: Annotated[Sourced | None, "pressure"] = None
+    yield_stress: Annotated[Sourced | None, "pressure"] = None
     noun: ClassVar[str] = "material"
-    kinds: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {
-            "youngs_modulus": "pressure",
-            "poisson_ratio": "ratio",
-            "hardness": "pressure",
-            "yield_stress": "pressure",
-        }
-    )
-    required: ClassVar[tuple[str, ...]] = ("youngs_modulus", "poisson_ratio")
 
     @property
     def body(self) -> Elastic:
@@ -282,20 +275,11 @@ class Liquid:
 class LiquidRecord(Record):
     """Surface tension (N/m), temperature (K), molar volume (m³/mol) and viscosity (Pa s), all > 0, of a liquid."""
 
-    surface_tension: Sourced
-    temperature: Sourced
-    molar_volume: Sourced | None = None
-    viscosity: Sourced | None = None
+    surface_tension: Annotated[Sourced, "surface tension"]
+    temperature: Annotated[Sourced, "temperature"]
+    molar_volume: Annotated[Sourced | None, "molar volume"] = None
+    viscosity: Annotated[Sourced | None, "viscosity"] = None
     noun: ClassVar[str] = "liquid"
-    kinds: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {
-            "surface_tension": "surface tension",
-            "temperature": "temperature",
-            "molar_volume": "molar volume",
-            "viscosity": "viscosity",
-        }
-    )
-    required: ClassVar[tuple[str, ...]] = ("surface_tension", "temperature")
 
     @property
     def liquid(self) -> Liquid:

@@ -119,7 +119,8 @@ def on_common_grid(
     other = counter_surface if mirrored is None else turned_over(counter_surface, axis=mirrored)
     pixel = _pixel(surface, other, spacing, angle)
     words = f", shift {show(shift_x, 'm')}, {show(shift_y, 'm')}, angle {math.degrees(angle):.6g}°"
-    if _periodic_together(surface, other, angle):
+    same_size = np.allclose(surface.size, other.size, rtol=_ROUNDING, atol=0.0)
+    if surface.periodic and other.periodic and same_size and angle == 0.0:
         grid = _grid((0.0, surface.size[0], 0.0, surface.size[1]), pixel, fill=True)
         return SurfacePair(_moved(surface, (0.0, 0.0), grid, ""), _moved(other, (shift_x, shift_y), grid, words))
     region = _overlap(surface, other, (shift_x, shift_y), angle)
@@ -152,11 +153,6 @@ def _pixel(surface: Surface, other: Surface, spacing: tuple[float, float] | None
                 "Filter or resample the surfaces first."
             )
     return dx, dy
-
-
-def _periodic_together(surface: Surface, other: Surface, angle: float) -> bool:
-    same = np.allclose(surface.size, other.size, rtol=_ROUNDING, atol=0.0)
-    return surface.periodic and other.periodic and bool(same) and angle == 0.0
 
 
 def _grid(region: tuple[float, float, float, float], pixel: tuple[float, float], *, fill: bool) -> Grid:

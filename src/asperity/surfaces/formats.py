@@ -81,7 +81,13 @@ def read_instrument(
         topography = reader.topography(channel_index=info.index, **given)
         values = topography.heights()
         periodic, metadata = bool(topography.is_periodic), _metadata(topography.info)
-    heights = _right_handed(values, info, file) * factor
+    if values.shape != info.shape:
+        raise FileFormatError(
+            f"file {file} states {info.shape} points for channel {info.name!r}, but holds {values.shape}.",
+            subject=f"points of file {file}",
+        )
+    # the library counts y downwards from the top row of the picture
+    heights = np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan)[:, ::-1] * factor
     nx, ny = heights.shape
     history = f"read: channel {info.name!r} of {file.name}"
     origin = Origin(file.name, info.name, metadata, (history,), ("Roettger2022",))
@@ -267,17 +273,6 @@ def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, 
     return length_x, length_y
 
 
-def _right_handed(values: Any, info: ChannelInfo, file: Path) -> RealArray:
-    """Heights [x, y] with y upwards; the library counts y downwards from the top row of the picture."""
-    if values.shape != info.shape:
-        raise FileFormatError(
-            f"file {file} states {info.shape} points for channel {info.name!r}, but holds {values.shape}.",
-            subject=f"points of file {file}",
-        )
-    heights: RealArray = np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan)
-    return heights[:, ::-1]
-
-
 def _metadata(info: Mapping[str, Any], prefix: str = "") -> Mapping[str, str]:
     """Short metadata as strings, nested keys joined by a dot; the raw header of the file is left out."""
     flat: dict[str, str] = {}
@@ -344,17 +339,7 @@ def write_netcdf(surface: Surface, path: Path) -> None:
             file.createVariable("mask", "b", ("x", "y"))[:] = surface.mask
 
 
-_DAMAGED = (
-    KeyError,
-    ValueError,
-    TypeError,
-    IndexError,
-    AttributeError,
-    OverflowError,
-    EOFError,
-    OSError,
-    RecursionError,
-)
+_DAMAGED = (LookupError, ValueError, TypeError, AttributeError, OverflowError, EOFError, OSError, RecursionError)
 """What SciPy and the reading of records raise on damaged files."""
 
 

@@ -26,14 +26,19 @@ def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | Non
         None, ``x`` or ``y``: how the counter surface is turned over.
     """
     other = counter_surface if mirrored is None else turned_over(counter_surface, axis=mirrored)
-    _require_equal_grids(surface, other)
-    return Surface(
-        surface.heights + other.heights,
-        surface.dx,
-        surface.dy,
-        periodic=surface.periodic and counter_surface.periodic,
-        origin=_joint_origin(surface.origin, other.origin),
-    )
+    pair = (surface, other)
+    if surface.shape != other.shape or not np.allclose(surface.grid.spacing, other.grid.spacing, rtol=1e-6, atol=0.0):
+        first, second = (f"{s.shape[0]} x {s.shape[1]} points of {s.dx:.6g} x {s.dy:.6g} m" for s in pair)
+        raise InputError(
+            "the two surfaces of a pair must have equal numbers of points and pixel sizes, but have "
+            f"{first} and {second}. Use cropped() and resampled() to bring them on one grid."
+        )
+    steps = (f"surface {number}: {step}" for number, s in enumerate(pair, start=1) for step in s.origin.history)
+    source = " + ".join(s.origin.source or "unnamed surface" for s in pair)
+    keys = tuple(dict.fromkeys((*surface.citation_keys, *other.citation_keys, "Peng2001")))
+    origin = Origin(source, history=(*steps, "composite: sum of surfaces 1 and 2"), citation_keys=keys)
+    periodic = surface.periodic and counter_surface.periodic
+    return Surface(surface.heights + other.heights, surface.dx, surface.dy, periodic=periodic, origin=origin)
 
 
 def turned_over(surface: Surface, *, axis: str = "x") -> Surface:
@@ -47,28 +52,3 @@ def turned_over(surface: Surface, *, axis: str = "x") -> Surface:
     flipped = np.flip(surface.heights, along)
     heights = np.roll(flipped, 1, along) if surface.periodic else flipped
     return surface.with_heights(heights, f"turned over: mirrored along {axis}")
-
-
-def _require_equal_grids(first: Surface, second: Surface) -> None:
-    pixels = np.allclose(first.grid.spacing, second.grid.spacing, rtol=1e-6, atol=0.0)
-    if first.shape == second.shape and pixels:
-        return
-    raise InputError(
-        "the two surfaces of a pair must have equal numbers of points and pixel sizes, but have "
-        f"{_words(first)} and {_words(second)}. Use cropped() and resampled() to bring them on one grid."
-    )
-
-
-def _words(surface: Surface) -> str:
-    return f"{surface.shape[0]} x {surface.shape[1]} points of {surface.dx:.6g} x {surface.dy:.6g} m"
-
-
-def _joint_origin(first: Origin, second: Origin) -> Origin:
-    history = (
-        *(f"surface 1: {step}" for step in first.history),
-        *(f"surface 2: {step}" for step in second.history),
-        "composite: sum of surfaces 1 and 2",
-    )
-    source = " + ".join(origin.source or "unnamed surface" for origin in (first, second))
-    keys = (*first.citation_keys, *second.citation_keys, "Peng2001")
-    return Origin(source=source, history=history, citation_keys=tuple(dict.fromkeys(keys)))

@@ -97,7 +97,9 @@ def autocovariance(surface: Surface) -> Autocovariance:
     if surface.n_missing:
         pairs = np.rint(_pair_sums(valid.astype(np.float64), transform, (largest[0], largest[1])))
     else:
-        pairs = _complete_pairs(surface, (largest[0], largest[1]))
+        lost = 0.0 if surface.periodic else 1.0  # pairs that a pixel of lag takes across the border
+        along_x, along_y = (n - lost * np.arange(top + 1) for n, top in zip(surface.shape, largest, strict=True))
+        pairs = along_x[:, None] * np.concatenate([along_y[:0:-1], along_y])
     with np.errstate(divide="ignore", invalid="ignore"):
         values = np.where(pairs > 0.0, sums / pairs, np.nan)
     return Autocovariance(values, pairs, surface.grid.spacing, surface.size)
@@ -128,14 +130,6 @@ def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) ->
     full = transform.backward(spectrum, out=work)
     positive_x, (_, most_y) = full[: largest[0] + 1], largest
     return np.concatenate([positive_x[:, full.shape[1] - most_y :], positive_x[:, : most_y + 1]], axis=1)
-
-
-def _complete_pairs(surface: Surface, largest: LagRange) -> RealArray:
-    if surface.periodic:
-        return np.full((largest[0] + 1, 2 * largest[1] + 1), float(surface.grid.n_points))
-    along_x = surface.shape[0] - np.arange(largest[0] + 1.0)
-    along_y = surface.shape[1] - np.abs(np.arange(-largest[1], largest[1] + 1.0))
-    return np.asarray(along_x[:, None] * along_y[None, :])
 
 
 # Structure function and scale-dependent slopes and curvatures.

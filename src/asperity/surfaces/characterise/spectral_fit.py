@@ -346,16 +346,12 @@ def short_cutoff(spectrum: PowerSpectrum, rings: RadialSpectrum) -> float:
         slope, level = np.polyfit(log_q[before] - log_q[ring], log_c[before], 1)
         after = slice(ring + 1, None)  # the cut-off may lie within the ring itself
         if np.all(log_c[after] < level + slope * (log_q[after] - log_q[ring]) + math.log(_DROP)):
-            return _last_mode(spectrum, rings, ring, (slope, level - slope * log_q[ring]))
+            q = spectrum.grid.wavenumber()
+            near = (q > rings.low[ring - 1]) & (q <= rings.high[ring])
+            expected = np.exp(level - slope * log_q[ring] + slope * np.log(q[near]))
+            above = q[near][spectrum.psd[near] > _DROP * expected]
+            return float(above.max(initial=rings.high[ring - 1]))
     return math.nan
-
-
-def _last_mode(spectrum: PowerSpectrum, rings: RadialSpectrum, ring: int, law: tuple[float, float]) -> float:
-    q = spectrum.grid.wavenumber()
-    near = (q > rings.low[ring - 1]) & (q <= rings.high[ring])
-    expected = np.exp(law[1] + law[0] * np.log(q[near]))
-    above = q[near][spectrum.psd[near] > _DROP * expected]
-    return float(above.max(initial=rings.high[ring - 1]))
 
 
 _TOP = 0.95  # share of the Nyquist wavenumber up to which modes are fitted
@@ -495,8 +491,8 @@ def _solutions(
     ]
     if wishes[0] is not None:
         return found
-    return [item for item in found if not item.shape.plateau or _modes_on_plateau(item, rings) >= _PLATEAU_MODES]
 
+    def modes_on_plateau(item: Solution) -> float:
+        return float(rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength].sum())
 
-def _modes_on_plateau(item: Solution, rings: RadialSpectrum) -> float:
-    return float(rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength].sum())
+    return [item for item in found if not item.shape.plateau or modes_on_plateau(item) >= _PLATEAU_MODES]

@@ -363,11 +363,10 @@ def characterise(
     spectra = measured_spectra(complete, window, tip_radius=tip_radius, curves=curves, attempt=attempt)
     if not surface.periodic and (share := tilt_share(surface)) > _TILT:
         attempt.remarks.append(f"A plane contains {percent(share)} of the mean square height; level the surface first.")
-    return _summary(surface, curves, spectra, attempt)
-
-
-def _summary(surface: Surface, curves: Curves, spectra: SpectralCurves, attempt: Attempts) -> Characterisation:
-    moments, eight = _moments(surface, spectra, attempt), summit_statistics(curves.summits)
+    difference = attempt("moments by differences", lambda: difference_moments(surface))
+    difference = difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
+    spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
+    eight = summit_statistics(curves.summits)
     known = dict(zip("xy", curves.structure, strict=True))
     fractal = attempt.along_axes(
         "fractal dimension", lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis])
@@ -377,10 +376,10 @@ def _summary(surface: Surface, curves: Curves, spectra: SpectralCurves, attempt:
     return Characterisation(
         surface,
         heights=height_parameters(surface),
-        spatial=_spatial(curves, spectra, moments.difference.slope_tensor),
+        spatial=_spatial(curves, spectra, difference.slope_tensor),
         hybrid=_hybrid(surface, eight.mean_curvature, attempt),
         functional=core or undefined(FunctionalParameters),
-        moments=moments,
+        moments=Moments(difference, spectral),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),
         peaks_x=profile_peaks(surface, axis="x"),
         peaks_y=profile_peaks(surface, axis="y"),
@@ -391,14 +390,6 @@ def _summary(surface: Surface, curves: Curves, spectra: SpectralCurves, attempt:
         curves=curves,
         spectra=spectra,
         remarks=tuple(attempt.remarks),
-    )
-
-
-def _moments(surface: Surface, spectra: SpectralCurves, attempt: Attempts) -> Moments:
-    difference = attempt("moments by differences", lambda: difference_moments(surface))
-    return Moments(
-        difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor)),
-        undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power),
     )
 
 

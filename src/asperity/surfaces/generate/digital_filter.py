@@ -79,7 +79,11 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
     centred = np.roll(whole, [n // 2 for n in domain.shape], axis=(0, 1))
     kept = centred[tuple(slice(n // 2 - k, n // 2 + k + 1) for k, n in zip(counts, domain.shape, strict=True))]
     kept = kept * np.sqrt(np.sum(whole**2) / np.sum(kept**2))
-    error = _autocovariance_error(kept, values, domain)
+    transform = RealTransform(domain.shape, thread_count())
+    field = np.zeros(domain.shape)
+    field[: kept.shape[0], : kept.shape[1]] = kept
+    missed = np.square(np.abs(transform.forward(field))) - values
+    error = float(np.abs(transform.backward(missed.astype(complex))).max() / np.sum(kept**2))
     if error > _ERROR_LIMIT:
         raise InputError(
             f"spectrum of a digital filter must have a kernel that dies out within {length:.3g} m, but dropping the rest "
@@ -131,14 +135,6 @@ def _endless_eigenvalues(spectrum: Spectrum, domain: Grid) -> RealArray:
         if isinstance(amplitude, RmsHeight):  # of all waves together
             values *= amplitude.value**2 / (mode_sum(domain, values) * domain.pixel_area)
     return values
-
-
-def _autocovariance_error(kept: RealArray, eigenvalues: RealArray, domain: Grid) -> float:
-    transform = RealTransform(domain.shape, thread_count())
-    field = np.zeros(domain.shape)
-    field[: kept.shape[0], : kept.shape[1]] = kept
-    power = np.square(np.abs(transform.forward(field))) - eigenvalues
-    return float(np.abs(transform.backward(power.astype(complex))).max() / np.sum(kept**2))
 
 
 _KEYS = ("HuTonder1992", "Salmon2011")

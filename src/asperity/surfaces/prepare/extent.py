@@ -99,10 +99,15 @@ def sliced(
         raise InputError(f"line of a map must be given by exactly one of x and y, but is given by x={x!r}, y={y!r}.")
     axis = 0 if y is None else 1
     position = x if y is None else y
-    number = _line_number(surface, position, axis)
+    count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
+    place = float(count // 2 * spacing if position == "middle" else position or 0.0)
+    if not 0.0 <= place <= count * spacing * (1.0 + 1e-9):
+        raise InputError(
+            f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is {show(place, 'm')}."
+        )
+    number = count // 2 if position == "middle" else min(int(place / spacing), count - 1)
     heights = np.take(surface.heights, number, axis=axis)[:, None]
-    at = show((number + 0.5) * surface.grid.spacing[axis], "m")
-    step = f"sliced: line at {'xy'[axis]} = {at} ({heights.size} points)"
+    step = f"sliced: line at {name} = {show((number + 0.5) * spacing, 'm')} ({heights.size} points)"
     return Surface(
         heights,
         surface.grid.spacing[1 - axis],
@@ -110,18 +115,6 @@ def sliced(
         periodic=surface.periodic,
         origin=surface.origin.continued(step),
     )
-
-
-def _line_number(surface: Surface, position: Position | None, axis: int) -> int:
-    count, spacing, name = surface.shape[axis], surface.grid.spacing[axis], "xy"[axis]
-    if position == "middle":
-        return count // 2
-    place = float(position or 0.0)
-    if not 0.0 <= place <= count * spacing * (1.0 + 1e-9):
-        raise InputError(
-            f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is {show(place, 'm')}."
-        )
-    return min(int(place / spacing), count - 1)
 
 
 # Resampling at constant physical size.
@@ -150,7 +143,9 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     heights: RealArray = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
         how = "in Fourier space"
-        heights = _fourier_resampled(heights, (nx, ny))
+        spectrum = RealTransform(surface.shape).forward(heights)
+        spectrum = _resized_full_axis(_resized_half_axis(spectrum, surface.shape[1], ny), nx)
+        heights = RealTransform((nx, ny)).backward(spectrum * (nx * ny / heights.size))
     else:
         how = ", ".join(
             f"{axis} by {'bicubic spline' if new > old else 'area averaging'}"
@@ -161,14 +156,6 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     step = f"resampled: {surface.shape[0]} x {surface.shape[1]} -> {nx} x {ny} points, {how}"
     size_x, size_y = surface.size
     return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=surface.origin.continued(step))
-
-
-def _fourier_resampled(heights: RealArray, shape: tuple[int, int]) -> RealArray:
-    old = (heights.shape[0], heights.shape[1])
-    spectrum = RealTransform(old).forward(heights)
-    spectrum = _resized_half_axis(spectrum, old[1], shape[1])
-    spectrum = _resized_full_axis(spectrum, shape[0])
-    return RealTransform(shape).backward(spectrum * (shape[0] * shape[1] / heights.size))
 
 
 def _resized_full_axis(spectrum: ComplexArray, new: int) -> ComplexArray:
@@ -252,7 +239,9 @@ def tapered(
     require_complete(surface, "tapered")
     heights = surface.heights.astype(np.float64, copy=False)
     mean = float(heights.mean())
-    weight_x, weight_y = (_tukey(n, width) for n in surface.shape)
+    places = [(np.arange(n) + 0.5) / n for n in surface.shape]
+    nearest = [np.minimum(place, 1.0 - place) / width for place in places]
+    weight_x, weight_y = (np.sin(0.5 * np.pi * np.minimum(share, 1.0)) ** 2 for share in nearest)
     result = mean + weight_x[:, None] * weight_y[None, :] * (heights - mean)
     step = f"tapered: cosine over {width:g} of the side at each border"
     return recorded(surface, result, step, periodic=True)
@@ -291,9 +280,3 @@ def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealA
     spectrum = transform.forward(jumps) / laplacian
     spectrum[0, 0] = 0.0
     return transform.backward(spectrum)
-
-
-def _tukey(count: int, width: float) -> RealArray:
-    distance = (np.arange(count) + 0.5) / count
-    distance = np.minimum(distance, 1.0 - distance)
-    return np.sin(0.5 * np.pi * np.minimum(distance / width, 1.0)) ** 2

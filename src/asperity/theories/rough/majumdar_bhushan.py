@@ -76,6 +76,12 @@ ATOM = 1e-19
 _LARGEST = 700.0  # logarithm of the largest area that a float holds
 
 
+def _self_affine_range(theory: MajumdarBhushan, roughness: Roughness) -> float | None:
+    """Longest over shortest length of self-affine profiles; None where it is not known."""
+    found = roughness.fractal
+    return None if found is None or math.isnan(found.longest) else found.longest / found.shortest
+
+
 @dataclass(frozen=True)
 class MajumdarBhushan(Theory):
     """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
@@ -87,6 +93,12 @@ class MajumdarBhushan(Theory):
     Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by
     powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
     (1e-19 m²); every real spot is then elastic.
+
+    Notes
+    -----
+    On generated surfaces that are self-affine from 4 to 49 pixels (Hurst exponents 0.3 to 0.8), the area is 1.0 to 1.4 times
+    that of the solved contact with the same hardness at 0.1 % of the nominal area, 1.1 to 2 times at 1.4 %, 1.3 to 2.4 times
+    at 5 %. Measured maps are often self-affine over less than a decade: the fitted D and G are then those of a bend.
     """
 
     dimension: Annotated[
@@ -102,7 +114,21 @@ class MajumdarBhushan(Theory):
     title: ClassVar[str] = "Majumdar-Bhushan (fractal)"
     citation_keys: ClassVar[tuple[str, ...]] = ("BhushanMajumdar1992", "Majumdar1991")
     limits: ClassVar[tuple[Bound, ...]] = (
-        replace(FEW_CONTACTS, citation="Majumdar1991"),
+        replace(
+            FEW_CONTACTS,
+            high=0.02,
+            citation="Majumdar1991",
+            message="Spots are cut from the undeformed surface and stand alone; the area is about twice too large or more.",
+        ),
+        Bound(
+            "longest over shortest length of self-affine profiles",
+            _self_affine_range,
+            10.0,
+            math.inf,
+            "Majumdar1991",
+            "Spots of all sizes follow one power law, which the surface obeys over less than a decade of lengths.",
+            measured=True,
+        ),
         Bound(
             "critical area (m^2)",
             lambda theory, answer: theory.critical_area,

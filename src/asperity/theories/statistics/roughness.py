@@ -135,10 +135,15 @@ class SummitList:
 
 @dataclass(frozen=True)
 class Fractal:
-    """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G in m."""
+    """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G in m.
+
+    ``shortest`` and ``longest``: lengths in m between which the profiles were found to be so; NaN where not known.
+    """
 
     dimension: float
     roughness: float
+    shortest: float = math.nan
+    longest: float = math.nan
 
 
 @dataclass(frozen=True, eq=False)
