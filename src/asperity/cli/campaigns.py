@@ -23,10 +23,11 @@ from ..report.study import (
     failure_table,
     finding_table,
     summary,
+    warning_texts,
     write_study_files,
 )
 from ..run.document import ProblemDocument, relocated
-from ..studies.campaign import Campaign, open_study, prepare_study
+from ..studies.campaign import Campaign, CampaignState, open_study, prepare_study
 from ..studies.places import problem_table
 from ..studies.run import Watch
 from .main import INTERRUPTED, NOT_CONVERGED, OK
@@ -98,7 +99,7 @@ def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | No
         console().print(table(campaign.title, rows, found.headings))
         if out is not None:
             return _report(campaign)
-        _print_causes(campaign)
+        _print_causes(campaign, campaign.state())
         say("Add --out DIR for the report and the table of all files.", "dim")
         return NOT_CONVERGED if campaign.state().failed else OK
 
@@ -112,8 +113,7 @@ def status(folder: Folder) -> None:
     campaign = open_study(folder)
     state = campaign.state()
     console().print(table(campaign.title, axis_rows(campaign)))
-    say(summary(campaign, state), "green" if state.complete and not state.failed else "")
-    _print_causes(campaign)
+    _print_state(campaign, state)
 
 
 def collect(folder: Folder) -> None:
@@ -128,17 +128,23 @@ def _report(campaign: Campaign) -> int:
     if derived is not None:
         found = derived_table(campaign, campaign.dataset(), derived)
         console().print(table("Findings", found.cells, found.headings))
-    say(summary(campaign, state), "green" if state.complete and not state.failed else "yellow")
-    _print_causes(campaign)
+    _print_state(campaign, state)
     print_files(written)
     return NOT_CONVERGED if state.failed else OK
 
 
-def _print_causes(campaign: Campaign) -> None:
+def _print_state(campaign: Campaign, state: CampaignState) -> None:
+    say(summary(campaign, state), "green" if state.complete and not state.failed else "yellow")
+    _print_causes(campaign, state)
 
+
+def _print_causes(campaign: Campaign, state: CampaignState) -> None:
+    """Print the warnings above the tables that count them."""
+    for text in warning_texts(state):
+        say(f"warning: {text}", "yellow", warning=True)
     shown = (
-        ("Failures by cause", failure_table(campaign)),
-        ("Warnings and notes of the cases", finding_table(campaign)),
+        ("Failures by cause", failure_table(campaign, state)),
+        ("Warnings and notes of the cases", finding_table(campaign, state)),
     )
     for heading, found in shown:
         if found.cells:

@@ -12,6 +12,7 @@ from ..core.arrays import RealArray
 from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from ..core.parameters import Parameter
+from ..core.settings import COMMAND_LINE
 from ..core.values import Number, Text, Whole
 from ..io.schemas.problem import ControlTable
 from ..plots.comparison import comparison_figures, save_comparison_plots
@@ -102,7 +103,7 @@ def compare(
     """
     placed = Given({**given.values, ("control", "mean_pressure"): _PLACEHOLDER}, given.options)
     made, names, base = asked_table(file, from_, placed)
-    document = checked(made, str(from_ or "command line"), names)
+    document = checked(made, str(from_ or COMMAND_LINE), names)
     case = build(document, base)
     with output_folder(out, force=force) as folder:
         comparison = _compared(case, given, numerical=not no_numerical)

@@ -13,6 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from ..core.errors import InputError
+from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
@@ -126,7 +127,7 @@ def contact(
     files = files_in(given, force=force)
     volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
     table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
-    where = f"problem document {from_}" if from_ else "command line"
+    where = f"problem document {from_}" if from_ else COMMAND_LINE
     document = checked(table, where, names | part_names(given, everything=from_ is None))
     inputs = [*files_of(document, base), *([from_] if from_ else [])]
     require_new_files([*files.values()], overwrite=force, inputs=inputs)

@@ -11,7 +11,7 @@ import typer
 
 from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter, parameters, taken_apart
-from ..core.settings import validated
+from ..core.settings import COMMAND_LINE, validated
 from ..core.units import parse, show
 from ..core.values import Choice, Number
 from ..io.atomic import require_new_files
@@ -127,7 +127,7 @@ def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None
     for part in asked.values():
         if isinstance(part, dict) and "surface" in part:
             part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
-    table = validated(SURFACE_TABLES[kind], asked, "command line", given.names)
+    table = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
     if memory is not None:
         _stream(table, out, memory, force)
         written = [out]

@@ -11,7 +11,7 @@ from typing import Any
 from ..core import require, units
 from ..core.errors import InputError, UnitError
 from ..core.parameters import Parameter, parameters
-from ..core.settings import validated
+from ..core.settings import COMMAND_LINE, validated
 from ..core.values import Flag, Text, Values
 from ..io.schemas.bodies import SYMBOLS, BodyTable, body_from_text
 from ..io.schemas.problem import (
@@ -170,7 +170,7 @@ def read_surface(file: Path, given: Given) -> Surface:
     """Surface in ``file`` as the reading options that are ``given`` ask."""
     table = {"kind": "file", "path": str(file), **given.under("surface").table()}
     names = {option.path[-1]: option.name for option in reading_options()}
-    return build_surface(validated(FileSurface, table, "command line", names), Path())
+    return build_surface(validated(FileSurface, table, COMMAND_LINE, names), Path())
 
 
 def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:

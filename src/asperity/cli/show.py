@@ -125,12 +125,22 @@ def print_problem(outcome: Outcome, title: str) -> None:
 
 def print_result(outcome: Outcome) -> None:
     """Print scalars and status of ``outcome``, with the words and findings of its parts."""
+    first = print_doubts(outcome)
     console().print(table("Result", scalar_rows(outcome.result)))
     print_words(outcome)
     say(outcome.status.message, "green" if outcome.converged else "bold red", warning=not outcome.converged)
     if outcome.status.remedy:
         say(outcome.status.remedy, "red", warning=True)
-    print_advice(outcome.findings)
+    print_advice(finding for finding in outcome.findings if finding not in first)
+
+
+def print_doubts(outcome: Outcome) -> tuple[Advice, ...]:
+    """Print and return the warnings that stand above the numbers of ``outcome``."""
+    from ..contact.advice import doubts
+
+    first = doubts(*(() if outcome.path is None else outcome.path.steps), outcome.result)
+    print_advice(first)
+    return first
 
 
 def print_words(outcome: Outcome) -> None:

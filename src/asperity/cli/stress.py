@@ -9,7 +9,7 @@ import typer
 
 from ..contact.advice import advise, review
 from ..core.errors import InputError
-from ..core.settings import validated
+from ..core.settings import COMMAND_LINE, validated
 from ..io.results import contact_of, document_in, load
 from ..io.schemas.problem import SolverTable
 from ..parts.stress import Stress, stress_request
@@ -21,7 +21,7 @@ from .declared import Given, Option, offers, part_names, part_options, with_part
 from .main import NOT_CONVERGED, OK
 from .options import solver_options
 from .results import Result
-from .show import print_advice, print_files, print_problem, print_words, stage
+from .show import print_advice, print_doubts, print_files, print_problem, print_words, stage
 
 
 def _options() -> list[Option]:
@@ -54,8 +54,10 @@ def stress(file: Result, given: Given, out: Out = None, force: Force = False) ->
             written = [*(out / name for name in names), *written]
     write_volume(outcome, files, force=force)
     print_problem(outcome, f"Stresses in {file}")
+    first = print_doubts(outcome)
     print_words(outcome)
-    print_advice((*advise(result.problem, result.control), *review(result), *outcome.findings))
+    findings = (*advise(result.problem, result.control), *review(result), *outcome.findings)
+    print_advice(finding for finding in findings if finding not in first)
     print_files(written)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 
@@ -71,11 +73,11 @@ def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocume
         else {name: getattr(before, name).model_dump(mode="json", exclude_none=True) for name in tables}
     )
     table = with_parts(start, given, ("stress",))
-    checked = checked_parts(table, "command line", part_names(given, everything=True))
+    checked = checked_parts(table, COMMAND_LINE, part_names(given, everything=True))
     request = stress_request(checked.stress, checked.friction)
     _require_same_coupling(request, None if before is None else stress_request(before.stress, before.friction))
     asked = {name: getattr(checked, name) for name in tables}
-    threads = validated(SolverTable, given.under("solver").table(), "command line", {"threads": "--threads"}).threads
+    threads = validated(SolverTable, given.under("solver").table(), COMMAND_LINE, {"threads": "--threads"}).threads
     return request, None if document is None else document.model_copy(update=asked), threads
 
 

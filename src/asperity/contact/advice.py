@@ -66,6 +66,10 @@ MOLECULE = 0.28e-9
 """Diameter of a molecule of water in m; other liquids have larger ones."""
 
 
+DOUBT = "duality gap"
+"""Criterion of the warning that stands above all others."""
+
+
 def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     """Findings that can be made before solving: slopes, resolution, edges, load, layers, memory."""
     profile = Surface(problem.profile(), *problem.grid.spacing)
@@ -84,7 +88,7 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
     """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, menisci."""
     wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
     return (
-        *_certificate(result),
+        *doubts(result),
         *_contact_pixels(result),
         *_nearly_full(result),
         *_room(result),
@@ -194,15 +198,16 @@ def _memory(problem: ContactProblem) -> Iterator[Advice]:
         )
 
 
-def _certificate(result: ContactResult) -> Iterator[Advice]:
-    gap = result.certificate.duality_gap
-    if not gap <= LARGEST_DUALITY_GAP:
-        yield Advice(
-            "warning",
-            "duality gap",
-            f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most {LARGEST_DUALITY_GAP:g} wanted): pressures "
-            "may be wrong. Use a smaller tolerance or another solver.",
-        )
+def doubts(*results: ContactResult) -> tuple[Advice, ...]:
+    """Warning that the elastic energy is hardly known in one of the ``results``; it stands above all other words on them."""
+    gap = max(result.certificate.duality_gap for result in results)
+    if gap <= LARGEST_DUALITY_GAP:
+        return ()
+    text = (
+        f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most {LARGEST_DUALITY_GAP:g} wanted): pressures "
+        "may be wrong. Use a smaller tolerance or another solver."
+    )
+    return (Advice("warning", DOUBT, text),)
 
 
 def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
@@ -299,11 +304,12 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
         solid = surface_material(body)
         hardness = math.nan if solid is None else solid.strength.hardness
         if result.max_pressure > hardness * (1.0 + 1e-9):  # reaching a cap equal to the hardness is as it should be
+            times, name = result.max_pressure / hardness, (solid and solid.name) or body.name or "the body"
+            above = f"is {times:.2g} times" if times >= 1.05 else f"is {percent(times - 1.0, 2)} above"
             yield Advice(
                 "warning",
                 "hardness",
-                f"The maximum pressure is {result.max_pressure / hardness:.2g} times the hardness of "
-                f"{(solid and solid.name) or body.name or 'the body'}: it would yield. Use the law Hardness(...) with that hardness "
+                f"The maximum pressure {above} the hardness of {name}: it would yield. Use the law Hardness(...) with that hardness "
                 "(--hardness body).",
             )
 

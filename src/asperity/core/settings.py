@@ -111,6 +111,10 @@ def table_of(
     return table
 
 
+COMMAND_LINE = "command line"
+"""What is checked if options are: they name themselves, so that a message on one problem does not begin with it."""
+
+
 def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> T:
     """The ``model`` made of the nested ``table``; ``names`` replaces dotted keys in messages, such as by an option.
 
@@ -124,7 +128,7 @@ def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mappi
     except ValidationError as error:
         lines = problems(error, json_schema(model), names or {})
     if len(lines) == 1:
-        raise InputError(f"{where}: {lines[0]}")
+        raise InputError(lines[0] if where == COMMAND_LINE else f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines), subject=where)
 
 

@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..contact.advice import doubts
 from ..contact.history import HistoryResult
 from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
@@ -388,17 +389,29 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         return "Contact problem", problem_rows(thing)
     if isinstance(thing, ContactResult):
         state = "converged" if thing.converged else "NOT CONVERGED"
-        rows = [*problem_rows(thing.problem), (f"prescribed {thing.control.name}", _control_text(thing))]
+        rows = [
+            *_doubt_rows(thing),
+            *problem_rows(thing.problem),
+            (f"prescribed {thing.control.name}", _control_text(thing)),
+        ]
         return f"Contact, {state}", [*rows, *headline_rows(thing), ("status", thing.status.message)]
     if isinstance(thing, HistoryResult):
         failed = sum(not step.converged for step in thing.steps)
         ended = "all converged" if not failed else f"{failed} NOT CONVERGED"
-        rows = [*problem_rows(thing.last.problem), ("steps", f"{len(thing.steps)}, {ended}")]
+        rows = [
+            *_doubt_rows(*thing.steps),
+            *problem_rows(thing.last.problem),
+            ("steps", f"{len(thing.steps)}, {ended}"),
+        ]
         loads = " → ".join(show(float(thing.mean_pressure[turn]), "Pa") for turn in thing.turns)
         return "Load history", [*rows, ("mean pressure where it turns", loads), *headline_rows(thing.last)]
     if isinstance(thing, StressField):
         return "Stress field", field_rows(thing)
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
+
+
+def _doubt_rows(*results: ContactResult) -> Rows:
+    return [("WARNING", finding.message) for finding in doubts(*results)]
 
 
 def text(thing: object) -> str:

@@ -49,7 +49,7 @@ class Contact(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the result."""
-        from ..contact.advice import advise, review
+        from ..contact.advice import DOUBT, advise, doubts, review
         from ..contact.result import SCALARS
 
         result, problem = solved.result, solved.problem
@@ -59,7 +59,9 @@ class Contact(Part):
             "rms_height": float(problem.profile().std()),
             "contact_modulus": problem.contact_modulus,
         }
-        findings = (*advise(problem, solved.control), *review(result))
+        steps = (result,) if solved.path is None else solved.path.steps
+        later = [item for item in review(result) if item.criterion != DOUBT]
+        findings = (*doubts(*steps), *advise(problem, solved.control), *later)
         return Found(values, result, findings, result.citation_keys)
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:

@@ -210,7 +210,7 @@ class Stress(Part):
         planes = enumerate(survey.wanted_planes(), start=1)
         return (
             *line_figures(survey, solved.problem.boundary),
-            *(map_figure(plane, number) for number, plane in planes),
+            *(map_figure(plane, number, solved.problem.boundary) for number, plane in planes),
         )
 
     def stored(self, found: Found) -> Stored:

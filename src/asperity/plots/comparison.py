@@ -146,7 +146,7 @@ def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
     }
     if "numerical_area_fraction" in data:
         draws["deviation"] = plot_comparison_deviation
-    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), SIZE)) for name, draw in draws.items())
+    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), SIZE), wide=True) for name, draw in draws.items())
 
 
 def save_comparison_plots(

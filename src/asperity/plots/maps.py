@@ -198,12 +198,15 @@ class Window:
     count: tuple[int, int]
 
 
-def largest_island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool]) -> Window | None:
-    """Square window about the largest island of the points ``there``; None where that is no detail of the map."""
+def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int, int] | None = None) -> Window | None:
+    """Square window about the largest island of the points ``there``, or that of the point ``at``.
+
+    None where that is no detail of the map.
+    """
     if 1 in grid.shape or max(grid.size) > SLENDER * min(grid.size) or not there.any():
         return None
     labels, _ = labelled(there, wraps=wraps)
-    spot = labels == np.argmax(np.bincount(labels[there]))
+    spot = labels == (np.argmax(np.bincount(labels[there])) if at is None else labels[at])
     ends = [_ends(spot.any(axis=1 - axis), wraps[axis]) for axis in (0, 1)]
     widths = [(last - first + 1) * d for (first, last), d in zip(ends, grid.spacing, strict=True)]
     side = max(ROUND * max(widths), FEWEST * max(grid.spacing))
@@ -264,17 +267,25 @@ def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
 
 def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
     """Draw the largest contact of ``result`` enlarged beside its map on ``ax``; False where it is no detail of the map."""
-    return _enlarge_island(result, result.contact, "largest contact", ax)
+    return enlarge_island(result.contact, result.problem.grid, result.problem.boundary.wraps, "largest contact", ax)
 
 
 def enlarge_indentation(result: ContactResult, ax: Axes) -> bool:
     """The same for the largest permanent indentation."""
-    return _enlarge_island(result, result.indented, "largest plastic zone", ax)
+    problem = result.problem
+    return enlarge_island(result.indented, problem.grid, problem.boundary.wraps, "largest plastic zone", ax)
 
 
-def _enlarge_island(result: ContactResult, there: BoolArray, title: str, ax: Axes) -> bool:
-    grid = result.problem.grid
-    window = largest_island(there, grid, result.problem.boundary.wraps)
+def enlarge_island(
+    there: BoolArray,
+    grid: Grid,
+    wraps: tuple[bool, bool],
+    title: str,
+    ax: Axes,
+    at: tuple[int, int] | None = None,
+) -> bool:
+    """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island`` chooses it; whether it is one."""
+    window = island(there, grid, wraps, at)
     if window is not None:
         enlarge(ax, grid, window, title)
     return window is not None

@@ -138,7 +138,7 @@ def say_exaggeration(ax: Axes, what: str, across: float, up: float) -> None:
     times = (height / up) / (width / across) if up > 0.0 and across > 0.0 else 1.0
     if max(times, 1.0 / times) > 1.05:
         ax.annotate(
-            f"{what} × {float(f'{times:.2g}'):g}",
+            times_text(what, times),
             (1.0, 1.0),
             (0, 3),
             "axes fraction",
@@ -146,6 +146,11 @@ def say_exaggeration(ax: Axes, what: str, across: float, up: float) -> None:
             ha="right",
             fontsize=7.5,
         )
+
+
+def times_text(what: str, times: float) -> str:
+    """How many ``times`` larger ``what`` is drawn than lengths across, in words."""
+    return f"{what} × {float(f'{times:.2g}'):g}"
 
 
 def legend_above(ax: Axes, columns: int = 2, height: float = 1.0) -> Axes:
@@ -179,12 +184,13 @@ def style() -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawn figure: ``name`` of its file, ``title``, ``caption``, and the PNG."""
+    """A drawn figure: ``name`` of its file, ``title``, ``caption``, the PNG, and whether a part enlarged makes it ``wide``."""
 
     name: str
     title: str
     caption: str
     picture: bytes
+    wide: bool = False
 
 
 # From drawing functions to PNG: one figure, one set of axes, no window.
@@ -238,7 +244,7 @@ def _figure(plot: Plot, thing: Any) -> Figure:
         return ax
 
     picture = png(draw, size, projection="3d" if plot.kind == "view" else None)
-    return Figure(plot.name, plot.title, plot.caption + (BESIDE if any(enlarged) else ""), picture)
+    return Figure(plot.name, plot.title, plot.caption + (BESIDE if any(enlarged) else ""), picture, any(enlarged))
 
 
 def png(

@@ -20,10 +20,11 @@ from ..core.quantity import Quantity
 from ..core.units import show
 from ..stress.field import DERIVED, StressField
 from ..stress.survey import StressSurvey, SurveyedSection
-from .maps import Look, plot_field
+from .maps import Look, enlarge_island, plot_field
 from .picture import (
     BAR,
     BAR_ROOM,
+    BESIDE,
     BLACK,
     BLUE,
     CURVE_SIZE,
@@ -304,18 +305,30 @@ def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
         yield Figure(f"stress_profile_{number}", f"Depth profile {number}", caption, picture)
 
 
-def map_figure(plane: StressField, number: int) -> Figure:
-    """Figure of the von Mises stress on a whole ``plane``, the ``number``-th."""
+PEAK = 0.5
+"""Share of the largest stress above which points about the maximum are enlarged."""
+
+
+def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
+    """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum enlarged beside."""
     section = plane.planes[0]
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
-    size = map_size(Grid((plane.x.size, plane.y.size), plane.spacing))
-    return Figure(
-        f"stress_plane_{number}",
-        f"Von Mises stress at {depth}{side}",
-        f"Map of the von Mises stress at {depth}{side}, in {section.region.name}.",
-        png(partial(plot_stress_map, plane), size),
-    )
+    grid, stress = Grid((plane.x.size, plane.y.size), plane.spacing), plane.von_mises[0]
+    i, j = np.unravel_index(int(stress.argmax()), stress.shape)
+    enlarged: list[bool] = []
+
+    def draw(ax: Axes) -> Axes:
+        plot_stress_map(plane, ax)
+        high = stress >= PEAK * stress.max()
+        enlarged.append(enlarge_island(high, grid, boundary.wraps, "about the maximum", ax, (int(i), int(j))))
+        return ax
+
+    picture = png(draw, map_size(grid))
+    caption = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
+    caption += BESIDE if enlarged[0] else ""
+    title = f"Von Mises stress at {depth}{side}"
+    return Figure(f"stress_plane_{number}", title, caption, picture, enlarged[0])
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:

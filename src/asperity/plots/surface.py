@@ -33,6 +33,7 @@ from .picture import (
     render,
     save_pictures,
     scale,
+    times_text,
 )
 
 if TYPE_CHECKING:
@@ -173,6 +174,9 @@ def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
     )
     view.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})", zlabel=f"height ({height.symbol})")
     _box(view, grid)
+    along = float(np.ptp((view.get_xlim, view.get_ylim)[int(grid.size[1] > grid.size[0])]())) * length.factor
+    times = _TALLEST * along / (float(np.ptp(view.get_zlim())) * height.factor)
+    view.text2D(1.0, 0.9, times_text("heights", times), transform=view.transAxes, ha="right", fontsize=7.5)
     return ax
 
 
@@ -323,7 +327,7 @@ def _view(found: Characterisation, ax: Axes) -> Axes:
 
 SURFACE_PLOTS = (
     Plot("heights", "Heights", "Heights relative to their mean; missing points are grey.", _heights, "map"),
-    Plot("view", "View", "The surface in space; heights are exaggerated.", _view, "view"),
+    Plot("view", "View", "The surface in space; how much heights are exaggerated stands above.", _view, "view"),
     Plot(
         "distribution",
         "Distribution of heights",

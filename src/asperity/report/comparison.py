@@ -9,16 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.citations import REFERENCES
 from ..core.units import percent, show
-from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import Rows, body_text, modulus_label, surface_rows
 from ..parts.part import Table
 from ..plots.comparison import comparison_figures
 from ..plots.picture import Figure
 from ..studies.comparison import Comparison, TheoryCurve
-from .page import rendered, shown
+from .page import software_rows, write_page
 
 # A comparison of theories in words for tables.
 
@@ -166,10 +164,6 @@ def _share(value: float, *, signed: bool = False) -> str:
 # A self-contained HTML page on a comparison of theories with the numerical solution.
 
 
-TEMPLATE = "comparison.html"
-"""Template in the folder ``templates``."""
-
-
 def write_comparison_report(
     comparison: Comparison,
     path: str | Path,
@@ -187,15 +181,12 @@ def write_comparison_report(
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(comparison, title or _title(comparison), figures), encoding="utf-8")
-
-
-def _html(comparison: Comparison, title: str, figures: Sequence[Figure] | None) -> str:
-    drawn = comparison_figures(comparison.dataset) if figures is None else figures
-    return rendered(
-        TEMPLATE,
-        title=title,
+    source = comparison.surface.origin.source
+    heading = "Theories beside the numerical solution"
+    write_page(
+        path,
+        "comparison.html",
+        title=title or (f"{heading}: {source}" if source else heading),
         summary=comparison_sentence(comparison),
         findings=comparison.findings,
         remarks=comparison.remarks,
@@ -204,15 +195,8 @@ def _html(comparison: Comparison, title: str, figures: Sequence[Figure] | None) 
         surface=surface_rows(comparison.surface),
         limits=limit_rows(comparison),
         left_out=left_out_rows(comparison),
-        figures=shown(drawn),
-        provenance=[
-            *((name.replace("_", " "), text) for name, text in software().items()),
-            ("SHA-256 of the heights", surface_provenance(comparison.surface)["digest"]),
-        ],
-        references=[(key, REFERENCES.get(key, "unknown reference")) for key in comparison.citation_keys],
+        figures=comparison_figures(comparison.dataset) if figures is None else figures,
+        provenance=software_rows(software(), heights=surface_provenance(comparison.surface)["digest"]),
+        citation_keys=comparison.citation_keys,
+        overwrite=overwrite,
     )
-
-
-def _title(comparison: Comparison) -> str:
-    source = comparison.surface.origin.source
-    return f"Theories beside the numerical solution: {source}" if source else "Theories beside the numerical solution"

@@ -1,18 +1,59 @@
-"""HTML pages from the templates of this folder."""
+"""Self-contained HTML pages from the templates of this folder: no network and no other file is needed to read one."""
 
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
 from importlib import resources
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from ..core.citations import REFERENCES
 from ..core.text import printable
+from ..io.atomic import atomic_file
+from ..io.words import Rows
 from ..plots.picture import Figure
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
+"""Names of options, and numbers with exponents: no line of a page is broken at their hyphens."""
+
+
+def write_page(
+    path: str | Path,
+    template: str,
+    *,
+    citation_keys: Iterable[str],
+    figures: Iterable[Figure] = (),
+    provenance: Rows | None = None,
+    document: str | None = None,
+    overwrite: bool = False,
+    **values: Any,
+) -> None:
+    """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, to the HTML file ``path``.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    with atomic_file(path, overwrite=overwrite) as file:
+        page = rendered(
+            template,
+            references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
+            figures=shown(figures),
+            provenance=provenance,
+            document=document,
+            **values,
+        )
+        file.write_text(page, encoding="utf-8")
 
 
 def rendered(template: str, **values: Any) -> str:
-    """Text of the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, control characters too."""
+    """Text of the page ``template`` with ``values``, all of them escaped, control characters too."""
     import jinja2
 
     environment = jinja2.Environment(
@@ -23,15 +64,29 @@ def rendered(template: str, **values: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["prose"] = prose
     return environment.get_template(template).render(**values)
 
 
-def shown(figures: Iterable[Figure]) -> list[dict[str, str]]:
-    """``figures`` for a template: title, caption, and the picture as base64."""
-    return [
-        {"title": f.title, "caption": f.caption, "picture": base64.b64encode(f.picture).decode("ascii")}
-        for f in figures
-    ]
+def prose(text: object) -> Markup:
+    """``text`` as HTML whose lines are broken after underscores too, but not within options and numbers."""
+    from markupsafe import Markup, escape
+
+    def kept(found: re.Match[str]) -> str:
+        return f'<span class="whole">{found[0]}</span>'
+
+    return Markup(WHOLE.sub(kept, str(escape(printable(str(text), keep="\n\t")))).replace("_", "_<wbr>"))
+
+
+def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
+    """``figures`` for a template, the pictures as base64."""
+    return [{**vars(f), "picture": base64.b64encode(f.picture).decode("ascii")} for f in figures]
+
+
+def software_rows(software: Mapping[str, str], **digests: str) -> Rows:
+    """Names and versions of the ``software`` behind a page, and SHA-256 ``digests`` of what it is about."""
+    rows = [(name.replace("_", " "), text) for name, text in software.items()]
+    return [*rows, *((f"SHA-256 of the {name.replace('_', ' ')}", text) for name, text in digests.items())]
 
 
 def _source(name: str) -> str:

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ..core.citations import REFERENCES
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.units import percent, show
-from ..io.atomic import atomic_file
 from ..io.provenance import software, surface_provenance
 from ..io.words import surface_rows
 from ..parts.part import Table
@@ -19,7 +17,7 @@ from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation, SpectralParameters
 from ..theories.rough.profile_peaks import SampledPeaks
 from ..theories.statistics.nayak import NayakSummits
-from .page import rendered, shown
+from .page import software_rows, write_page
 
 # The numbers of a characterisation in words for a table.
 
@@ -195,10 +193,6 @@ def _text(theory: NayakSummits | None, name: str, unit: str) -> str:
 # A self-contained HTML page on the roughness of one surface.
 
 
-TEMPLATE = "roughness.html"
-"""Template in the folder ``templates``."""
-
-
 def write_roughness_report(
     found: Characterisation, path: str | Path, *, title: str = "", overwrite: bool = False
 ) -> None:
@@ -211,23 +205,32 @@ def write_roughness_report(
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(found, title or _title(found)), encoding="utf-8")
+    surface, power, missing = found.surface, found.spectra.power, found.surface.n_missing
+    row = [("missing points", f"{missing} ({percent(missing / surface.grid.n_points)})")] if missing else []
+    source = surface.origin.source
+    write_page(
+        path,
+        "roughness.html",
+        title=title or (f"Roughness report: {source}" if source else "Roughness report"),
+        summary=summary(found),
+        headline=headline_values(found),
+        remarks=found.remarks,
+        figures=drawn(SURFACE_PLOTS, found),
+        groups=quantity_rows(found),
+        summits=summit_comparison(found),
+        peaks=peak_comparison(found),
+        facts_rows=[*surface_rows(surface), *row, ("window of the spectra", "–" if power is None else power.window)],
+        provenance=software_rows(software(), heights=surface_provenance(surface)["digest"]),
+        citation_keys=found.citation_keys,
+        overwrite=overwrite,
+    )
 
 
 def write_files_report(table: Table, path: str | Path, summary: str, *, overwrite: bool = False) -> None:
     """Write a page with one ``table`` of many files; the rest as for ``write_roughness_report``."""
-    references = [("ISO25178", REFERENCES["ISO25178"])]
-    page = rendered(
-        "files.html",
-        title="Roughness of files",
-        summary=summary,
-        references=references,
-        headings=table.headings,
-        rows=table.cells,
-    )
-    with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(page, encoding="utf-8")
+    keys = ("ISO25178",)
+    title = "Roughness of files"
+    write_page(path, "files.html", title=title, summary=summary, table=table, citation_keys=keys, overwrite=overwrite)
 
 
 def summary(found: Characterisation) -> str:
@@ -254,39 +257,3 @@ def _spectrum_sentence(spectrum: SpectralParameters) -> str:
     if math.isfinite(spectrum.rolloff_wavelength):
         return f"{law}, with a roll-off at {show(spectrum.rolloff_wavelength, 'm', 3)}."
     return f"{law}; the scan shows no roll-off."
-
-
-def _html(found: Characterisation, title: str) -> str:
-    return rendered(
-        TEMPLATE,
-        title=title,
-        summary=summary(found),
-        headline=headline_values(found),
-        remarks=found.remarks,
-        figures=shown(drawn(SURFACE_PLOTS, found)),
-        groups=quantity_rows(found),
-        summits=summit_comparison(found),
-        peaks=peak_comparison(found),
-        facts_rows=_facts(found),
-        provenance=_provenance(found),
-        references=[(key, REFERENCES.get(key, "unknown reference")) for key in found.citation_keys],
-    )
-
-
-def _title(found: Characterisation) -> str:
-    source = found.surface.origin.source
-    return f"Roughness report: {source}" if source else "Roughness report"
-
-
-def _facts(found: Characterisation) -> list[tuple[str, str]]:
-    missing, points = found.surface.n_missing, found.surface.grid.n_points
-    row = [("missing points", f"{missing} ({percent(missing / points)})")] if missing else []
-    power = found.spectra.power
-    return [*surface_rows(found.surface), *row, ("window of the spectra", "–" if power is None else power.window)]
-
-
-def _provenance(found: Characterisation) -> list[tuple[str, str]]:
-    return [
-        *((name.replace("_", " "), text) for name, text in software().items()),
-        ("SHA-256 of the heights", surface_provenance(found.surface)["digest"]),
-    ]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ..core.citations import REFERENCES
+from ..contact.advice import DOUBT
 from ..core.quantity import Labelled, Quantity
 from ..core.units import percent, show
 from ..io.atomic import atomic_file
@@ -31,7 +31,7 @@ from ..plots.picture import CURVE_SIZE, Figure, png, save_pictures
 from ..studies.campaign import Campaign, CampaignState
 from ..studies.collect import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
-from .page import rendered, shown
+from .page import software_rows, write_page
 
 if TYPE_CHECKING:
     import xarray
@@ -304,24 +304,40 @@ def case_table(campaign: Campaign, data: xarray.Dataset) -> Table:
     return Table(headings, tuple(cells))
 
 
-def failure_table(campaign: Campaign) -> Table:
+def failure_table(campaign: Campaign, state: CampaignState) -> Table:
     """Causes of failures with their number and first case."""
-    return _cause_table(campaign.causes(), "Cause")
+    return _cause_table(campaign, state.causes, "Cause")
 
 
-def finding_table(campaign: Campaign) -> Table:
+def finding_table(campaign: Campaign, state: CampaignState) -> Table:
     """Warnings and notes of the cases with their number and first case."""
-    return _cause_table(campaign.findings(), "Warning or note")
+    return _cause_table(campaign, state.findings, "Warning or note")
 
 
-def _cause_table(causes: Iterable[Cause], heading: str) -> Table:
+def warning_texts(state: CampaignState) -> list[str]:
+    """What stands above a study: where the energy is hardly known, and in how many cases there are other warnings."""
+    doubted = [cause for cause in state.findings if cause.kind == f"warning ({DOUBT})"]
+    others = [cause for cause in state.findings if cause.kind.startswith("warning") and cause not in doubted]
+    texts = [f"{_cases(cause.count)}, of which the first: {cause.first.message}" for cause in doubted]
+    listed = ", ".join(f"{cause.kind[len('warning (') : -1]} in {_cases(cause.count)}" for cause in others)
+    return [*texts, *([f"There are warnings: {listed}."] if others else [])]
+
+
+def _cases(count: int) -> str:
+    return f"{count} case{'s' if count > 1 else ''}"
+
+
+def _cause_table(campaign: Campaign, causes: Iterable[Cause], heading: str) -> Table:
+    units: dict[str, str] = {}
+    for axis in campaign.plan.axes:
+        units |= {axis.name: axis.unit, **axis.columns}
     cells = []
     for cause in causes:
-        at = ", ".join(
-            f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
+        places = (
+            f"{name.replace('_', ' ')} = {coordinate_text(value, units.get(name, '1'))}"
             for name, value in cause.first.at.items()
         )
-        cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", at))
+        cells.append((str(cause.count), f"{cause.kind}: {cause.first.message}", ", ".join(places)))
     return Table(("Cases", heading, "First at"), tuple(cells))
 
 
@@ -336,10 +352,6 @@ def _text(value: float | str, unit: str, *, share: bool = False) -> str:
 # A self-contained HTML page on a study.
 
 
-TEMPLATE = "study.html"
-"""Template in the folder ``templates``."""
-
-
 def write_study_report(
     campaign: Campaign, path: str | Path, *, figures: Sequence[Figure] | None = None, overwrite: bool = False
 ) -> None:
@@ -352,32 +364,32 @@ def write_study_report(
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    with atomic_file(path, overwrite=overwrite) as file:
-        file.write_text(_html(campaign, figures), encoding="utf-8")
-
-
-def _html(campaign: Campaign, figures: Sequence[Figure] | None) -> str:
     data, derived, state = campaign.dataset(), campaign.analysis(), campaign.state()
-    drawn = study_figures(campaign, data, derived) if figures is None else figures
-    software = json.loads(data.attrs["software"])
-    return rendered(
-        TEMPLATE,
+    found = [
+        ("derived", "Findings", None if derived is None else derived_table(campaign, data, derived)),
+        ("failures", "Failures by cause", failure_table(campaign, state)),
+        ("findings", "Warnings and notes", finding_table(campaign, state)),
+    ]
+    write_page(
+        path,
+        "study.html",
         title=campaign.title,
         state=state,
         summary=summary(campaign, state),
+        warnings=warning_texts(state),
         axes=axis_rows(campaign),
-        derived=None if derived is None else derived_table(campaign, data, derived),
+        tables=[(name, heading, table) for name, heading, table in found if table is not None and table.cells],
         cases=case_table(campaign, data),
         n_cases=int(data["outcome"].size),
-        failures=failure_table(campaign),
-        findings=finding_table(campaign),
-        figures=shown(drawn),
+        figures=study_figures(campaign, data, derived) if figures is None else figures,
         provenance=[
             ("collected (UTC)", data.attrs["created"]),
-            *((name.replace("_", " "), text) for name, text in software.items()),
+            *software_rows(json.loads(data.attrs["software"])),
         ],
-        references=[(key, REFERENCES.get(key, "unknown reference")) for key in data.attrs["citation_keys"].split()],
+        citation_keys=data.attrs["citation_keys"].split(),
         document=data.attrs["study"],
+        document_of="Study",
+        overwrite=overwrite,
     )
 
 

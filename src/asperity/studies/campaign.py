@@ -26,12 +26,26 @@ STUDY, RECORDS = "study.toml", "records.log"
 
 @dataclass(frozen=True)
 class CampaignState:
-    """How far a study is: cases ``done``, ``failed`` and ``missing``; ``samples`` that were enough, None if not so far."""
+    """How far a study is.
+
+    Attributes
+    ----------
+    done, failed, missing
+        Numbers of cases.
+    samples
+        Number of samples that were enough; None if not so far.
+    causes
+        Failed cases grouped by cause.
+    findings
+        Warnings and notes of the cases, counted by their criterion; each with its first case.
+    """
 
     done: int
     failed: int
     missing: int
     samples: int | None = None
+    causes: tuple[Cause, ...] = ()
+    findings: tuple[Cause, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -93,20 +107,10 @@ class Campaign:
         return carry_out(self.plan, self.records, executor, watch=watch or NoWatch(), retry=retry)
 
     def state(self) -> CampaignState:
-        """How many cases are done, have failed, are missing."""
-        import numpy as np
+        """How many cases are done, have failed, are missing; why, and what was found of them."""
+        from .collect import state
 
-        from .collect import FAILED, MISSING, Collected, stopped_at
-
-        outcome = np.full(self.plan.n_cases, MISSING)
-        for place, record in Collected(self.plan, self.records).records():
-            outcome[place] = 0 if record["error"] is None else FAILED
-        end = stopped_at(self.plan, self.records)
-        if end is not None:
-            outcome = outcome[: end * (self.plan.n_cases // self.plan.shape[0])]
-        counts = np.bincount(outcome, minlength=3)
-        done, failed, missing = (int(count) for count in counts)
-        return CampaignState(done, failed, missing, end)
+        return state(self.plan, self.records)
 
     def dataset(self) -> xarray.Dataset:
         """Results on the axes of the study, labelled, SI; NaN where a case failed or is missing."""
@@ -123,15 +127,11 @@ class Campaign:
 
     def findings(self) -> tuple[Cause, ...]:
         """Warnings and notes of the cases, counted by their criterion; each with its first case."""
-        from .collect import causes, findings
-
-        return causes(findings(self.plan, self.records), by_kind=True)
+        return self.state().findings
 
     def causes(self) -> tuple[Cause, ...]:
         """Failed cases grouped by cause."""
-        from .collect import causes, failures
-
-        return causes(failures(self.plan, self.records))
+        return self.state().causes
 
 
 def run_study(

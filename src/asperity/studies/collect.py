@@ -17,8 +17,8 @@ from ..io.provenance import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
 from .axes import Axis, Coordinate
+from .campaign import CampaignState
 from .evaluate import CHECKS
-from .monte_carlo import Stop
 from .plan import Plan, measures
 from .run import stop_quantity, stopping
 from .store import Record, records
@@ -134,37 +134,39 @@ def stopped_at(plan: Plan, path: Path) -> int | None:
     quantity = str(stop_quantity(plan))
     for place, record in Collected(plan, path).records():
         found[place] = record["values"].get(quantity, np.nan)
-    _feed(stop, found, plan)
-    return stop.end
-
-
-def failures(plan: Plan, path: Path) -> list[Failure]:
-    """Cases of ``plan`` that failed, and have not been done again with success."""
-    found: dict[int, Failure | None] = {}
-    for place, record in Collected(plan, path).records():
-        error = record["error"]
-        if error is None:
-            found.pop(place, None)
-        else:
-            index = tuple(int(number) for number in np.unravel_index(place, plan.shape))
-            found[place] = Failure(plan.coordinates(index), error["type"], error["message"])
-    return [failure for failure in found.values() if failure is not None]
-
-
-def findings(plan: Plan, path: Path) -> list[Failure]:
-    """Findings of the finished cases of ``plan``, level and criterion with the message; of each case the last record."""
-    last: dict[int, Record] = dict(Collected(plan, path).records())
-    found = []
-    for place, record in last.items():
-        at = plan.coordinates(tuple(int(number) for number in np.unravel_index(place, plan.shape)))
-        found += [Failure(at, f"{level} ({criterion})", text) for level, criterion, text in record.get("findings", ())]
-    return found
-
-
-def _feed(stop: Stop, found: dict[int, float], plan: Plan) -> None:
     points = max(1, plan.n_cases // plan.shape[0])
     for place in sorted(found):
         stop.take(place // points, place % points, found[place])
+    return stop.end
+
+
+def state(plan: Plan, path: Path) -> CampaignState:
+    """How far ``plan`` is by the store at ``path``; of a case that was done again the last record counts."""
+    outcome = np.full(plan.n_cases, MISSING, np.int8)
+    errors: dict[int, dict[str, str]] = {}
+    told: dict[int, list[list[str]]] = {}
+    for place, record in Collected(plan, path).records():
+        outcome[place] = DONE if record["error"] is None else FAILED
+        errors.pop(place, None)
+        told.pop(place, None)
+        if record["error"] is not None:
+            errors[place] = record["error"]
+        if record.get("findings"):
+            told[place] = record["findings"]
+
+    def at(place: int) -> dict[str, Coordinate]:
+        return plan.coordinates(tuple(int(number) for number in np.unravel_index(place, plan.shape)))
+
+    failed = [Failure(at(place), error["type"], error["message"]) for place, error in errors.items()]
+    found = [
+        Failure(at(place), f"{level} ({criterion})", text)
+        for place, findings in told.items()
+        for level, criterion, text in findings
+    ]
+    end = stopped_at(plan, path)
+    counted = outcome if end is None else outcome[: end * (plan.n_cases // plan.shape[0])]
+    done, failures, missing = (int(count) for count in np.bincount(counted, minlength=3))
+    return CampaignState(done, failures, missing, end, causes(failed), causes(found, by_kind=True))
 
 
 def _coordinates(plan: Plan) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """Each advice appears on its case, with numbers, and stays away from a sound one."""
 
+from dataclasses import replace
+
 import numpy as np
 from contact_cases import elastic, rough, square_grid
 
@@ -125,6 +127,9 @@ def test_pressure_above_the_known_hardness():
     found = [a for a in after(rough((32, 32)), 0.05, body=soft) if a.criterion == "hardness"]
     assert len(found) == 1
     assert "butter" in found[0].message
+    top = replace(asp.solve(asp.ContactProblem(rough((32, 32)), soft), asp.MeanPressure(0.005)), max_pressure=0.01003)
+    (slightly,) = [item for item in asp.review(top) if item.criterion == "hardness"]
+    assert "0.3 % above" in slightly.message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
     assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))
 

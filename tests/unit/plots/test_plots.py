@@ -19,7 +19,7 @@ from refusals import refused
 import asperity as asp
 from asperity import plots
 from asperity.core.errors import OutputError
-from asperity.plots.maps import Look, Window, enlarge, largest_island, plot_field
+from asperity.plots.maps import Look, Window, enlarge, island, plot_field
 from asperity.plots.picture import literal, scale
 
 NAMES = ("heights", "pressure", "pressure_log", "contact", "gap", "section", "histogram", "gap_histogram")
@@ -173,10 +173,10 @@ def test_the_largest_contact_is_enlarged_beside_its_map(ax: Axes) -> None:
     there = np.zeros(grid.shape, dtype=bool)
     there[20:22, 10:12] = True  # 2 x 4 µm
     there[118:, 30] = there[:3, 30] = True  # 5 x 2 µm, across the border
-    window = largest_island(there, grid, (True, True))
+    window = island(there, grid, (True, True))
     assert window == Window((104, 22), (32, 16))  # 16 pixels of 2 µm, about x = 120.5 µm
-    assert largest_island(there, grid, (False, False)) == Window((5, 3), (32, 16))  # about 21 µm, 22 µm
-    assert largest_island(np.ones(grid.shape, dtype=bool), grid, (True, True)) is None
+    assert island(there, grid, (False, False)) == Window((5, 3), (32, 16))  # about 21 µm, 22 µm
+    assert island(np.ones(grid.shape, dtype=bool), grid, (True, True)) is None
     values = np.arange(4800.0).reshape(grid.shape)
     plot_field(values, grid, ax, Look("m", "height", "cividis"))
     beside = drawn(enlarge(ax, grid, window, "largest contact"))

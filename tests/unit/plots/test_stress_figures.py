@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_cases import rough
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import asperity as asp
+import asperity.plots.stress as stress_plots
 from asperity.core.units import show
 from asperity.plots.stress import CLOSE_UP, close_up, line_figures, map_figure, plot_stress_section
 from asperity.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
@@ -88,7 +90,8 @@ def test_close_up_wraps_over_the_period_and_its_colours_reach_the_maximum(long: 
 
 
 def test_maps_of_planes(long: StressSurvey) -> None:
-    figures = [map_figure(plane, number) for number, plane in enumerate(long.planes(long.request.depths), start=1)]
+    planes = enumerate(long.planes(long.request.depths), start=1)
+    figures = [map_figure(plane, number, long.result.problem.boundary) for number, plane in planes]
     assert [figure.name for figure in figures] == ["stress_plane_1", "stress_plane_2", "stress_plane_3"]
     assert [figure.title for figure in figures] == [
         "Von Mises stress at the surface",
@@ -97,3 +100,27 @@ def test_maps_of_planes(long: StressSurvey) -> None:
     ]
     assert figures[2].caption.endswith("in base.")
     assert all(figure.picture.startswith(b"\x89PNG") for figure in figures)
+
+
+def test_maps_of_planes_show_their_maximum_enlarged(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[Axes] = []
+    monkeypatch.setattr(stress_plots, "png", lambda draw, size: drawn.append(draw(Figure(size).add_subplot())) or b"")
+    surface = asp.generate.sphere(asp.Grid((64, 48), (1e-7, 1e-7)), radius=2e-5)
+    result = asp.solve(asp.ContactProblem(surface, asp.Elastic(1e9, 0.3), boundary=asp.Free()), asp.Force(1e-7))
+    plane = asp.stress(result, depths=[1e-7])
+    stress = plane.von_mises[0]
+    there = int(np.unravel_index(stress.argmax(), stress.shape)[0])
+    for move in (0, -there):  # where it is, and at the border, over which the window wraps
+        moved = replace(plane, tensor=plane.tensor.map(lambda part, move=move: np.roll(part, move, axis=1)))
+        figure = map_figure(moved, 1, asp.Periodic())
+        assert figure.wide
+        assert figure.caption.endswith("enlarged.")
+        (beside,) = [axes for axes in drawn[-1].child_axes if axes.get_title(loc="left") == "about the maximum"]
+        values, whole = (np.asarray(axes.images[0].get_array()) for axes in (beside, drawn[-1]))
+        assert values.max() == whole.max()
+        assert values.size < whole.size / 4
+        low, high = beside.get_xlim()
+        at = 0.1 * (there + move + 0.5)  # µm
+        assert low < at < high or low < at + 6.4 < high
+    flat = replace(plane, tensor=plane.tensor.map(np.ones_like))
+    assert not map_figure(flat, 1, asp.Free()).wide

@@ -194,3 +194,16 @@ def test_colours_stay_those_of_the_caller(measured, tmp_path: Path):
     before = dict(rcParams)
     plots.render(plots.SURFACE_PLOTS[0], measured)
     assert dict(rcParams) == before
+
+
+@pytest.mark.parametrize("shape", [(40, 30), (30, 40)])
+def test_view_says_how_much_heights_are_exaggerated(shape):
+    figure = Figure()
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot(projection="3d")
+    heights = 1e-9 * np.random.default_rng(1).standard_normal(shape)
+    plots.plot_surface_view(asp.Surface(heights, 1e-8), axes)
+    (text,) = [item.get_text() for item in axes.texts if "×" in item.get_text()]
+    sides = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)  # nm, as heights
+    across, up = sides.max(), np.ptp(axes.get_zlim())
+    assert text == f"heights × {float(f'{0.18 * across / up:.2g}'):g}"

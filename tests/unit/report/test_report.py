@@ -22,6 +22,7 @@ from asperity.core.errors import OutputError
 from asperity.io.words import body_rows, body_text, surface_rows, value_text
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
+from asperity.report.page import prose
 from asperity.surfaces.surface import Origin
 
 pytestmark = pytest.mark.usefixtures("unrendered")
@@ -257,3 +258,10 @@ def test_graded_coatings_take_one_row() -> None:
     assert body_text(body) == "TiN 10 nm / graded TiN - steel 1 µm in 4 layers / steel"
     rows = dict(body_rows(body))
     assert rows["layers 2 to 5"].startswith("1 µm of graded TiN - steel in 4 layers: E = 366.8 GPa … 218.1 GPa;")
+
+
+def test_options_and_exponents_are_not_broken_at_their_hyphens() -> None:
+    text = str(prose("Periodise it (--periodise, or --short-cutoff 1um) <b>; to 2.21e-08 of afm_film"))
+    assert '<span class="whole">--periodise</span>,' in text
+    assert '<span class="whole">--short-cutoff</span> 1um) &lt;b&gt;' in text
+    assert '<span class="whole">2.21e-08</span> of afm_<wbr>film' in text

@@ -18,7 +18,7 @@ from asperity.parts.contact import Contact
 from asperity.run.build import build
 from asperity.run.document import checked
 from asperity.studies.analysis import analysis
-from asperity.studies.collect import Failure, causes, dataset, failures, findings, stopped_at
+from asperity.studies.collect import Failure, causes, dataset, state, stopped_at
 from asperity.studies.convergence import step_sizes
 from asperity.studies.places import replaced
 from asperity.studies.plan import computed
@@ -119,7 +119,7 @@ def test_failed_cases_are_records_and_the_others_go_on(tmp_path):
     log = tmp_path / "r.log"
     summary = carry_out(made, log, InProcess())
     assert (summary.done, summary.failed) == (16, 8)
-    (cause,) = causes(failures(made, log))
+    (cause,) = state(made, log).causes
     assert (cause.kind, cause.count) == ("NoSolutionError", 8)
     assert cause.first.at == {"seed": 1.0, "control_mean_pressure": 5e8}
     assert "mean pressure" in cause.first.message
@@ -137,7 +137,7 @@ def test_a_problem_that_cannot_be_built_fails_as_a_whole(tmp_path):
     surface = {"kind": "file", "path": "none.txt", "size": "1 um", "height_unit": "nm"}
     made = plan(problem={**PROBLEM, "surface": surface}, axes=[LOADS])
     assert carry_out(made, tmp_path / "r.log", InProcess()).failed == 3
-    assert {failure.kind for failure in failures(made, tmp_path / "r.log")} == {"FileFormatError"}
+    assert {cause.kind for cause in state(made, tmp_path / "r.log").causes} == {"FileFormatError"}
 
 
 def test_causes_that_differ_in_numbers_are_one():
@@ -151,7 +151,7 @@ def test_findings_of_the_cases_are_counted(tmp_path):
     body = {"layers": [{"material": "DLC", "thickness": "1 nm"}], "base": "steel"}
     made = plan(problem={**PROBLEM, "body": body}, axes=[SEEDS, LOADS])
     carry_out(made, tmp_path / "r.log", InProcess())
-    counted = {cause.kind: cause.count for cause in causes(findings(made, tmp_path / "r.log"), by_kind=True)}
+    counted = {cause.kind: cause.count for cause in state(made, tmp_path / "r.log").findings}
     assert counted["note (layer against pixel)"] == 12
 
 

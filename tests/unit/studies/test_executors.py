@@ -15,7 +15,7 @@ from study_cases import CRASHING, LOADS, QUICK, SLOW, InProcess, plan, workers_o
 
 from asperity.core.errors import InputError
 from asperity.studies.cluster import DaskCluster
-from asperity.studies.collect import causes, dataset, failures
+from asperity.studies.collect import dataset, state
 from asperity.studies.local import LocalProcesses
 from asperity.studies.run import carry_out
 from asperity.studies.store import records
@@ -69,7 +69,7 @@ def test_cases_that_end_their_worker_are_failed_records_grouped_by_cause(tmp_pat
     doomed = [case.key for path in made.paths() for case in path if int(case.key[1], 16) < 8]
     assert 0 < len(doomed) < 6, "the test needs both kinds"
     assert (summary.done, summary.failed) == (6, len(doomed))
-    (cause,) = causes(failures(made, tmp_path / "r.log"))
+    (cause,) = state(made, tmp_path / "r.log").causes
     assert (cause.kind, cause.count) == ("WorkerLost", len(doomed))
     assert cause.first.message == "the worker ended with exit code 7: out of luck"
     data = dataset(made, tmp_path / "r.log")

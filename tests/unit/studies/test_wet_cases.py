@@ -14,7 +14,7 @@ import asperity as asp
 from asperity.contact.operators import prepare_operator
 from asperity.run.build import build
 from asperity.run.document import checked
-from asperity.studies.collect import dataset, failures
+from asperity.studies.collect import dataset, state
 from asperity.studies.places import replaced
 from asperity.studies.run import carry_out
 
@@ -88,8 +88,8 @@ def test_a_force_that_runs_away_is_a_record_with_its_reason(tmp_path):
     data = dataset(made, tmp_path / "r.log")
     assert np.isfinite(data["meniscus_force"][0])
     assert np.isnan(data["meniscus_force"][1])
-    (failed,) = failures(made, tmp_path / "r.log")
-    assert "runs away" in failed.message
+    (failed,) = state(made, tmp_path / "r.log").causes
+    assert "runs away" in failed.first.message
 
 
 def test_menisci_need_a_film():
