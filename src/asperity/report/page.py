@@ -28,12 +28,12 @@ def write_page(
     *,
     citation_keys: Iterable[str],
     figures: Iterable[Figure] = (),
-    provenance: Rows | None = None,
-    document: str | None = None,
     overwrite: bool = False,
     **values: Any,
 ) -> None:
     """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, to the HTML file ``path``.
+
+    Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows) and ``document`` (its text).
 
     Raises
     ------
@@ -45,9 +45,7 @@ def write_page(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
             figures=shown(figures),
-            provenance=provenance,
-            document=document,
-            **values,
+            **{"provenance": None, "document": None, **values},
         )
         file.write_text(page, encoding="utf-8")
 
