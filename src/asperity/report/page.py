@@ -7,16 +7,15 @@ import re
 from collections.abc import Iterable, Mapping
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from markupsafe import Markup, escape
 
 from ..core.citations import REFERENCES
 from ..core.text import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
 from ..plots.picture import Figure
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
 """Names of options, and numbers with exponents: no line of a page is broken at their hyphens."""
@@ -68,7 +67,6 @@ def rendered(template: str, **values: Any) -> str:
 
 def prose(text: object) -> Markup:
     """``text`` as HTML whose lines are broken after underscores too, but not within options and numbers."""
-    from markupsafe import Markup, escape
 
     def kept(found: re.Match[str]) -> str:
         return f'<span class="whole">{found[0]}</span>'
