@@ -296,7 +296,7 @@ def test_the_energy_never_rises(boundary: Boundary, cap: float, precision: str) 
         state = solver.step(qp, state)
         p = state.pressure
         lengths = magnitude(qp, p) * qp.height_scale
-        # the solver judges a step by its slope, which knows the deflection to the rounding of corrections
+        # the solver judges a step by its slope, from the deflection to the rounding of corrections
         floor = lengths * (ROUNDING * p.sum() + EPSILON[precision] * np.abs(p - old).sum())
         assert energy(qp, p, qp.operator.apply(p)) <= before + floor
         if state.error <= solver.tolerance:

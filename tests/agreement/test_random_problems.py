@@ -42,7 +42,7 @@ def test_random_problems_are_solved(solver: Solver) -> None:
     for seed in SEEDS:
         qp = problem(seed)
         solution = run(solver, qp, feasible_start(qp))
-        if solver.name == "steepest_descent" and not solution.status.converged:  # may stall, and then says so
+        if solver.name == "steepest_descent" and not solution.status.converged:  # may stall, with that status
             assert solution.status.outcome is Outcome.STAGNATED
             continue
         assert solution.status.converged, f"seed {seed}: {solution.status.message}"

@@ -14,7 +14,7 @@ import asperity as asp
 from asperity import roughness as r
 
 with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # it says that it goes without MPI
+    warnings.simplefilter("ignore")  # the library warns where MPI is missing
     from SurfaceTopography import Topography
 
 pytestmark = pytest.mark.filterwarnings("ignore:Function/property:DeprecationWarning")  # of their own short names

@@ -16,7 +16,7 @@ from asperity.solids.compliance.tensor import coupling_influence, coupling_strip
 ROWS = reference("layered_influence_surface")
 CONFIGURATIONS = sorted({row["config"] for row in ROWS})
 STATED = 1e-8
-"""Relative error that ``patch_coefficients`` promises."""
+"""Relative error of ``patch_coefficients`` by its documentation."""
 
 
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)

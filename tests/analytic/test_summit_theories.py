@@ -116,7 +116,7 @@ def test_summits_of_generated_surfaces(rolloff, hurst):
         np.concatenate([getattr(found.summits, name) for found in maps]) for name in ("height", "curvature")
     )
     # four standard errors of independent summits; sixteen points to the shortest wave make central differences too small
-    # by at most 1.3 %, and more summits by up to 1 % (a lattice sees some saddles as summits)
+    # by at most 1.3 %, and more summits by up to 1 % (on a lattice some saddles count as summits)
     error = 4.0 / math.sqrt(height.size)
     density = float(np.mean([found.summits.density for found in maps]))
     assert density == pytest.approx(expected.density, rel=error + 0.01)

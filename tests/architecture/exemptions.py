@@ -43,16 +43,16 @@ LIMITS: dict[str, dict[str, str]] = {
         "weierstrass_mandelbrot_profile": "the constants of the published formula, each a keyword",
     },
 }
-"""Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. It says why splitting would read worse; "it is long" is none."""
+"""Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. A reason is why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
-    "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called asks for them",
+    "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called needs them",
     "asperity.core.quadrature._rule": "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve",
-    "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made asks for it",
-    "asperity.core.settings.json_schema": "follows from the table; it takes 0.18 s for a document, and every document that is refused asks for it",
+    "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made needs it",
+    "asperity.core.settings.json_schema": "follows from the table; it takes 0.18 s for a document, and every document that is refused needs it",
     "asperity.run.document.document_model": "follows from the parts, which do not change; building it takes 20 ms, and every case of a study is checked by it",
-    "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document asks for its parts",
-    "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign asks 10⁵ times",
+    "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document needs its parts",
+    "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",
 }
 """Reason by dotted name of the cached function."""

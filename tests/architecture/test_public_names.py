@@ -1,4 +1,4 @@
-"""What ``import asperity`` promises: the names, their documentation, and a quick start."""
+"""What ``import asperity`` gives: the names, their documentation, and a quick start."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(autouse=True, scope="module")
 def quick_pictures(unrendered: None) -> None:
-    """A test that looks at pictures asks for the fixture ``rendered``."""
+    """A test of pictures takes the fixture ``rendered``."""
 
 
 @pytest.fixture

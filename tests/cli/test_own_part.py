@@ -1,4 +1,4 @@
-"""A part written here shows up at every door with no other change, and so does one that an installed package adds."""
+"""A part written here appears in documents, options, studies, files and reports with no other change, and so does one that an installed package adds."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def entry(monkeypatch: pytest.MonkeyPatch) -> Any:
     documents.document_model.cache_clear()
 
 
-def test_it_shows_up_at_every_door(run: Runner, matrix: Path, tmp_path: Path, entry: Any) -> None:
+def test_it_appears_everywhere(run: Runner, matrix: Path, tmp_path: Path, entry: Any) -> None:
     entry(hot=Hot)
     assert "HotSettings" in documents.json_schema()["$defs"]
     assert "--hot-level" in run("contact", "--help").stdout

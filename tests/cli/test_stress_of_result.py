@@ -18,7 +18,7 @@ COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=bas
 
 
 def saved(folder: Path, **stress: object) -> Path:
-    """Result file with its document, as `contact --out` leaves it; ``stress`` is what the document asks for."""
+    """Result file with its document, as `contact --out` leaves it; ``stress`` is its table [stress]."""
     np.savetxt(folder / "rough.txt", np.random.default_rng(1).normal(size=(24, 32)))
     table = {
         "version": 1,

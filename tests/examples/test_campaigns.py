@@ -60,7 +60,7 @@ def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
         assert np.all((floor > 0.5e-9) & (ceiling < 20e-6))
     softer, stiffer = np.asarray(found["max_pressure_at_infinity"] / found["max_pressure_at_zero"])
     assert softer < 1.0 < stiffer
-    # max pressure is that of small spots and sees less deep than the mean gap does
+    # max pressure is that of small spots and reaches less deep than the mean gap does
     assert np.all(found["max_pressure_ceiling"] < found["mean_gap_ceiling"])
 
 

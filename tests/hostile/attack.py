@@ -50,7 +50,7 @@ class OutOfTimeError(BaseException):
 
 @dataclass(frozen=True)
 class End:
-    """How the mutant ``seed`` of a target ended: one word, for a failure what happened, and what the program said."""
+    """How the mutant ``seed`` of a target ended: one word, for a failure what happened, and its output."""
 
     seed: int
     word: str

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import tomli_w
 from cli.conftest import BODY, LOAD
-from cli.test_doors import DOCUMENTS
+from cli.test_same_numbers import DOCUMENTS
 from hostile import mutate
 from messages.bad_input import CONTACT
 from PIL import Image

@@ -167,7 +167,7 @@ def test_turning_over_exchanges_peaks_and_valleys(skew):
     if abs(skew) < 1e-3:
         return  # nearly equal heights
     one, other = (r.functional_parameters(curve) for curve in curves)
-    # near its least value the slope of the secant hardly tells windows apart that lie some per cent apart
+    # near its least value the slope of the secant hardly differs between windows some per cent apart
     assert other.Spk == pytest.approx(one.Svk, rel=0.05)
     assert other.Svk == pytest.approx(one.Spk, rel=0.05)
     assert other.Smr1 == pytest.approx(1.0 - one.Smr2, abs=0.02)

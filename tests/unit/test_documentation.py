@@ -207,7 +207,7 @@ def test_the_examples_of_single_contacts(capsys):
 
 
 def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
-    """On a surface as smooth as the films are thin; the table of options and keys says the same twice."""
+    """On a surface as smooth as the films are thin; the table of options and keys has everything twice."""
     monkeypatch.chdir(tmp_path)
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.1e-6
@@ -326,7 +326,7 @@ def test_the_materials_of_the_guide_are_valid(tmp_path):
 
 
 def test_the_studies_of_the_guide(tmp_path, monkeypatch):
-    """The sweep runs as the page says; each kind of study is a valid addition to it."""
+    """The sweep of the page runs; each kind of study is a valid addition to it."""
     monkeypatch.chdir(tmp_path)
     page = ROOT / "docs/how-to/campaigns.md"
     sweep, *kinds = blocks(page, "toml")

@@ -152,7 +152,7 @@ def _print_causes(campaign: Campaign, state: CampaignState) -> None:
 
 
 BETWEEN_LINES = 10.0
-"""Seconds between two lines where nobody watches a bar."""
+"""Seconds between two lines where no bar is shown."""
 
 
 @contextmanager
@@ -189,7 +189,7 @@ class Pace:
 
 
 class Lines:
-    """Says how it goes every ten seconds, and at the end of the last case."""
+    """Progress as a line of text every ten seconds, and after the last case."""
 
     def __init__(self, write: Callable[[str], None], clock: Callable[[], float] = time.monotonic) -> None:
         self._write, self._clock, self._pace = write, clock, Pace(clock)

@@ -116,9 +116,11 @@ def compare(
 
 
 def _compared(case: Case, given: Given, *, numerical: bool) -> Comparison:
-    told = given.under("compare").table()
-    read = {item.name: item.values.read(told[item.name], option_of(item)) for item, _ in OWN[3:] if item.name in told}
-    values, theories = _pressures(told), told.get("theories")
+    chosen = given.under("compare").table()
+    read = {
+        item.name: item.values.read(chosen[item.name], option_of(item)) for item, _ in OWN[3:] if item.name in chosen
+    }
+    values, theories = _pressures(chosen), chosen.get("theories")
     with stage("solving every load") as progress:
         return compare_theories(
             case.problem,
@@ -139,8 +141,8 @@ _PLACEHOLDER = "1 Pa"
 _HEADING = "Theories and numerical solution (area of a theory: deviation from the numerical one; rms: where it holds)"
 
 
-def _pressures(told: Mapping[str, str]) -> RealArray | None:
-    text, loads = told.get("pressures"), told.get("loads")
+def _pressures(chosen: Mapping[str, str]) -> RealArray | None:
+    text, loads = chosen.get("pressures"), chosen.get("loads")
     if loads is not None and (text is None or ".." not in text):
         raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
     count = LOADS if loads is None else Whole(2).read(loads, "--loads")

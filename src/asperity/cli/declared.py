@@ -164,7 +164,7 @@ def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
 
 
 def sorted_out(options: Iterable[Option], basic: Iterable[str]) -> list[Option]:
-    """``options``, those that are not ``basic`` marked as advanced in a panel that says so."""
+    """``options``, those that are not ``basic`` in a panel of advanced options."""
     wanted = set(basic)
     return [
         option if option.name in wanted else replace(option, panel=f"{ADVANCED}{option.panel}") for option in options
@@ -174,7 +174,7 @@ def sorted_out(options: Iterable[Option], basic: Iterable[str]) -> list[Option]:
 def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = ()) -> dict[str, Any]:
     """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are there in any case.
 
-    Friction alone asks for the stresses that it causes.
+    Friction alone requests the stresses that it causes.
 
     Raises
     ------
@@ -182,16 +182,16 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
         If a table is asked for that no part has.
     """
     known = [part.table for part in parts() if part.settings is not None]
-    told = {name: values for name, values in given.table().items() if name in known}
+    chosen = {name: values for name, values in given.table().items() if name in known}
     made = dict(table)
-    for name, values in told.items():
+    for name, values in chosen.items():
         before = made.get(name)
         made[name] = {**(before if isinstance(before, dict) else {}), **values}
     for name in asked:
         if name not in known:
             raise InputError(f"--with must be one of {', '.join(known)}, but is {name!r}.")
         made.setdefault(name, {})
-    if "friction" in told and "film" not in made:
+    if "friction" in chosen and "film" not in made:
         made.setdefault("stress", {})
     return made
 
@@ -287,9 +287,9 @@ def built(command: Callable[..., None], name: str, options: Sequence[Option] | N
     def run(*, quiet: bool, **values: Any) -> None:
         values.pop("help_all", None)
         found = {option.path: values.pop(word) for word, option in by_word.items()}
-        told = {path: str(v) if isinstance(v, Path) else v for path, v in found.items() if v is not None and v != []}
+        chosen = {path: str(v) if isinstance(v, Path) else v for path, v in found.items() if v is not None and v != []}
         with silence() if quiet else nullcontext():
-            command(**values, **({"given": Given(told, options)} if "given" in own else {}))
+            command(**values, **({"given": Given(chosen, options)} if "given" in own else {}))
 
     shown: list[inspect.Parameter] = []
     for key, item in own.items():
@@ -325,5 +325,5 @@ def explained(item: Parameter) -> str:
     shown = default is not REQUIRED and default not in (None, (), "") and not isinstance(default, bool)
     if not shown:
         return f"{text}."
-    told = units.show(default, item.unit) if isinstance(default, float) else default
-    return f"{text}. Default: {told}."
+    chosen = units.show(default, item.unit) if isinstance(default, float) else default
+    return f"{text}. Default: {chosen}."

@@ -97,8 +97,8 @@ def options(kind: str) -> list[Option]:
 def _part_options(item: Parameter, tables: Any) -> list[Option]:
     """Options of a table within the table, of whatever kind it may be; its kinds share options of the same name."""
     kinds = Choice({kind: kind for kind in tables})
-    told = Parameter("kind", str, kinds, REQUIRED, f"kind of the {item.help}")
-    found = {"--" + item.name: Option("--" + item.name, (item.name, "kind"), told, required=True)}
+    choice = Parameter("kind", str, kinds, REQUIRED, f"kind of the {item.help}")
+    found = {"--" + item.name: Option("--" + item.name, (item.name, "kind"), choice, required=True)}
     for kind in tables.values():
         prefix = "" if item.name in ("spectrum", "heights") else f"{item.name}-"
         offered = [*options_of(kind, (item.name,), leave=("kind", "surface"), prefix=prefix)]

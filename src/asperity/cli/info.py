@@ -74,7 +74,7 @@ def info(
 
     Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html
 
-    Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, if not told otherwise.
+    Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, unless another level is chosen.
     """
     paths = {name: Path(path) for name, path in given.under("output").table().items()}
     asked = Asked(paths.get("report"), paths.get("plot"), paths.get("plots"), force)
@@ -106,7 +106,7 @@ HEADINGS = ("file", "points", "size", "missing", "Sq", "Sa", "Sz", "Sdq", "level
 
 
 def _many(files: Sequence[Path], given: Given, level: str, asked: Asked, *, as_json: bool) -> int:
-    """Print one row for each file, and write them as a page; the exit code tells whether all could be read."""
+    """Print one row for each file, and write them as a page; the exit code shows whether all could be read."""
     rows, records, lost = [], [], []
     for file, name in zip(files, short_names(files), strict=True):
         try:

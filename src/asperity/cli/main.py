@@ -64,7 +64,7 @@ class Reporting(TyperGroup):
         except Exception as error:
             if isinstance(error, typer.Exit | typer.Abort | BrokenPipeError) or (
                 not str(error) and hasattr(error, "ctx")
-            ):  # help, exits, and a reader such as head that has seen enough
+            ):  # help, exits, and a reader such as head that has ended
                 raise
             if hasattr(error, "format_message"):
                 usage = getattr(error, "ctx", None)

@@ -30,7 +30,7 @@ class _Listing:
         if key not in record.values:
             return "–"
         item, unit = record.values[key], {name: unit for name, _, unit in self.columns}[key]
-        # a compact unit of molar volumes is read by nobody
+        # prefixes of m³/mol are hard to read
         text = f"{1e6 * item.value:.4g} cm³/mol" if unit == "m**3/mol" else show(item.value, unit, 5)
         return f"{text} *" if item.assumed else text
 

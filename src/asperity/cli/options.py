@@ -50,7 +50,7 @@ def reading_options() -> tuple[Option, ...]:
 def own_option(
     name: str, path: tuple[str, ...], text: str, panel: str | None, metavar: str = "", values: Values | None = None
 ) -> Option:
-    """Option of the command line alone, for what the document says in several keys."""
+    """Option of the command line alone, for what takes several keys in the document."""
     return Option(name, path, Parameter(path[-1], str, values or Text(), None, text), panel, metavar=metavar or None)
 
 
@@ -190,10 +190,10 @@ def composed(file: Path, given: Given) -> dict[str, Any]:
     """Document without load and solver for the surface in ``file``."""
     if given.get("body") is None:
         raise InputError("--body must be given, such as --body DLC; the command `asperity materials` lists the names.")
-    told = given.table()
-    surface = {"kind": "file", **told.get("surface", {}), "prepare": steps(given)}
+    chosen = given.table()
+    surface = {"kind": "file", **chosen.get("surface", {}), "prepare": steps(given)}
     table: dict[str, Any] = {"version": 2, "surface": {**surface, "path": str(file)}}
-    counter = told.get("counter_surface", {})
+    counter = chosen.get("counter_surface", {})
     if "path" in counter:
         table["counter_surface"] = {**surface, "path": counter["path"], "mirror": counter.get("mirror", "x")} | _place(
             counter
@@ -210,35 +210,35 @@ def composed(file: Path, given: Given) -> dict[str, Any]:
 
 def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dict[str, Any]:
     """``table`` with the bodies, boundary, law, load and solver settings that are given; materials files start at ``base``."""
-    told, result = given.table(), dict(table)
+    chosen, result = given.table(), dict(table)
     file = given.get("bodies", "materials_file")
     for key, option in (("body", "--body"), ("counter_body", "--counter")):
-        if key in told:
-            result[key] = body_table(told[key], option, None if file is None else base / file)
-    if "boundary" in told:
-        result["boundary"] = told["boundary"]
-    if "law" in told:
-        hardness = told["law"]["hardness"]
+        if key in chosen:
+            result[key] = body_table(chosen[key], option, None if file is None else base / file)
+    if "boundary" in chosen:
+        result["boundary"] = chosen["boundary"]
+    if "law" in chosen:
+        hardness = chosen["law"]["hardness"]
         result["law"] = {"kind": "hardness", "hardness": WORDS_OF_HARDNESS.get(hardness.strip().casefold(), hardness)}
     result["control"] = _control(table, given)
     before = table.get("solver", {})
-    if "solver" in told and isinstance(before, dict):
-        result["solver"] = {**before, **told["solver"]}
+    if "solver" in chosen and isinstance(before, dict):
+        result["solver"] = {**before, **chosen["solver"]}
     return result
 
 
 def _control(table: Mapping[str, Any], given: Given) -> Any:
     """The load that options give, or that of ``table``."""
-    told, steps = given.under("control").table(), given.get("path", "steps")
-    if len(told) > 1 or (not told and "control" not in table):
+    chosen, steps = given.under("control").table(), given.get("path", "steps")
+    if len(chosen) > 1 or (not chosen and "control" not in table):
         options = {option.path[1]: option.name for option in load_options() if option.path[0] == "control"}
         raise InputError(
             f"load must be given by exactly one of {', '.join(options.values())}, "
-            f"but is given by {' and '.join(options[key] for key in told) or 'none'}."
+            f"but is given by {' and '.join(options[key] for key in chosen) or 'none'}."
         )
-    if "path" in told:
-        told["path"] = path_table(told["path"])
-    control = told or table["control"]
+    if "path" in chosen:
+        chosen["path"] = path_table(chosen["path"])
+    control = chosen or table["control"]
     if steps is None:
         return control
     if not isinstance(control, dict) or not isinstance(control.get("path"), dict):
@@ -247,7 +247,7 @@ def _control(table: Mapping[str, Any], given: Given) -> Any:
 
 
 def path_table(text: str) -> dict[str, Any]:
-    """Table of the load path in ``text``: the unit of its first value other than zero says what is prescribed."""
+    """Table of the load path in ``text``: the unit of its first value other than zero decides what is prescribed."""
     points = [part.strip() for part in text.split(",")]
     loads = [point for point in points if point != NONE]
     kinds = (("mean_pressure", "pressure"), ("force", "force"), ("force", "surface tension"), ("approach", "length"))
@@ -308,7 +308,7 @@ def _body_names(table: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _place(counter: Mapping[str, Any]) -> dict[str, Any]:
-    """Where the counter surface lies, if anything is said of it."""
+    """Where the counter surface lies, if any of its options is given."""
     if "place" not in counter and "common" not in counter:
         return {}
     place = dict(counter.get("place", {}))
@@ -324,8 +324,8 @@ def steps(given: Given) -> list[dict[str, Any]]:
 
     Every surface is levelled and filled unless that is turned off.
     """
-    told: dict[str, Any] = {"level": {}, "fill": {}, **given.under("prepare").table()}
-    sieve = told.get("filter", {})
+    chosen: dict[str, Any] = {"level": {}, "fill": {}, **given.under("prepare").table()}
+    sieve = chosen.get("filter", {})
     if sieve and not {"short", "long"} & sieve.keys():
         raise InputError(
             f"--filter {sieve['kind']} must be given together with --short-cutoff or --long-cutoff, but is alone."
@@ -335,12 +335,12 @@ def steps(given: Given) -> list[dict[str, Any]]:
         order.remove("filter")
         order.insert(order.index("periodise") + 1, "filter")
     made: dict[str, dict[str, Any] | None] = {
-        **told,
-        "level": _level(told["level"]),
-        "fill": {"method": "harmonic", **told["fill"]},
-        **({"crop": _crop(told["crop"]["range"])} if "crop" in told else {}),
-        **({"periodise": {}} if "periodise" in told else {}),
-        **({"slice": _line(told["slice"]["at"])} if "slice" in told else {}),
+        **chosen,
+        "level": _level(chosen["level"]),
+        "fill": {"method": "harmonic", **chosen["fill"]},
+        **({"crop": _crop(chosen["crop"]["range"])} if "crop" in chosen else {}),
+        **({"periodise": {}} if "periodise" in chosen else {}),
+        **({"slice": _line(chosen["slice"]["at"])} if "slice" in chosen else {}),
     }
     require.one_of(str(made["fill"]["method"]), (*_words("fill", "method"), "none"), "--fill")  # type: ignore[index]
     if sieve:
@@ -375,9 +375,9 @@ def step_names(steps: Iterable[Mapping[str, Any]]) -> dict[str, str]:
     }
 
 
-def _level(told: Mapping[str, Any]) -> dict[str, Any] | None:
-    form = told.get("form", "plane")
-    robust = {"robust": True} if told.get("robust") else {}
+def _level(chosen: Mapping[str, Any]) -> dict[str, Any] | None:
+    form = chosen.get("form", "plane")
+    robust = {"robust": True} if chosen.get("robust") else {}
     if form.isdecimal() and len(form) < 10:
         return {"degree": int(form), **robust}
     require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")

@@ -77,7 +77,7 @@ def export(
     """Write a result for other programs."""
     wanted = [path for path in (csv, vtk) if path is not None]
     if not wanted:
-        raise InputError("export must be told what to write: give --csv FILE or --vtk FILE or both.")
+        raise InputError("export must have a file to write: give --csv FILE or --vtk FILE or both.")
     require_new_files(wanted, overwrite=force, inputs=(file,))
     outcome = load_outcome(file)
     if csv is not None:

@@ -35,7 +35,7 @@ WIDTH = 120
 
 
 class Answers(Console):
-    """Console that falls silent when its reader has gone, as in ``asperity materials | head``."""
+    """Console that drops its text once the program that reads it has ended, as in ``asperity materials | head``."""
 
     def on_broken_pipe(self) -> None:
         """Drop the rest of the text; the exit code stays that of the work and not that of the reader."""
@@ -178,7 +178,7 @@ def print_files(paths: Iterable[Path]) -> None:
 
 
 def watching() -> bool:
-    """Whether somebody watches the progress on stderr."""
+    """Whether progress is to be shown: stderr is a terminal, and answers are not dropped."""
     return sys.stderr is not None and sys.stderr.isatty() and not isinstance(sys.stdout, Nowhere)
 
 

@@ -33,7 +33,7 @@ def _options() -> list[Option]:
 def stress(file: Result, given: Given, out: Out = None, force: Force = False) -> None:
     """Compute the stresses in a saved contact, without solving it again.
 
-    What the result's own problem document asks for is computed, with the options in place of its parts; without either, the
+    What the result's own problem document requests is computed, with the options in place of its parts; without either, the
     section y=max. The pressure stays that of the result, whatever the friction.
 
     Example: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out stresses

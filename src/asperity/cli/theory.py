@@ -110,7 +110,7 @@ def theory(
     Examples: asperity theory --list; asperity theory hertz --E-star 115GPa --radius 5mm --load 1N..100N;
     asperity theory bush-gibson-thomas --surface scan.di --body DLC --pressure 1MPa..100MPa --plot curve.png
 
-    asperity theory NAME --help tells the options, results and sources of a theory.
+    asperity theory NAME --help lists the options, results and sources of a theory.
     """
     if context.invoked_subcommand is None:
         if not listed:
@@ -122,16 +122,16 @@ def _command(kind: type[Described]) -> Any:
     """The subcommand of ``kind``."""
 
     def run(given: Given) -> None:
-        told = given.under("answer").table()
-        csv, plot = (Path(told[key]) if key in told else None for key in ("csv", "plot"))
-        force, points = bool(told.get("force")), Whole(1).read(told.get("points", POINTS), "--points")
+        chosen = given.under("answer").table()
+        csv, plot = (Path(chosen[key]) if key in chosen else None for key in ("csv", "plot"))
+        force, points = bool(chosen.get("force")), Whole(1).read(chosen.get("points", POINTS), "--points")
         if plot is not None and plot.suffix.lower() != ".png":
             raise InputError(f"--plot must be the name of a PNG file, such as curve.png, but is {str(plot)!r}.")
         written = [path for path in (csv, plot) if path is not None]
         require_new_files(written, overwrite=force)
         arguments = _arguments(kind)
         asked = {
-            name: read_range(arguments[name], text, points=points, linear=bool(told.get("linear")))
+            name: read_range(arguments[name], text, points=points, linear=bool(chosen.get("linear")))
             for name, text in given.under("asked").table().items()
         }
         found = evaluate(_made(kind, given), **asked)
@@ -139,8 +139,8 @@ def _command(kind: type[Described]) -> Any:
             save_table(found, csv, overwrite=force)
         if plot is not None:
             save_answer_plot(found, plot, overwrite=force)
-        print_answer(found, as_json=bool(told.get("json")))
-        if not told.get("json"):
+        print_answer(found, as_json=bool(chosen.get("json")))
+        if not chosen.get("json"):
             print_files(written)
 
     first = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
@@ -153,9 +153,9 @@ def _details(kind: type[Described]) -> list[str]:
     ways = [f"{way.axis.name}{f' in {way.axis.unit}' if way.axis.unit else ''}" for way in ways_of(kind)]
     numbers = [column.name.rpartition(".")[2] for column in kind.numbers]
     asked = [f"Asked along {' or '.join(ways)}."] if ways else []
-    told = [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
+    chosen = [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
     holds = [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
-    return [*asked, *told, *holds, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
+    return [*asked, *chosen, *holds, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
 
 
 def _options(kind: type[Described]) -> list[Option]:
@@ -184,16 +184,16 @@ def _made(kind: type[Described], given: Given) -> Described:
     """
     texts = given.under("made").table()
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
-    told = given.table()
-    if "body" in told:
-        values = _of_bodies(kind, values, told["body"], told.get("counter_body"))
-    elif "counter_body" in told:
+    chosen = given.table()
+    if "body" in chosen:
+        values = _of_bodies(kind, values, chosen["body"], chosen.get("counter_body"))
+    elif "counter_body" in chosen:
         raise InputError("--counter must be given together with --body, but is given alone.")
-    if "file" in told:
-        if "bins" in told:
-            values["bins"] = Whole(1).read(told["bins"], "--bins")
+    if "file" in chosen:
+        if "bins" in chosen:
+            values["bins"] = Whole(1).read(chosen["bins"], "--bins")
         return _of_surface(kind, values, given)
-    if "surface" in told or "bins" in told:
+    if "surface" in chosen or "bins" in chosen:
         raise InputError("options for reading must be given together with --surface, but are given alone.")
     missing = [item for item in parameters(kind) if item.required and item.name not in values]
     if missing:
@@ -207,7 +207,7 @@ def _made(kind: type[Described], given: Given) -> Described:
 
 
 def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter: str | None) -> dict[str, Any]:
-    """``values`` with what the bodies say of the parameters of ``kind`` that are not given; the weaker body yields.
+    """``values`` with the parameters of ``kind`` that follow from the bodies and are not given; the weaker body yields.
 
     Raises
     ------

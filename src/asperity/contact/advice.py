@@ -47,7 +47,7 @@ LARGEST_PATCH = 1.0 / 8.0
 """Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the analytic tests)."""
 
 FIELDS_OF_A_SOLVE = 16
-"""Real fields of the grid alive in a solve, result included."""
+"""Real fields of the grid in memory during a solve, result included."""
 
 
 PIXELS_PER_LAYER = 1.0
@@ -320,7 +320,7 @@ def _mean_square(profile: Surface, axis: str, order: int) -> float:
 
 
 def _layers(problem: ContactProblem) -> Iterator[Advice]:
-    """Layers thinner than a pixel, or so thick that a periodic cell hardly feels what lies below; softer ones below."""
+    """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic cell; softer ones below."""
     for body in (problem.body, problem.counter_body):
         if isinstance(body, Layered):
             yield from _against_pixel(problem, body.reduced)
@@ -345,7 +345,7 @@ def _against_pixel(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
 
 
 def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    """The longest wave along an axis that wraps; a base as soft as the layers makes no difference and goes unsaid."""
+    """The longest wave along an axis that wraps; no finding for a base as soft as the layers, which makes no difference."""
     lengths = [
         problem.grid.size[axis] for axis in (0, 1) if problem.boundary.wraps[axis] and problem.grid.shape[axis] > 1
     ]
@@ -403,15 +403,15 @@ def _meniscus_pixels(found: Menisci) -> Iterator[Advice]:
 def _molecules(found: Menisci) -> Iterator[Advice]:
     film = found.film
     radius = film.meniscus_height / wetting_factor(*film.contact_angles)
-    said = []
+    remarks = []
     if radius < CONTINUUM:
-        said.append(
+        remarks.append(
             f"The menisci have a radius of {1e9 * radius:.2g} nm: below about 1 nm Laplace's equation is a formality."
         )
     if film.thickness < MOLECULE:
-        said.append(
+        remarks.append(
             f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water ({1e9 * MOLECULE:.2g} nm): it "
             "covers the surface in part only."
         )
-    if said:
-        yield Advice("note", "molecules", " ".join(said))
+    if remarks:
+        yield Advice("note", "molecules", " ".join(remarks))

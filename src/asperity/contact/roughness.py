@@ -30,7 +30,7 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         Heights positive out of the solid, facing the counter body. For two rough bodies give their ``composite``.
     moments
         ``"spectrum"``: sums over the modes, those of the trigonometric interpolation of a periodic map;
-        ``"differences"``: finite differences, which see the map as its pixels do; ``"auto"``: the first for a periodic
+        ``"differences"``: finite differences between its pixels; ``"auto"``: the first for a periodic
         map, the second for a measured one, whose spectrum bears the traces of its window.
     neighbours
         4 or 8, how many neighbours a summit exceeds.

@@ -145,7 +145,7 @@ def steps(
 ) -> Iterator[ContactResult]:
     """Results of the steps of ``history`` one by one, each when it is solved; only the last is held here.
 
-    Arguments and errors are those of ``solve``; what is wrong with them is said at the call, before any step.
+    Arguments and errors are those of ``solve``; what is wrong with them is raised at the call, before any step.
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     ordered = history if isinstance(history, History) else History(history)
@@ -306,7 +306,7 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
 
 
 def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:
-    """An operator of another grid, solid or boundary would give a wrong answer without a word."""
+    """An operator of another grid, solid or boundary would give a wrong answer without an error."""
     for what, found, wanted in (
         ("grid", operator.grid, problem.grid),
         ("compliance", operator.compliance, problem.compliance),

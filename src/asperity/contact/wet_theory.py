@@ -19,7 +19,7 @@ from .roughness import roughness_of
 from .wetting import LiquidFilm
 
 HAMAKER = 1e-19
-"""Hamaker constant in J of solid, liquid and vapour that the growth of menisci is told with; of the usual order."""
+"""Hamaker constant in J of solid, liquid and vapour in remarks on the growth of menisci; of the usual order."""
 
 FEWEST = 20
 """Summits below which their skewness and kurtosis mean nothing."""

@@ -44,7 +44,7 @@ class LateNames:
 
 
 def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
-    """Names by module that a package gives away, from the lines ``from .module import names`` of its ``stub``."""
+    """Public names of a package by module, from the lines ``from .module import names`` of its ``stub``."""
     lines = re.findall(r"^from \.(\S*) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
     return {module: tuple(re.findall(r"\w+", several or one)) for module, several, one in lines}
 

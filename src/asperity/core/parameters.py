@@ -6,7 +6,7 @@ A function or a frozen dataclass declares with ``Annotated`` what its parameters
 
 From this alone follow the checks of values (``Declared``, ``checked``), the keys and messages of documents
 (``core.settings``), options and help of the command line, and the pages of reference. Inside the package values are SI
-numbers; text such as ``"5 nm"`` becomes one at the doors, by ``read``.
+numbers; text such as ``"5 nm"`` of documents and options becomes one by ``read``.
 """
 
 from __future__ import annotations
@@ -101,16 +101,16 @@ def parameters(declared: Any) -> tuple[Parameter, ...]:
 def parameter(name: str, annotation: Any, default: Any = REQUIRED) -> Parameter | None:
     """Parameter for an ``annotation``, None if that declares nothing."""
     base, marks = taken_apart(annotation)
-    told = next(
+    described = next(
         (mark if isinstance(mark, Help) else Help(mark) for mark in reversed(marks) if isinstance(mark, Help | str)),
         None,
     )
     values = values_of(base, marks)
-    if told is None and not any(isinstance(mark, Values) for mark in marks):
+    if described is None and not any(isinstance(mark, Values) for mark in marks):
         return None
-    told = told or Help("")
+    described = described or Help("")
     belongs = next((mark.of for mark in marks if isinstance(mark, Help) and mark.of), "")
-    return Parameter(name, annotation, values, default, told.text, told.option, belongs)
+    return Parameter(name, annotation, values, default, described.text, described.option, belongs)
 
 
 def values_of(base: Any, marks: tuple[Any, ...] = ()) -> Values:

@@ -39,7 +39,7 @@ class Status:
 class Advice:
     """One finding of the checks of resolution and regime.
 
-    ``level`` is ``"note"`` (good to know) or ``"warning"`` (the answer may be wrong); ``criterion`` a short name;
+    ``level`` is ``"note"`` (of interest) or ``"warning"`` (the answer may be wrong); ``criterion`` a short name;
     ``message`` one or two sentences with the numbers and the remedy.
     """
 

@@ -1,4 +1,4 @@
-"""Physical quantities with units at the door: text in, SI floats inside, text out."""
+"""Physical quantities as text with units, for input and output; all computation is with SI floats."""
 
 from __future__ import annotations
 

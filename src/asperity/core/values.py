@@ -99,7 +99,7 @@ class Number(Values):
     words
         Text that may stand instead of a number, and is left as it is.
     percent
-        Whether it is said in percent.
+        Whether it is written in percent.
     infinite
         Whether it may be infinity.
     fix
@@ -254,7 +254,7 @@ class Whole(Values):
 
 @dataclass(frozen=True, eq=False)
 class Choice(Values):
-    """One of a few ``words``, each with what it stands for; in Python any ``others`` too, if that is said."""
+    """One of a few ``words``, each with what it stands for; in Python any others too, if ``others`` is true."""
 
     words: Mapping[str, Any]
     others: bool = False

@@ -1,1 +1,1 @@
-"""Layer 3: documents, result files, export and provenance; the door between SI arrays and files."""
+"""Layer 3: documents, result files, export and provenance; SI arrays to files and back."""

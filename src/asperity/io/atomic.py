@@ -199,7 +199,7 @@ def require_new_files(targets: Sequence[Path], *, overwrite: bool, inputs: Seque
     Raises
     ------
     OutputError
-        As said.
+        If that is so.
     """
     for number, target in enumerate(targets):
         if _exists(target) and any(path.exists() and path.samefile(target) for path in inputs):

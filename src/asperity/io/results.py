@@ -282,7 +282,7 @@ def contact_node(result: ContactResult) -> Node:
 
 
 def contact_from(node: Node, film: Node | None = None, memory: Node | None = None) -> ContactResult:
-    """The contact of a group, and of those of its film and of what its couplings remember; equal to the one it was made of."""
+    """The contact of a group, and of those of its film and of the memories of its couplings; equal to the one it was made of."""
     attributes = node.attributes
     arrays = {item.quantity.name: np.asarray(item.values) for item in node.values if np.ndim(item.values) == 2}
     parts: dict[str, Any] = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
@@ -455,7 +455,7 @@ def _numbers_text(menisci: Menisci) -> str:
 
 
 def _memory_node(memory: Mapping[str, Any]) -> Node:
-    """Group of the named arrays that a coupling remembers; their axes have names of their own."""
+    """Group of the named arrays in the memory of a coupling; their axes have names of their own."""
     values = []
     for name, array in memory.items():
         found = np.asarray(array)

@@ -36,7 +36,7 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     * ``.nc``: classic NetCDF with units, period, missing points and the whole history. ``read`` returns an equal surface;
       SurfaceTopography and contact.engineering read it too.
     * ``.txt``, ``.asc``: matrix of heights in m with a header that states size and unit, top row (largest y) first, as Gwyddion
-      exports and reads it; ``read`` needs no further word. ``nan`` marks a missing point. A text does not tell that a
+      exports and reads it; ``read`` needs no further argument. ``nan`` marks a missing point. A text does not tell that a
       surface is periodic.
     * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
@@ -63,7 +63,7 @@ def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:
     Raises
     ------
     OutputError
-        As said.
+        If it is another.
     """
     if path.suffix.lower() not in endings:
         raise OutputError(f"file of a surface must end in {', '.join(endings)}, but is {path}.")
@@ -118,7 +118,7 @@ def save_endless(
     overwrite
         Replace the file if it exists.
     progress
-        Told the tiles done and the share that is left.
+        Receives the number of tiles done and the share that is left.
 
     Raises
     ------
@@ -205,7 +205,7 @@ def save_gaussian(
     overwrite
         Replace the file if it exists.
     progress
-        Told the blocks done and the share that is left.
+        Receives the number of blocks done and the share that is left.
 
     Raises
     ------

@@ -149,7 +149,7 @@ def require_sound_heaps(path: str | Path) -> None:
     Raises
     ------
     FileFormatError
-        As said.
+        If there is any of this.
     """
     with Path(path).open("rb") as file, closing(mmap(file.fileno(), 0, access=ACCESS_READ)) as content:
         start = content.find(b"GCOL\x01\0\0\0")
@@ -173,7 +173,7 @@ def _require_own(group: Any, seen: set[Any], room: list[float]) -> None:
     Raises
     ------
     FileFormatError
-        As said.
+        If there is any of this.
     """
     import h5py
 
@@ -316,7 +316,7 @@ def _plain(value: Any) -> Any:
 
 
 class _Sink(io.RawIOBase):
-    """A file that keeps the first error of writing for ``check`` and goes on as if all were well.
+    """A file that keeps the first error of writing for ``check`` and goes on without raising it.
 
     A full disk under an open HDF5 file otherwise ends the whole process when the library closes it.
     """
@@ -380,7 +380,7 @@ def _writable(path: Path) -> Iterator[tuple[h5netcdf.File, _Sink]]:
         with h5netcdf.File(sink, "w") as file:
             yield file, sink
     except Exception:
-        sink.check()  # what the disk said comes before what followed from it
+        sink.check()  # an error of the disk comes before the errors that followed from it
         raise
     else:
         sink.check()

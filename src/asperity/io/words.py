@@ -68,7 +68,7 @@ CERTIFICATE = (
         "tolerance",
         "1",
         "tolerance given to the solver",
-        description="The relative error at which the solver was told to stop.",
+        description="The relative error at which the solver stops.",
     ),
     Quantity("iterations", "1", "iterations", description="Steps of the solver."),
     Quantity(
@@ -373,7 +373,7 @@ def field_rows(field: StressField) -> Rows:
 
 
 def heading_and_rows(thing: object) -> tuple[str, Rows]:
-    """Heading of a ``thing`` and what is worth knowing of it at one glance.
+    """Heading of a ``thing`` and its main numbers.
 
     Raises
     ------
@@ -420,12 +420,12 @@ def text(thing: object) -> str:
         return printable(f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
-    return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(said)}" for label, said in rows)])
+    return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(text)}" for label, text in rows)])
 
 
-def _cut(said: str) -> str:
+def _cut(text: str) -> str:
     """Text of one line of a screen."""
-    line = printable(" ".join(said.split()))
+    line = printable(" ".join(text.split()))
     return line if len(line) <= LINE else f"{line[: LINE - 1]}…"
 
 

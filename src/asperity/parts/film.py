@@ -242,7 +242,7 @@ REMARK = (
     "The film lies as it was before contact and is not redistributed; the suction acts on the area of the menisci without "
     "the solid contact, and presses the surfaces together as an additional load."
 )
-"""What the model takes for granted."""
+"""What the model assumes."""
 
 
 THEORY_REMARK = (

@@ -57,7 +57,7 @@ class Found:
     status
         How the part's own computation ended; None if it has no such thing.
     words
-        What the part has said of it, where it comes from a file; None where it is still to be said.
+        Text of the part, where it comes from a file; None where it is still to be written.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Layer 4: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
+"""Layer 3: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
 
 from .campaign import (
     plot_convergence,

@@ -49,8 +49,8 @@ def card(thing: object) -> str:
     picture = png(lambda ax: _draw(thing, "", ax), size, projection=projection, dpi=SMALL)
     cells = "".join(
         f"<tr><th style='text-align:left;font-weight:normal;color:#55606c'>{escape(printable(label))}</th>"
-        f"<td style='text-align:left'>{escape(printable(said))}</td></tr>"
-        for label, said in rows
+        f"<td style='text-align:left'>{escape(printable(text))}</td></tr>"
+        for label, text in rows
     )
     return (
         "<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start'>"

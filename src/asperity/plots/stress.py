@@ -203,8 +203,8 @@ def _two_digits(value: float, _: object) -> str:
 def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
     """Steps of the contours: from zero or by equal factors for magnitudes; for signed stresses symmetric about zero.
 
-    Where tension matters alone they end at the largest, so that a compression many times as large does not drown it. Zero
-    itself is no step of signed stresses: far from the contact its line would wander through rounding.
+    Where tension matters alone they end at the largest, so that a compression many times as large does not hide it. Zero
+    itself is no step of signed stresses: far from the contact its line would follow rounding errors.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -340,19 +340,19 @@ def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[
         kind = QUANTITIES[quantity]
         title = kind.title if field.single_row else f"{kind.title} at {axis} = {at}"
         name = f"stress_section_{number}_{quantity}"
-        said = "depth downwards, interfaces as lines, a cross at the largest "
-        said += "tension." if kind.name in TENSIONS else "magnitude."
+        caption = "depth downwards, interfaces as lines, a cross at the largest "
+        caption += "tension." if kind.name in TENSIONS else "magnitude."
         if kind.name not in MAGNITUDES:
             tension = " Red is tension, blue compression, the darkest blue beyond the scale."
-            said += tension if kind.name in TENSIONS else " Red and blue are the two directions."
+            caption += tension if kind.name in TENSIONS else " Red and blue are the two directions."
         near = close_up(field, quantity, wraps=wraps)
         log = near is not None and kind.name in MAGNITUDES
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
-        yield Figure(name, title, f"Vertical plane, {said}{scale}", png(draw, SECTION_SIZE))
+        yield Figure(name, title, f"Vertical plane, {caption}{scale}", png(draw, SECTION_SIZE))
         if near is not None:
             draw = partial(plot_stress_section, near, quantity=quantity)
-            yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {said}", png(draw, SECTION_SIZE))
+            yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {caption}", png(draw, SECTION_SIZE))
 
 
 def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> StressField | None:

@@ -1,4 +1,4 @@
-"""Layer 8: self-contained HTML reports of results and of surfaces."""
+"""Layer 6: self-contained HTML reports of results and of surfaces."""
 
 from .roughness import write_roughness_report
 from .write import write_report

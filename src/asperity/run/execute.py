@@ -64,7 +64,7 @@ class Outcome:
 
     @property
     def path(self) -> HistoryResult | None:
-        """The load path, if the document asks for one and its steps were kept."""
+        """The load path, if the document has one and its steps were kept."""
         return self.solved.path
 
     @property
@@ -150,7 +150,7 @@ def run(
     Raises
     ------
     InputError
-        If the document has problems, or asks for something that its problem does not have.
+        If the document has problems, or requests something that its problem does not have.
     NoSolutionError
         If the load has no solution.
     ConvergenceError

@@ -41,7 +41,7 @@ def save_outcome(
 ) -> None:
     """Write ``outcome``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
 
-    Every part has a group with its values and the words it has said; ``load`` reads the contact, ``load_outcome`` everything.
+    Every part has a group with its values and its text; ``load`` reads the contact, ``load_outcome`` everything.
 
     Raises
     ------
@@ -74,9 +74,9 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
 
 
 def load_outcome(path: str | Path) -> Outcome:
-    """The outcome in the file ``path``: contact, what every part has found and said, findings and status.
+    """The outcome in the file ``path``: contact, values and text of every part, findings and status.
 
-    Of a file that holds a result alone, the outcome of what can be said of that.
+    Of a file that holds a result alone, an outcome of the parts that need nothing else.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
 
 
 def _group(part: Part, outcome: Outcome, before: Node) -> Node:
-    """Group of what ``part`` has found and said, in addition to what the result itself has ``before``."""
+    """Group of values and text of ``part``, in addition to what the result itself has ``before``."""
     found = outcome.found[part.name]
     values = list(before.values)
     for quantity in part.quantities:
@@ -133,7 +133,7 @@ def _group(part: Part, outcome: Outcome, before: Node) -> Node:
 
 
 def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
-    """What ``part`` has found and said, of its group; ``known`` is the detail where the result itself holds it."""
+    """Values and text of ``part`` from its group; ``known`` is the detail where the result itself holds it."""
     values = {item.quantity.name: item.values for item in node.values}
     fields = {name: field_from(child) for name, child in node.children.items() if "xx" in child}
     stored = Stored(fields, json.loads(node.attributes["facts"]))

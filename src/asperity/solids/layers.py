@@ -187,7 +187,7 @@ def contact_modulus(body: Body, counter_body: Body = Rigid()) -> float:
     """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22), of the surface materials.
 
     For a layered body the material of the outermost layer counts: it governs contacts much smaller than that layer is
-    thick. Larger contacts feel the layers below too; what they feel is in the compliance, not in this number.
+    thick. Larger contacts depend on the layers below too, by the compliance and not by this number.
 
     InputError if both bodies are rigid.
     """

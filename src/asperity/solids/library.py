@@ -261,7 +261,7 @@ class Liquid:
         if math.isnan(self.molar_volume):
             raise InputError(
                 f"molar volume of {self.name or 'the liquid'} must be known for menisci at a humidity, but is not. "
-                "Give the film thickness and the meniscus height instead; lubricants have no vapour to speak of."
+                "Give the film thickness and the meniscus height instead; lubricants have hardly any vapour."
             )
         return self.molar_volume
 

@@ -59,7 +59,7 @@ def _planes_of(
         if friction is not None or of != "body":
             raise InputError(
                 "friction and counter body of prescribed tractions must be left out, since LoadedBody(body, tractions) "
-                f"says both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
+                f"holds both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
             )
         return result.tractions, result.body
     return tractions_on(result, friction, direction, of), getattr(result.problem, of)

@@ -19,7 +19,7 @@ Vector: TypeAlias = tuple[float, float]
 
 
 class PrescribedLoad(Protocol):
-    """A load that says which part of it every pixel carries."""
+    """A load that can be distributed over the pixels of a grid."""
 
     def on(self, grid: Grid, *, wraps: bool) -> RealArray:
         """Shear along x and along y and pressure in Pa, (3, nx, ny); what leaves the grid comes back if it ``wraps``."""

@@ -349,7 +349,7 @@ def survey(
     The planes are computed once for the maxima, and a second time where sections or profiles go through these.
 
     ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep sections and profiles, or
-    only the maxima on the same planes; ``threads``: number of threads; ``progress``: told after each plane: the number
+    only the maxima on the same planes; ``threads``: number of threads; ``progress``: called after each plane with the number
     of planes done, and as error the share of all that is left.
 
     Raises

@@ -1,1 +1,1 @@
-"""Layer 4: campaigns over many contacts, unattended and resumable."""
+"""Layer 7: campaigns over many contacts, unattended and resumable."""

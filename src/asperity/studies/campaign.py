@@ -73,7 +73,7 @@ class Campaign:
             "cases": f"{state.done} done, {state.failed} failed, {state.missing} missing",
         }
         return "\n".join(
-            [printable(f"Study {self.title}"), *(f"  {label:<10}  {printable(said)}" for label, said in rows.items())]
+            [printable(f"Study {self.title}"), *(f"  {label:<10}  {printable(text)}" for label, text in rows.items())]
         )
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Critical thickness of a layer: from where on it is felt, and from where on nothing below it is (Peng 2001, eq. 4.1)."""
+"""Critical thickness of a layer: where it begins to have an effect, and where nothing below it has one any more (Peng 2001, eq. 4.1)."""
 
 from __future__ import annotations
 

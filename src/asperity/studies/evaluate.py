@@ -64,8 +64,8 @@ class _LoadPath:
                 warnings.simplefilter("ignore")  # the findings of a case are in its record
                 return {"key": case["key"], **self._answer(self._case(case["edits"])), "error": None}
         except Exception as error:
-            said = {"type": type(error).__name__, "message": " ".join(str(error).split())}
-            return {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": said}
+            failure = {"type": type(error).__name__, "message": " ".join(str(error).split())}
+            return {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": failure}
 
     def _case(self, edits: list[Any]) -> Case:
         document = checked(edited(self._table, map(from_plain, edits)), "problem of this case")

@@ -101,21 +101,21 @@ class _Lane:
         self._thread.join(timeout=10.0)
 
     def _serve(self) -> None:
-        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:
+        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
             try:
                 while (task := self.orders.get()) is not None and not self._ended:
-                    self._done.put((self, task, self._answer(task, said)))
-            except BaseException as error:  # of this thread: for the one who waits
+                    self._done.put((self, task, self._answer(task, output)))
+            except BaseException as error:  # raised again in the thread that waits for answers
                 self._done.put((self, {}, error))
             finally:
                 if self._process is not None:
                     self._process.communicate()
 
-    def _answer(self, task: Task, said: IO[str]) -> Any | Lost:
+    def _answer(self, task: Task, output: IO[str]) -> Any | Lost:
         order = json.dumps({"function": self._function, "task": task}) + "\n"
         reason = ""
         for _ in range(ATTEMPTS):
-            process = self._started(said)
+            process = self._started(output)
             if process is None:
                 break
             try:
@@ -129,22 +129,22 @@ class _Lane:
             if line.endswith("\n"):
                 return json.loads(line)
             process.communicate()
-            reason = _reason(process.returncode, said)
+            reason = _reason(process.returncode, output)
         return Lost(reason)
 
-    def _started(self, said: IO[str]) -> subprocess.Popen[str] | None:
+    def _started(self, output: IO[str]) -> subprocess.Popen[str] | None:
         """The worker, a new one if there is none or it has died; None when all is to end."""
         with self._lock:
             if self._ended:
                 return None
             if self._process is None or self._process.poll() is not None:
-                said.seek(0)
-                said.truncate()
+                output.seek(0)
+                output.truncate()
                 self._process = subprocess.Popen(
                     [sys.executable, "-m", f"{__package__}.worker"],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
-                    stderr=said,
+                    stderr=output,
                     text=True,
                     encoding="utf-8",
                     env=self._environment,
@@ -159,8 +159,8 @@ def _environment(threads: int) -> dict[str, str]:
     return {**os.environ, **dict.fromkeys(THREAD_VARIABLES, str(threads)), "PYTHONPATH": paths}
 
 
-def _reason(code: int, said: IO[str]) -> str:
-    said.seek(0)
-    last = " ".join(said.read().split())[-200:]
+def _reason(code: int, output: IO[str]) -> str:
+    output.seek(0)
+    last = " ".join(output.read().split())[-200:]
     ended = f"signal {-code}" if code < 0 else f"exit code {code}"
     return f"the worker ended with {ended}{': ' + last if last else ', perhaps for lack of memory'}"

@@ -214,7 +214,7 @@ def _info(channel: Any, default: int) -> ChannelInfo:
 def _scales(
     info: ChannelInfo, file: Path, size: tuple[float, float] | None, height_unit: str | None
 ) -> tuple[tuple[float, float], float]:
-    """Size in m and metres per unit of height, from the file or, where it is silent, from the caller."""
+    """Size in m and metres per unit of height, from the file or, where it states none, from the caller."""
     lacking = []
     if info.size is None and size is None:
         lacking.append('size=(Lx, Ly) in m (--size "20 um x 20 um")')

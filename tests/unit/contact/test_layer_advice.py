@@ -65,7 +65,7 @@ def test_hardness_is_that_of_the_surface_material():
 
 
 def test_softer_material_under_a_pressure_limit():
-    """The limit is that of the surface; of what lies below it the user is told."""
+    """The limit is that of the surface; there is a finding on what lies below it."""
 
     def told(hardnesses, limit):
         top, *middle, bottom = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in hardnesses)

@@ -97,7 +97,7 @@ def test_octaves_are_computed_once_for_all_grids():
         coarser = operator.coarsened
         assert coarser.octaves is operator.octaves
         asked.clear()
-        for side in (0.6, 0.3):  # the coarser grid asks first
+        for side in (0.6, 0.3):  # the coarser grid comes first
             q = np.pi / (side * 2.0 ** np.arange(5))
             np.testing.assert_allclose(operator.octaves.spectral(q), body.spectral(q), rtol=1e-8)
         assert asked.count(5) == 2  # the two of this test

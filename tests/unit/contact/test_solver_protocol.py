@@ -1,4 +1,4 @@
-"""What every solver promises: values in, values out, limits and tolerances respected, failures flagged, bounds true."""
+"""The contract of every solver: values in, values out, limits and tolerances respected, failures flagged, bounds true."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Findings on wet contacts: each appears where its criterion says so, with its numbers."""
+"""Findings on wet contacts: each appears where its criterion is met, with its numbers."""
 
 from __future__ import annotations
 

@@ -315,7 +315,7 @@ def test_members_of_a_free_set(engine: Engine, cap: str) -> None:
 
 @every_engine
 def test_points_enter_that_stand_out_of_the_scatter_of_the_loaded_ones(engine: Engine) -> None:
-    """Half of the scatter; 4 of 132 points of the prior, which sees the same here and nothing above, weaken it by 2 %."""
+    """Half of the scatter; 4 of 132 points of the prior, which is the same here and empty above, weaken it by 2 %."""
     rng = np.random.default_rng(9)
     shape, scatter, base = (2 * SQUARE_SIDE, SQUARE_SIDE), 0.02, 30.0
     loaded = np.indices(shape).sum(axis=0) % 2 == 0

@@ -399,7 +399,7 @@ def test_line_contact() -> None:
 
 
 def test_stresses() -> None:
-    """Every key of [stress] in SI; an empty table asks for the section through the maximum."""
+    """Every key of [stress] in SI; an empty table means the section through the maximum."""
     assert "stress" not in build(checked(table())).asks
     assert build(checked(table(stress={}))).asks["stress"] == StressRequest()
     wanted = {

@@ -41,7 +41,7 @@ def test_netcdf_comes_back_equal(tmp_path: Path, dtype: type, missing: bool, per
 
 def test_netcdf_is_that_of_the_reader_library(tmp_path: Path) -> None:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it says that it goes without MPI
+        warnings.simplefilter("ignore")  # the library warns where MPI is missing
         from SurfaceTopography import read_topography
     before = surface()
     asp.save_surface(before, tmp_path / "a.nc")

@@ -59,7 +59,7 @@ def test_reference_rows_cover_bases_loads_and_depths():
 @settings(max_examples=60)
 @given(layered_bodies(), st.floats(-3.0, 1.5), st.floats(0.02, 0.98), st.data())
 def test_the_equations_of_elasticity_hold_inside_every_layer(body, exponent, share, data):
-    """Equilibrium and Hooke's law across depth, d/dz by two sixth-order differences whose distance tells their error."""
+    """Equilibrium and Hooke's law across depth, d/dz by two sixth-order differences whose difference shows their error."""
     alpha = np.array([10.0**exponent])
     number = data.draw(st.integers(0, len(body.layers) - 1))
     top = sum(layer.thickness for layer in body.layers[:number])

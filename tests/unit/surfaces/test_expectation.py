@@ -155,7 +155,7 @@ def test_simulated_windows_agree():
 
 
 def test_effective_number_of_heights():
-    """N_eff = 2A/(π β²) of an exponential autocorrelation; the scatter of the mean square is what it says."""
+    """N_eff = 2A/(π β²) of an exponential autocorrelation; the scatter of the mean square is the predicted one."""
     grid, decay = asp.Grid((256, 256), (1.0, 1.0)), 6.0
     spectrum = asp.generate.ExponentialAutocorrelation(1.0, decay, drop=math.exp(-1.0))
     surfaces = [asp.generate.gaussian(grid, spectrum, seed=seed) for seed in range(40)]

@@ -23,7 +23,7 @@ from asperity.surfaces.prepare.level import despiked, levelled, line_corrected
 from asperity.surfaces.surface import Surface
 
 with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # it says that it goes without MPI
+    warnings.simplefilter("ignore")  # the library warns where MPI is missing
     from SurfaceTopography import Topography
 
 GRID = Grid((60, 44), (1.0, 1.4))

@@ -39,7 +39,7 @@ def test_structure_function_of_the_sampled_profile(row):
 
 @every_row(ESTIMATES, label=lambda r: f"{r['set']:g}")
 def test_powers_of_the_reference_are_the_usual_ones(row):
-    """n1 = floor(ln(1/L)/ln γ) for L = N dx and n2 = ceil(ln(1/2dx)/ln γ), without being told."""
+    """n1 = floor(ln(1/L)/ln γ) for L = N dx and n2 = ceil(ln(1/2dx)/ln γ), by default."""
     grid = Grid((int(row["N"]), 1), (row["dx_m"], 1e-6))
     made = weierstrass_mandelbrot_profile(grid, dimension=row["D"], roughness=row["G_m"], gamma=row["gamma"])
     assert f"powers {int(row['n_first'])} to {int(row['n_last'])}" in made.origin.history[0]

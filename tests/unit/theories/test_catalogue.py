@@ -1,4 +1,4 @@
-"""What every theory in the catalogue says of itself and answers."""
+"""What every theory in the catalogue declares and answers."""
 
 from __future__ import annotations
 

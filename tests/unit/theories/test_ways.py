@@ -1,4 +1,4 @@
-"""How theories are asked: every way of every theory answers, quickly, and says where it stops holding."""
+"""How theories are asked: every way of every theory answers, quickly, with its limits."""
 
 from __future__ import annotations
 

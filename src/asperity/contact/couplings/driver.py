@@ -74,7 +74,7 @@ _SHARE = 0.01
 it is a tenth of the residual."""
 
 _NEAR = 3.0
-"""Largest residual over tolerance at which the next solve is the last if it goes as foreseen."""
+"""Largest residual over tolerance at which the next solve is the last if the estimate holds."""
 
 _PROGRESS = 0.95
 """Share of the smallest residual so far below which one counts as progress."""
@@ -213,7 +213,7 @@ class _Iteration:
         self.pressures = [p for p in (posed.earlier, posed.start) if p is not None and p.any()]
         self.residuals: dict[str, list[float]] = {name: [] for name in self.active}
         self.mixing, self.directions = Mixing(), dict[str, float]()
-        self.told = _Told(progress, self.finest, lone=not self.active)
+        self.watched = _Told(progress, self.finest, lone=not self.active)
         self.last: Contact | None = None
         self.memories, self.nested = memories, False
         self.indentation: RealArray | float = 0.0
@@ -231,7 +231,7 @@ class _Iteration:
             self._need()
             concerned = [name for name in self.active if not self.nested or (name == Position.name) == moves]
             worst = max((self._ratio(name) for name in concerned), default=0.0)
-            self.told.round(worst)
+            self.watched.round(worst)
             if worst <= 1.0:
                 if tolerance <= self.finest:
                     return self._ended(contact, count, self._converged(contact, count))
@@ -319,7 +319,7 @@ class _Iteration:
             if isinstance(constraint, FixedOffset):
                 return replace(qp, constraint=constraint)
             if isinstance(cap, float) and cap >= constraint.mean_pressure * profile.size:
-                cap = np.inf  # no point bears more than the whole load; a huge limit would drown the error in rounding
+                cap = np.inf  # no point bears more than the whole load; a huge limit would hide the error in rounding
             if constraint.mean_pressure <= float(np.mean(cap)):
                 return replace(qp, cap=cap, constraint=constraint)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))
@@ -369,7 +369,7 @@ class _Iteration:
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))
         else:
-            solution = run(_to(self.solver, tolerance), qp, self._start(qp), self.told)
+            solution = run(_to(self.solver, tolerance), qp, self._start(qp), self.watched)
         contact = Contact(self.posed, qp, solution, self.indentation).with_work_of(self.last)
         if contact.pressure.any():
             self.pressures = [*self.pressures[-1:], contact.pressure]
@@ -454,10 +454,10 @@ class _Iteration:
     def _converged(self, contact: Contact, count: int) -> Status:
         if not self.active:
             return contact.solution.status
-        told = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
+        settled = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
         rounds = f"after {count} {'rounds' if count > 1 else 'round'}."
         return Status(
-            Outcome.CONVERGED, " ".join([contact.solution.status.message, *(f"{text} {rounds}" for text in told)])
+            Outcome.CONVERGED, " ".join([contact.solution.status.message, *(f"{text} {rounds}" for text in settled)])
         )
 
     def _given_up(self, count: int) -> Status:

@@ -6,8 +6,8 @@ any size ends in agreement, and steps are needed only for loads that go up and d
 
 With a constant hardness this takes one round. A hardness that changes with depth is itself the unknown; it starts at the
 indentation so far. Where the solid softens with depth (hard film), limits fall and the indentation grows from round to
-round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. What the error of
-a normal solve breaks on the way stays broken, so all of them are solved to the full tolerance.
+round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. A point that
+yields by the error of a normal solve stays indented, so all of them are solved to the full tolerance.
 
 Where the solid hardens (soft film) there is only one answer. A pixel whose limit rises springs back by its own compliance c,
 along the line p + w/c = y, which crosses the curve p = H(w) once: the place y of that crossing is the unknown, extrapolated
@@ -184,7 +184,7 @@ class DepthHardness(Coupling):
     def _depth(self, before: RealArray, place: RealArray) -> RealArray:
         """Depth w (nx, ny) in m, at least ``before``, of a ``place`` y = H(w) + w/c in Pa.
 
-        By bisection: the limit of a soft film is flat, steep and flat again, which leads Newton's method astray.
+        By bisection: the limit of a soft film is flat, steep and flat again, on which Newton's method fails.
         """
         wanted = self.own_compliance * place
         low, high = before, np.maximum(before, wanted - self.own_compliance * self.law.cap_at(before))

@@ -126,7 +126,7 @@ class Position(Coupling):
         if self.nested and note.slope is not None and note.slope > 0.0:
             step = note.slope * (note.wanted - closeness)
         if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
-            miss = 0.0  # a load that far away cannot be told apart by the normal solve
+            miss = 0.0  # a load that far away is not resolved by the normal solve
         lowest, highest = x - _FARTHEST, x + _FARTHEST
         if self.alone and x == high:
             highest = x + _TOWARDS * step

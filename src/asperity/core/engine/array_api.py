@@ -66,7 +66,7 @@ class Library:
         if adapters.is_cupy_array(values) or adapters.is_torch_array(values):
             return np.asarray(adapters.to_device(values, "cpu"))
         host = cast(RealArray, np.from_dlpack(values, device="cpu"))
-        return host if host.flags.writeable else host.copy()  # numpy 2.1 hands out what it cannot write
+        return host if host.flags.writeable else host.copy()  # numpy 2.1 gives an array that cannot be written to
 
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
         """Field of zeros."""

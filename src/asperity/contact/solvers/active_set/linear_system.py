@@ -454,7 +454,7 @@ def conjugate_gradients(
     """Solve the ``system`` for the residual ``r``, which may be overwritten.
 
     ``pending`` is a change whose deflection is not in the residual yet: the first product with the compliance includes it.
-    ``on_step`` is told the length of every step while its product with the compliance is in ``response``.
+    ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
     """
     scaled, free = system.scaled, system.free
     inverse = preconditioner(scaled, free)

@@ -1,4 +1,4 @@
-"""One document, three doors: `asperity contact`, `asperity run` and ``asp.run`` give the same numbers to the last bit."""
+"""`asperity contact`, `asperity run` and ``asp.run`` give the same numbers to the last bit for the same document."""
 
 from __future__ import annotations
 
@@ -60,7 +60,9 @@ COSTLY = ("normal_stiffness", "statistical_meniscus_force")
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
-def test_all_doors_give_the_same_bits(run: Runner, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def test_all_ways_to_run_give_the_same_bits(
+    run: Runner, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
     table = DOCUMENTS[name]
     wanted = computed(checked(table), ["normal_stiffness", *COSTLY[1 : 1 + ("film" in table)]])
     from_python = asp.run(table).values
