@@ -40,8 +40,18 @@ from .report.roughness import write_roughness_report
 from .report.write import write_report
 from .run.execute import Outcome, run
 from .solids.elastic import Elastic, Rigid, Strength
-from .solids.grading import ExponentialGrading, LinearGrading, PowerGrading, graded
-from .solids.layers import Bonded, Frictionless, Layer, Layered, RigidBase, contact_modulus
+from .solids.layers import (
+    Bonded,
+    ExponentialGrading,
+    Frictionless,
+    Layer,
+    Layered,
+    LinearGrading,
+    PowerGrading,
+    RigidBase,
+    contact_modulus,
+    graded,
+)
 from .solids.library import Liquid, liquid, liquids, material, materials
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
@@ -58,12 +68,10 @@ from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope
 from .surfaces.characterise.summary import Characterisation, characterise
-from .surfaces.common_grid import SurfacePair, on_common_grid
-from .surfaces.pair import composite, turned_over
+from .surfaces.pair import SurfacePair, composite, on_common_grid, turned_over
 from .surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
-from .surfaces.prepare.fill import filled
 from .surfaces.prepare.filter import filtered, reliability_cutoff, tip_limited
-from .surfaces.prepare.level import despiked, levelled, line_corrected
+from .surfaces.prepare.level import despiked, filled, levelled, line_corrected
 from .surfaces.read import channels, read
 from .surfaces.surface import Surface
 from .theories.statistics.roughness import Roughness

@@ -14,8 +14,7 @@ from scipy.integrate import quad
 
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.catalogue import theory as theory_by_name
-from asperity.theories.rough.persson import LOW_LOAD_SLOPE, Persson, PerssonGap, diffused_pressure
-from asperity.theories.statistics.isotropic_spectrum import IsotropicSpectrum
+from asperity.theories.rough.persson import LOW_LOAD_SLOPE, IsotropicSpectrum, Persson, PerssonGap, diffused_pressure
 from asperity.theories.statistics.roughness import Roughness, Spectrum
 
 MODULUS = 2.0

@@ -9,9 +9,9 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.theories.dynamics.restitution import rebound
+from asperity.theories.hardness.effective_hardness import CONE, PARABOLOID, PUNCH, OliverPharr
 from asperity.theories.rough.discrete_summits import IdenticalAsperities
 from asperity.theories.single.hertz import HertzPoint
-from asperity.theories.single.oliver_pharr import CONE, PARABOLOID, PUNCH, OliverPharr
 from asperity.theories.single.waves import TWO_TERMS, SinusoidalAsperity, two_term_approach, two_term_load, two_terms
 
 DIGITS = 1e-13  # the tables carry 15 digits (found: 6e-15)

@@ -26,7 +26,7 @@ from ..plots.comparison import save_answer_plot
 from ..run.build import body_of_text
 from ..solids.elastic import Rigid
 from ..solids.layers import contact_modulus, weaker_strength
-from ..surfaces.prepare.fill import filled
+from ..surfaces.prepare.level import filled
 from ..theories.ask import Evaluation, evaluate, ways_of
 from ..theories.catalogue import FAMILIES, THEORIES
 from ..theories.catalogue import theory as theory_of

@@ -11,7 +11,7 @@ from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import difference_moments, spectral_moments
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
-from ..surfaces.prepare.fill import filled
+from ..surfaces.prepare.level import filled
 from ..surfaces.surface import Surface
 from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
 

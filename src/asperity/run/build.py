@@ -41,12 +41,25 @@ from ..io.schemas.problem import (
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
 from ..parts.registry import parts
 from ..solids.elastic import Elastic, Rigid, Strength
-from ..solids.grading import ExponentialGrading, Grading, LinearGrading, PowerGrading, graded
-from ..solids.layers import Base, Body, Bonded, Frictionless, Interface, Layer, Layered, RigidBase, surface_material
+from ..solids.layers import (
+    Base,
+    Body,
+    Bonded,
+    ExponentialGrading,
+    Frictionless,
+    Grading,
+    Interface,
+    Layer,
+    Layered,
+    LinearGrading,
+    PowerGrading,
+    RigidBase,
+    graded,
+    surface_material,
+)
 from ..solids.library import material
-from ..surfaces.common_grid import on_common_grid
 from ..surfaces.formats import checked_size
-from ..surfaces.pair import turned_over
+from ..surfaces.pair import on_common_grid, turned_over
 from ..surfaces.read import read
 from ..surfaces.surface import Surface
 

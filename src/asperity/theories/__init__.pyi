@@ -3,7 +3,7 @@ from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_pa
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
-from .hardness.effective_hardness import EffectiveHardness, StackHardness
+from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
 from .hardness.plasticity import (
     PlasticityIndex,
     ProfilePlasticityIndex,
@@ -50,7 +50,6 @@ from .single.indenters import (
     Wedge,
 )
 from .single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
-from .single.oliver_pharr import OliverPharr
 from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
 from .statistics.heights import (
     AnyHeights,

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from ..core.errors import InputError
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
-from .hardness.effective_hardness import EffectiveHardness
+from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
 from .rough.design_guidance import LeastArea
@@ -43,7 +43,6 @@ from .single.indenters import (
     Wedge,
 )
 from .single.mindlin import MindlinLine, MindlinPoint
-from .single.oliver_pharr import OliverPharr
 from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
 from .statistics.nayak import NayakSummits
 from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress

@@ -8,9 +8,8 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.common_grid import largest_rectangle, on_common_grid
 from asperity.surfaces.generate import GaussianAutocorrelation, gaussian
-from asperity.surfaces.pair import composite
+from asperity.surfaces.pair import composite, largest_rectangle, on_common_grid
 from asperity.surfaces.surface import Surface
 
 

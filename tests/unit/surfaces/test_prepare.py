@@ -13,8 +13,7 @@ from asperity.core.grid import Grid
 from asperity.surfaces.characterise.heights import rms_height
 from asperity.surfaces.generate import RmsHeight, SelfAffine, gaussian
 from asperity.surfaces.prepare.extent import cropped, periodised, resampled, tapered
-from asperity.surfaces.prepare.fill import filled
-from asperity.surfaces.prepare.level import levelled
+from asperity.surfaces.prepare.level import filled, levelled
 from asperity.surfaces.surface import Surface
 
 GRID = Grid((36, 30), (1e-7, 1.5e-7))

@@ -19,9 +19,8 @@ from ...surfaces.generate.gaussian import Spectrum
 from ...surfaces.generate.non_gaussian import Marginal
 from ...surfaces.generate.power_laws import Amplitude
 from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
-from ...surfaces.prepare.fill import filled
 from ...surfaces.prepare.filter import filtered, tip_limited
-from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, levelled, line_corrected
+from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared`` calls.

@@ -12,7 +12,7 @@ from ...core import require
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.units import percent
-from ..prepare.fill import filled
+from ..prepare.level import filled
 from ..surface import Surface
 from .correlation import (
     DROP_1E,

@@ -19,9 +19,8 @@ from .deterministic import (
 )
 from .digital_filter import EndlessSurface, digital_filter, endless
 from .gaussian import gaussian
-from .non_gaussian import HeightMoments, HeightsOf, TwoLevels, translated
+from .non_gaussian import HeightMoments, HeightsOf, TwoLevels, rank_ordered, translated
 from .power_laws import PlateauPSD, RmsHeight, RmsSlope
-from .rank_ordered import rank_ordered
 from .spectra import MeasuredSpectrum, SelfAffine, Spectrum, TabulatedSpectrum, TwoSlopes, spectrum_of
 from .weierstrass import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 
