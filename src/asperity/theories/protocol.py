@@ -20,7 +20,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.parameters import Declared, Help
 from ..core.quantity import Quantity
-from ..core.values import Choice, Length, Number, Positive, SignedLength
+from ..core.values import Choice, Length, Number, Positive, Real, SignedLength
 from .statistics.heights import NAMED_HEIGHTS, SummitHeights
 from .statistics.roughness import Roughness
 
@@ -40,6 +40,8 @@ SummitDensity: TypeAlias = Annotated[float, Number("density", above=0.0), "summi
 SummitRadius: TypeAlias = Annotated[Length, "radius R of the summits"]
 HeightDeviation: TypeAlias = Annotated[Length, "standard deviation σ_s of the summit heights"]
 MeanHeight: TypeAlias = Annotated[SignedLength, "mean z̄_s of the summit heights above the mean plane of the surface"]
+SummitSkewness: TypeAlias = Annotated[Real, "skewness of the summit heights"]
+SummitKurtosis: TypeAlias = Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"]
 HeightsLaw: TypeAlias = Annotated[
     SummitHeights, Choice(dict(NAMED_HEIGHTS), others=True), "distribution of the standardised summit heights"
 ]

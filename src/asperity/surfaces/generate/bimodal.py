@@ -17,9 +17,9 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.units import show
-from ...core.values import Density, Fraction, Length, NonNegativeLength, Number, Seed, SignedLength
+from ...core.values import Density, Fraction, Length, NonNegativeLength, Number, SignedLength
 from ..surface import Surface, generated
-from .gaussian import Spectrum, random_field, sub_seeds
+from .gaussian import Spectrum, SurfaceSeed, random_field, sub_seeds
 
 _KEYS = ("PengBhushan2000",)
 _MOST_PARTICLES = 10_000_000
@@ -36,7 +36,7 @@ def bimodal(
         SignedLength, "height of the mean plane of the first texture above that of the second, of either sign"
     ],
     patches: Annotated[Spectrum, "spectrum of M, which shapes the patches; its rms height does not matter"],
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    seed: SurfaceSeed,
 ) -> Surface:
     """Periodic surface of two textures side by side: patches of the first on ``share`` of the area, the second elsewhere.
 
@@ -66,7 +66,7 @@ def two_process(
     valleys: Annotated[Spectrum, "spectrum of the valleys Y"],
     *,
     offset: Annotated[SignedLength, "mean of the valleys above that of the plateau, of either sign"],
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    seed: SurfaceSeed,
     keep: Annotated[Literal["lower", "upper"], "which of the two surfaces is kept at each point"] = "lower",
 ) -> Surface:
     """Periodic surface of a second process over a first one: h = min(X, Y), as by honing or wear; max for deposits.
@@ -98,7 +98,7 @@ def particles(
         Number(above=0.0, most=2.0),
         "height of a particle's top above the matrix in radii: 2 lies on it, 1 is half sunk",
     ] = 2.0,
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    seed: SurfaceSeed,
 ) -> Surface:
     """Periodic surface of spheres in or on a rough matrix: h = max(h_m, z - R + sqrt(R² - r²)).
 

@@ -15,6 +15,10 @@ from ...core.units import show
 from ...core.values import Axis, Length, NonNegativeLength, Number, Positive
 from ..surface import Surface, generated
 
+WaveAmplitude: TypeAlias = Annotated[Length, "amplitude of the wave"]
+Wavelength: TypeAlias = Annotated[Length, "length λ of the wave; the size holds a whole number of them"]
+Along: TypeAlias = Annotated[Axis, "direction along which it runs"]
+
 # Deterministic shapes: heights positive out of the body, highest point at zero, centred at node (nx//2, ny//2).
 #
 # Johnson, K. L. (1985), Contact Mechanics, chapters 4, 5 and 13, uses the same undeformed profiles.
@@ -59,9 +63,7 @@ def elliptic_paraboloid(
 
 
 @checked
-def cylinder(
-    grid: Grid, *, radius: Annotated[Length, "radius R"], axis: Annotated[Axis, "direction along which it runs"] = "y"
-) -> Surface:
+def cylinder(grid: Grid, *, radius: Annotated[Length, "radius R"], axis: Along = "y") -> Surface:
     """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along y."""
     x, y = grid.centred_coordinates()
     across = x if axis == "y" else y
@@ -79,7 +81,7 @@ def cone(grid: Grid, *, slope: Slope) -> Surface:
 
 
 @checked
-def wedge(grid: Grid, *, slope: Slope, axis: Annotated[Axis, "direction along which it runs"] = "y") -> Surface:
+def wedge(grid: Grid, *, slope: Slope, axis: Along = "y") -> Surface:
     """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`."""
     x, y = grid.centred_coordinates()
     return _shape(grid, -slope * np.abs(x if axis == "y" else y), f"wedge along {axis}, slope {slope:g}")
@@ -130,9 +132,9 @@ def flat_punch(
 def sinusoid(
     grid: Grid,
     *,
-    amplitude: Annotated[Length, "amplitude of the wave"],
-    wavelength: Annotated[Length, "length λ of the wave; the size holds a whole number of them"],
-    axis: Annotated[Axis, "direction along which it runs"] = "x",
+    amplitude: WaveAmplitude,
+    wavelength: Wavelength,
+    axis: Along = "x",
 ) -> Surface:
     """Wave h = amplitude · [cos(2πx/λ) - 1] along ``axis``, periodic; amplitude and wavelength λ in m, positive.
 
@@ -148,8 +150,8 @@ def sinusoid(
 def bisinusoid(
     grid: Grid,
     *,
-    amplitude: Annotated[Length, "amplitude of the wave"],
-    wavelength: Annotated[Length, "length λ of the wave; the size holds a whole number of them"],
+    amplitude: WaveAmplitude,
+    wavelength: Wavelength,
 ) -> Surface:
     """Egg-box h = amplitude · [cos(2πx/λ) + cos(2πy/λ) - 2], periodic; amplitude and wavelength λ in m, positive.
 
@@ -259,7 +261,7 @@ def grooves(
     width: Annotated[Length, "width of a groove"],
     depth: Annotated[Length, "depth at the middle of a groove"],
     section: Annotated[Literal["vee", "round", "cosine"], "cross section of a groove"] = "vee",
-    axis: Annotated[Axis, "direction along which it runs"] = "y",
+    axis: Along = "y",
 ) -> Surface:
     """Periodic grooves along ``axis`` in a flat surface at height zero.
 

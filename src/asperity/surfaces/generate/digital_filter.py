@@ -16,10 +16,9 @@ from ...core.parameters import checked
 from ...core.pearson import require_possible
 from ...core.spectral import RealTransform, fast_length, mode_sum, thread_count
 from ...core.units import show
-from ...core.values import Positive, Real, Seed
 from ..surface import Origin, Surface
-from .gaussian import BLOCK, Spectrum, block_noise, lattice_eigenvalues
-from .non_gaussian import HeightLaw, System, height_law
+from .gaussian import BLOCK, Spectrum, SurfaceSeed, block_noise, lattice_eigenvalues
+from .non_gaussian import HeightKurtosis, HeightLaw, HeightSkewness, HeightSystem, height_law
 from .power_laws import RmsHeight
 
 # Moving-average kernel of a random surface: each height is a weighted sum of white noise around its node.
@@ -256,10 +255,10 @@ def digital_filter(
     grid: Grid,
     spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
-    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"] = 0.0,
-    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"] = 3.0,
-    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson",
+    seed: SurfaceSeed,
+    skewness: HeightSkewness = 0.0,
+    kurtosis: HeightKurtosis = 3.0,
+    system: HeightSystem = "johnson",
     periodic: Annotated[bool, "periodic surface, or a window of an endless one"] = False,
 ) -> Surface:
     """Surface by the digital filter of Hu & Tønder (1992), with given skewness and kurtosis of the heights.

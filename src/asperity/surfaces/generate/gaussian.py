@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, Protocol, runtime_checkable
+from typing import Annotated, Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from ...core.units import show
 from ...core.values import Seed
 from ..surface import Surface, generated
 from .power_laws import mean_square
+
+SurfaceSeed: TypeAlias = Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"]
 
 # From an autocovariance function to the spectrum of a periodic lattice: circulant embedding.
 #
@@ -224,7 +226,7 @@ def gaussian(
     grid: Grid,
     spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    seed: SurfaceSeed,
     variant: Annotated[
         Literal["random", "fixed", "nested"], "how waves are drawn; nested shows one surface on grids of any pixel"
     ] = "random",

@@ -17,9 +17,9 @@ from ...core.parameters import Declared, checked
 from ...core.pearson import Pearson, require_possible
 from ...core.spectral import RealTransform, mode_sum, thread_count
 from ...core.status import NoProgress, Progress
-from ...core.values import Count, Fraction, Positive, Real, Seed
+from ...core.values import Count, Fraction, Positive, Real
 from ..surface import Surface, generated
-from .gaussian import CLIP_LIMIT, Spectrum, filtered_noise, lattice_eigenvalues, negative_part
+from .gaussian import CLIP_LIMIT, Spectrum, SurfaceSeed, filtered_noise, lattice_eigenvalues, negative_part
 from .power_laws import mean_square
 
 # Johnson's system of distributions: the one with given skewness and kurtosis, as a function of a normal number.
@@ -202,6 +202,10 @@ def _bounded_moments(gamma: float, delta: float) -> _Moments:
 System: TypeAlias = Literal["johnson", "pearson"]
 """System of distributions of heights."""
 
+HeightSkewness: TypeAlias = Annotated[Real, "skewness of the heights; 0 for Gaussian ones"]
+HeightKurtosis: TypeAlias = Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"]
+HeightSystem: TypeAlias = Annotated[System, "system of distributions of the heights; their tails differ"]
+
 
 class HeightLaw(Protocol):
     """A distribution of zero mean and unit variance."""
@@ -248,9 +252,9 @@ class HeightMoments(Declared):
     Raises InputError if kurtosis < 1 + skewness², or the system is unknown.
     """
 
-    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"] = 0.0
-    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"] = 3.0
-    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson"
+    skewness: HeightSkewness = 0.0
+    kurtosis: HeightKurtosis = 3.0
+    system: HeightSystem = "johnson"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -338,10 +342,10 @@ def translated(
     grid: Grid,
     spectrum: Annotated[Spectrum, "spectrum"],
     *,
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
-    skewness: Annotated[Real, "skewness of the heights; 0 for Gaussian ones"],
-    kurtosis: Annotated[Positive, "kurtosis of the heights; 3 for Gaussian ones"],
-    system: Annotated[System, "system of distributions of the heights; their tails differ"] = "johnson",
+    seed: SurfaceSeed,
+    skewness: HeightSkewness,
+    kurtosis: HeightKurtosis,
+    system: HeightSystem = "johnson",
     predistorted: Annotated[
         bool, "whether the spectrum is that of the heights, or of the Gaussian field they are made of"
     ] = True,
@@ -455,7 +459,7 @@ def rank_ordered(
     spectrum: Annotated[Spectrum, "spectrum"],
     heights: Annotated[Marginal, "distribution of heights"],
     *,
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
+    seed: SurfaceSeed,
     last: Annotated[Literal["heights", "spectrum"], "whether heights or spectrum are exact in the end"] = "heights",
     tolerance: Annotated[Positive, "relative error of the waves' amplitudes at which to stop"] = 1e-4,
     max_iterations: Annotated[Count, "iterations after which to stop"] = 1000,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,6 +39,11 @@ from .power_laws import (
 )
 
 __all__ = ["PlateauPSD", "RmsHeight", "RmsSlope", "SelfAffine", "Spectrum", "TwoSlopes"]
+
+
+RollOff: TypeAlias = Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
+ShortestWave: TypeAlias = Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"]
+LongestWave: TypeAlias = Annotated[float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"]
 
 
 class _PowerLawSpectrum(ABC):
@@ -91,11 +96,9 @@ class SelfAffine(_PowerLawSpectrum, Declared):
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
     hurst: Annotated[Hurst, "Hurst exponent H"]
-    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
-    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"]
-    longest_wavelength: Annotated[
-        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
-    ] = math.inf
+    rolloff_wavelength: RollOff
+    shortest_wavelength: ShortestWave
+    longest_wavelength: LongestWave = math.inf
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -129,12 +132,10 @@ class TwoSlopes(_PowerLawSpectrum, Declared):
     exponents: Annotated[
         tuple[Positive, Positive], "exponents a1,a2 of the falling spectrum q^-a before and after the crossover"
     ]
-    rolloff_wavelength: Annotated[Length, "wavelength λ_r above which the spectrum is flat"]
+    rolloff_wavelength: RollOff
     crossover_wavelength: Annotated[Length, "wavelength λ_c at which the exponent changes"]
-    shortest_wavelength: Annotated[NonNegativeLength, "shortest wave λ_s; 0m for all that the grid holds"] = 0.0
-    longest_wavelength: Annotated[
-        float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"
-    ] = math.inf
+    shortest_wavelength: ShortestWave = 0.0
+    longest_wavelength: LongestWave = math.inf
 
     def __post_init__(self) -> None:
         super().__post_init__()

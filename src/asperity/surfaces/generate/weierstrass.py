@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
@@ -14,6 +14,14 @@ from ...core.parameters import checked
 from ...core.units import show
 from ...core.values import Count, Length, Number, Seed
 from ..surface import Surface, generated
+from .gaussian import SurfaceSeed
+
+FrequencyRatio: TypeAlias = Annotated[
+    float, Number(above=1.0, fix="1.5 is usual."), "ratio γ of neighbouring frequencies"
+]
+FractalRoughness: TypeAlias = Annotated[Length, "fractal roughness G: a scale of the amplitudes, not a height"]
+ShortestWave: TypeAlias = Annotated[Length | None, "shortest wave L_s; two pixels if left out"]
+LongestWave: TypeAlias = Annotated[Length | None, "longest wave L; the size of the grid if left out"]
 
 _MOST_WAVES = 100_000
 _SOURCE = "Weierstrass-Mandelbrot"
@@ -24,12 +32,12 @@ def weierstrass_mandelbrot(
     grid: Grid,
     *,
     dimension: Annotated[float, Number(above=2.0, below=3.0), "fractal dimension D of the surface"],
-    roughness: Annotated[Length, "fractal roughness G: a scale of the amplitudes, not a height"],
-    seed: Annotated[Seed, "seed of the random numbers; equal seeds give equal surfaces"],
-    gamma: Annotated[float, Number(above=1.0, fix="1.5 is usual."), "ratio γ of neighbouring frequencies"] = 1.5,
+    roughness: FractalRoughness,
+    seed: SurfaceSeed,
+    gamma: FrequencyRatio = 1.5,
     ridges: Annotated[Count, "number M of directions"] = 10,
-    length: Annotated[Length | None, "longest wave L; the size of the grid if left out"] = None,
-    shortest_wavelength: Annotated[Length | None, "shortest wave L_s; two pixels if left out"] = None,
+    length: LongestWave = None,
+    shortest_wavelength: ShortestWave = None,
 ) -> Surface:
     """Weierstrass-Mandelbrot surface (Ausloos & Berman 1985; Yan & Komvopoulos 1998) without its constant.
 
@@ -63,10 +71,10 @@ def weierstrass_mandelbrot_profile(
     grid: Grid,
     *,
     dimension: Annotated[float, Number(above=1.0, below=2.0), "fractal dimension D of the profile"],
-    roughness: Annotated[Length, "fractal roughness G: a scale of the amplitudes, not a height"],
-    gamma: Annotated[float, Number(above=1.0, fix="1.5 is usual."), "ratio γ of neighbouring frequencies"] = 1.5,
-    length: Annotated[Length | None, "longest wave L; the size of the grid if left out"] = None,
-    shortest_wavelength: Annotated[Length | None, "shortest wave L_s; two pixels if left out"] = None,
+    roughness: FractalRoughness,
+    gamma: FrequencyRatio = 1.5,
+    length: LongestWave = None,
+    shortest_wavelength: ShortestWave = None,
     seed: Annotated[Seed | None, "seed of random phases; all are 0 if left out"] = None,
 ) -> Surface:
     """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x + φ_n)/γ^((2-D)n), n = n1…n2.

@@ -14,7 +14,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
 from ...core.parameters import Help
-from ...core.values import Length, Number, Positive, Real, SignedLength
+from ...core.values import Length, Number, SignedLength
 from ..protocol import (
     BLUNT_SUMMITS,
     FEW_CONTACTS,
@@ -27,7 +27,9 @@ from ..protocol import (
     Prediction,
     SeparationTheory,
     SummitDensity,
+    SummitKurtosis,
     SummitRadius,
+    SummitSkewness,
     Theory,
     curve,
     prediction,
@@ -141,8 +143,8 @@ class KotwalBhushan(SphericalSummits):
     ['2.03e-05', '1.11e-05']
     """
 
-    skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
-    kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
+    skewness: SummitSkewness = 0.0
+    kurtosis: SummitKurtosis = 3.0
     name: ClassVar[str] = "kotwal-bhushan"
     title: ClassVar[str] = "Kotwal-Bhushan"
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1966", "Kotwal1996", "Pearson1895", "Pearson1916")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,9 @@ from ...core.arrays import RealArray
 from ...core.values import Length
 from ..ask import LINE_LOAD, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, bisected, checked, small_slope
+
+RadiusX: TypeAlias = Annotated[Length, "relative radius of curvature along x"]
+RadiusY: TypeAlias = Annotated[Length, "relative radius of curvature along y"]
 
 # Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
 
@@ -161,8 +164,8 @@ class HertzEllipse(Theory):
     """
 
     E_star: Modulus
-    radius_x: Annotated[Length, "relative radius of curvature along x"]
-    radius_y: Annotated[Length, "relative radius of curvature along y"]
+    radius_x: RadiusX
+    radius_y: RadiusY
     name: ClassVar[str] = "hertz-ellipse"
     title: ClassVar[str] = "Hertz, elliptical contact"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,9 @@ from ...core.quadrature import gauss
 from ...core.values import Length, Number, Positive
 from ..ask import LINE_LOAD, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bisected, checked, small_slope
+
+Exponent: TypeAlias = Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
+Slope: TypeAlias = Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
 
 # Rigid axisymmetric indenters: power laws (cone, paraboloid, …), flat punch, exact sphere (Galin 1946; Sneddon 1965).
 #
@@ -62,7 +65,7 @@ class PowerLawIndenter(Theory):
 
     E_star: Modulus
     coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B r^n"]
-    exponent: Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
+    exponent: Exponent
     name: ClassVar[str] = "power-law-indenter"
     title: ClassVar[str] = "Power-law indenter"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Sneddon1965")
@@ -246,7 +249,7 @@ class LinePowerLawIndenter(Theory):
 
     E_star: Modulus
     coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B |x|^n"]
-    exponent: Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
+    exponent: Exponent
     name: ClassVar[str] = "line-power-law-indenter"
     title: ClassVar[str] = "Power-law indenter in plane strain"
     citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
@@ -338,7 +341,7 @@ class Cone(Theory):
     """
 
     E_star: Modulus
-    slope: Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
+    slope: Slope
     name: ClassVar[str] = "cone"
     title: ClassVar[str] = "Cone"
     citation_keys: ClassVar[tuple[str, ...]] = PowerLawIndenter.citation_keys
@@ -361,7 +364,7 @@ class Wedge(Theory):
     """Wedge against an elastic half-space in plane strain."""
 
     E_star: Modulus
-    slope: Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
+    slope: Slope
     name: ClassVar[str] = "wedge"
     title: ClassVar[str] = "Wedge"
     citation_keys: ClassVar[tuple[str, ...]] = LinePowerLawIndenter.citation_keys

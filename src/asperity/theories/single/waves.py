@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,9 @@ from ..protocol import (
 )
 from .hertz import HertzPoint
 
+Amplitude: TypeAlias = Annotated[Length, "amplitude of the wave"]
+Wavelength: TypeAlias = Annotated[Length, "wavelength λ"]
+
 # Partial contact of a sinusoid (Westergaard 1939; Johnson 1985, sec. 13.2).
 
 
@@ -44,8 +47,8 @@ class Westergaard(Theory):
     """
 
     E_star: Modulus
-    amplitude: Annotated[Length, "amplitude of the wave"]
-    wavelength: Annotated[Length, "wavelength λ"]
+    amplitude: Amplitude
+    wavelength: Wavelength
     name: ClassVar[str] = "westergaard"
     title: ClassVar[str] = "Westergaard, sinusoid"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Westergaard1939")
@@ -129,8 +132,8 @@ class CrossedWaves(Theory):
     """
 
     E_star: Modulus
-    amplitude: Annotated[Length, "amplitude of the wave"]
-    wavelength: Annotated[Length, "wavelength λ"]
+    amplitude: Amplitude
+    wavelength: Wavelength
     name: ClassVar[str] = "crossed-waves"
     title: ClassVar[str] = "Johnson-Greenwood-Higginson, crossed waves"
     citation_keys: ClassVar[tuple[str, ...]] = ("JohnsonGreenwood1985",)
@@ -219,7 +222,7 @@ class SinusoidalAsperity(Theory):
 
     E_star: Modulus
     height: Annotated[Length, "height from crest to trough"]
-    wavelength: Annotated[Length, "wavelength λ"]
+    wavelength: Wavelength
     name: ClassVar[str] = "sinusoidal-asperity"
     title: ClassVar[str] = "Sinusoidal asperity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Sneddon1965")

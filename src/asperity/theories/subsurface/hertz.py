@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +17,7 @@ from ...core.tensor import Displacement, ElasticFields, StressTensor
 from ...core.values import Length, Number
 from ..ask import ALONG_X, ALONG_Y, DEPTH, STRESS, StressAnswer, Way, asked, places
 from ..protocol import Modulus, PoissonOfSolid, Radius, Theory
-from ..single.hertz import HertzEllipse, HertzLine, HertzPoint
+from ..single.hertz import HertzEllipse, HertzLine, HertzPoint, RadiusX, RadiusY
 
 # Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
 #
@@ -316,6 +316,11 @@ def _integrals(
 # Theories of the catalogue: stresses below point, line and elliptical contacts.
 
 
+PoissonsRatio: TypeAlias = Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")]
+Friction: TypeAlias = Annotated[
+    float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
+]
+
 LOAD = asked("load", "N", "normal force")
 SOME_SHEAR = 1.0
 """Shear modulus in Pa of the fields; stresses under a given traction do not depend on it."""
@@ -327,10 +332,8 @@ class HertzStress(Theory):
 
     E_star: Modulus
     radius: Radius
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")] = 0.3
-    friction: Annotated[
-        float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
-    ] = 0.0
+    nu: PoissonsRatio = 0.3
+    friction: Friction = 0.0
     name: ClassVar[str] = "hertz-stress"
     title: ClassVar[str] = "Hertz, stresses below a sphere"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hamilton1983", "Hertz1882", "Johnson1985")
@@ -356,9 +359,7 @@ class HertzLineStress(Theory):
     E_star: Modulus
     radius: Annotated[Length, "relative radius of curvature"]
     nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body", of="bodies")] = 0.3
-    friction: Annotated[
-        float, Number(least=0.0), Help("friction coefficient; the counter-body moves toward +x", of="bodies")
-    ] = 0.0
+    friction: Friction = 0.0
     name: ClassVar[str] = "hertz-line-stress"
     title: ClassVar[str] = "Hertz, stresses below a cylinder"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985", "McEwen1949")
@@ -380,9 +381,9 @@ class HertzEllipseStress(Theory):
     """Stresses below an elliptical contact (Johnson 1985, sec. 3.5)."""
 
     E_star: Modulus
-    radius_x: Annotated[Length, "relative radius of curvature along x"]
-    radius_y: Annotated[Length, "relative radius of curvature along y"]
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio, 0 to 0.5", of="bodies")] = 0.3
+    radius_x: RadiusX
+    radius_y: RadiusY
+    nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "hertz-ellipse-stress"
     title: ClassVar[str] = "Hertz, stresses below an ellipse"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hertz1882", "Johnson1985")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -179,6 +179,9 @@ def _plane_strain(xx: RealArray, zz: RealArray, xz: RealArray, nu: float) -> Str
 # Theories of the catalogue: point and line forces and strips (Johnson 1985, ch. 2 and 3).
 
 
+ShearModulus: TypeAlias = Annotated[Pressure, Help("shear modulus", of="bodies")]
+PoissonsRatio: TypeAlias = Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")]
+
 SPACE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X, ALONG_Y)),)
 PLANE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X,)),)
 
@@ -188,8 +191,8 @@ class Boussinesq(Theory):
     """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2)."""
 
     load: Annotated[float, Number("force"), Help("force", of="bodies")]
-    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    shear: ShearModulus
+    nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "boussinesq"
     title: ClassVar[str] = "Boussinesq, normal force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
@@ -206,8 +209,8 @@ class Cerruti(Theory):
     """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6)."""
 
     tangential: Annotated[float, Number("force"), Help("force", of="bodies")]
-    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    shear: ShearModulus
+    nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "cerruti"
     title: ClassVar[str] = "Cerruti, tangential force at a point"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
@@ -227,8 +230,8 @@ class Flamant(Theory):
     """
 
     normal: Annotated[float, Number("N/m"), Help("normal force per length", of="bodies")]
-    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    shear: ShearModulus
+    nu: PoissonsRatio = 0.3
     tangential: Annotated[float, Number("N/m"), Help("tangential force per length along x", of="bodies")] = 0.0
     name: ClassVar[str] = "flamant"
     title: ClassVar[str] = "Flamant, force on a line"
@@ -248,8 +251,8 @@ class Strip(Theory):
 
     half_width: Annotated[Length, Help("half the width of the strip b", of="bodies")]
     pressure: Annotated[float, Number("pressure"), Help("pressure", of="bodies")]
-    shear: Annotated[Pressure, Help("shear modulus", of="bodies")]
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio", of="bodies")] = 0.3
+    shear: ShearModulus
+    nu: PoissonsRatio = 0.3
     traction: Annotated[float, Number("pressure"), Help("shear traction along x", of="bodies")] = 0.0
     name: ClassVar[str] = "strip"
     title: ClassVar[str] = "Uniform traction on a strip"

@@ -92,11 +92,14 @@ ONSET: tuple[Way, ...] = (
 )
 
 
+PoissonsRatio: TypeAlias = Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")]
+
+
 @dataclass(frozen=True)
 class SphereYield(Theory):
     """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion."""
 
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3
+    nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "first-yield"
     title: ClassVar[str] = "First yield below a sphere, with friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hamilton1983", "Johnson1985")
@@ -111,7 +114,7 @@ class SphereYield(Theory):
 class CylinderYield(Theory):
     """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``."""
 
-    nu: Annotated[PoissonOfSolid, Help("Poisson's ratio of the body that yields", of="bodies")] = 0.3
+    nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "first-yield-line"
     title: ClassVar[str] = "First yield below a cylinder, with friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "McEwen1949")

@@ -14,7 +14,7 @@ from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import Length, Number, Positive, Real, Viscosity
+from ...core.values import Length, Number, Positive, Viscosity
 from ..ask import PRESSURE, Way, asked
 from ..protocol import (
     Bound,
@@ -24,7 +24,9 @@ from ..protocol import (
     Modulus,
     Prediction,
     SummitDensity,
+    SummitKurtosis,
     SummitRadius,
+    SummitSkewness,
     Theory,
     curve,
 )
@@ -32,6 +34,12 @@ from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
 from ..statistics.heights import GaussianHeights, PearsonHeights, SummitHeights
 from ..statistics.roughness import Roughness
 from .meniscus import MeniscusGrowth, film_force
+
+SurfaceTension: TypeAlias = Annotated[
+    float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")
+]
+FilmThickness: TypeAlias = Annotated[Length, Help("thickness of the film", of="bodies")]
+ContactAngle: TypeAlias = Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")]
 
 # Menisci of Greenwood-Williamson summits in a liquid film (Gao, Tian & Bhushan 1995; Bhushan 1998, eq. 56-58).
 
@@ -268,12 +276,12 @@ class WetSummits(Theory):
     density: SummitDensity
     radius: SummitRadius
     height_deviation: HeightDeviation
-    surface_tension: Annotated[float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")]
-    film_thickness: Annotated[Length, Help("thickness of the film", of="bodies")]
-    contact_angle: Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")] = 0.0
+    surface_tension: SurfaceTension
+    film_thickness: FilmThickness
+    contact_angle: ContactAngle = 0.0
     mean_height: MeanHeight = 0.0
-    skewness: Annotated[Real, "skewness of the summit heights"] = 0.0
-    kurtosis: Annotated[Positive, "kurtosis of the summit heights, 3 for Gaussian ones"] = 3.0
+    skewness: SummitSkewness = 0.0
+    kurtosis: SummitKurtosis = 3.0
     name: ClassVar[str] = "statistical-meniscus"
     title: ClassVar[str] = "Menisci of Greenwood-Williamson summits"
     citation_keys: ClassVar[tuple[str, ...]] = (*StatisticalMeniscus.citation_keys, "Kotwal1996")
@@ -346,13 +354,13 @@ class GrowingMenisci(Theory):
     density: SummitDensity
     radius: SummitRadius
     height_deviation: HeightDeviation
-    surface_tension: Annotated[float, Number("N/m", above=0.0), Help("surface tension of the liquid", of="bodies")]
-    film_thickness: Annotated[Length, Help("thickness of the film", of="bodies")]
+    surface_tension: SurfaceTension
+    film_thickness: FilmThickness
     viscosity: Annotated[Viscosity, Help("viscosity of the liquid", of="bodies")]
     hamaker_constant: Annotated[
         float, Number("energy", above=0.0), Help("Hamaker constant of solid, liquid and vapour", of="bodies")
     ]
-    contact_angle: Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")] = 0.0
+    contact_angle: ContactAngle = 0.0
     radius_ratio: Annotated[
         Positive, Help("outer over inner radius of the film that feeds a meniscus", of="bodies")
     ] = 10.0
