@@ -12,6 +12,8 @@
 #   make package      wheel and source archive in dist/, installed in empty environments, where the demo runs
 #   make bench        speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
 #   make validate     every page of validation/ anew, one process at a time, and pictures in PICTURES=validation-pictures
+#   make docs         the site in build/docs/html, without network; warnings are errors
+#   make docs-serve   shows it on http://127.0.0.1:8000 (PORT=8000), on this machine only
 #   make clean        remove the environments and everything that was built
 #
 # PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes,
@@ -26,7 +28,8 @@ GROUP   ?= dev
 BIN     := $(VENV)/bin
 USER_OK := $(VENV)/.installed
 DEV_OK  := $(VENV)/.installed-dev
-SOURCES := $(wildcard src tests benchmarks examples validation)
+DOCS_OK := $(VENV)/.installed-docs
+SOURCES := $(wildcard src tests benchmarks examples validation docs)
 
 # One thread per test process: two processes on two cores must not become four threads.
 ONE_THREAD := ASPERITY_THREADS=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
@@ -34,7 +37,7 @@ PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS)
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate reference clean
+.PHONY: help demo test test-all test-lowest test-plain coverage lint style layout types fix hooks package bench validate docs docs-serve clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -102,9 +105,13 @@ validate: $(DEV_OK)
 	@status=0; for page in $(PAGES:.md=.py); do $(ONE_THREAD) $(BIN)/python $$page || status=1; done; \
 	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
 
-# The page of all theories, from what they declare.
-reference: $(DEV_OK)
-	$(BIN)/python docs/reference/theories.py
+docs: $(DOCS_OK)
+	$(BIN)/python docs/site/build.py
+
+PORT ?= 8000
+
+docs-serve: docs
+	$(BIN)/python -m http.server --bind 127.0.0.1 --directory build/docs/html $(PORT)
 
 clean:
 	rm -rf $(VENV) .venv-lowest .venv-plain build dist demo-run validation-pictures htmlcov
@@ -132,4 +139,8 @@ $(USER_OK): pyproject.toml
 
 $(DEV_OK): $(USER_OK)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group $(GROUP)
+	@touch $@
+
+$(DOCS_OK): $(USER_OK)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group docs
 	@touch $@

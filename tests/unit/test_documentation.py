@@ -78,6 +78,18 @@ def test_the_example_of_the_readme(scan, tmp_path, monkeypatch, capsys):
     assert "Polonsky" in capsys.readouterr().out
 
 
+def test_the_first_contact(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for number, code in enumerate(blocks(ROOT / "docs/start/first-contact.md", "python")):
+        exec(compile(code, f"block {number}", "exec"), names)  # noqa: S102 - running the page is the test
+    printed = capsys.readouterr().out
+    assert "100 nm, DLC" in printed
+    assert "100 nm, bearing steel" in printed
+    assert {"contact.nc", "report.html"} == {path.name for path in tmp_path.iterdir()}
+    assert 0.5 < names["model"].at_pressure(100e6).area_fraction[0] / names["result"].area_fraction_corrected < 1.2
+
+
 def test_the_examples_of_loading_and_unloading(scan, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     first, second, *rest = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
@@ -356,8 +368,9 @@ def test_the_studies_of_the_guide(tmp_path, monkeypatch):
         make_plan(study_from_table(tomllib.loads(head + kind), Path()))
 
 
-@pytest.mark.parametrize("page", [ROOT / "README.md", *GUIDES, ROOT / "CONTRIBUTING.md"], ids=lambda p: p.name)
+@pytest.mark.parametrize("page", [ROOT / "README.md", ROOT / "CONTRIBUTING.md"], ids=lambda p: p.name)
 def test_links_lead_somewhere(page):
+    """Those of all pages of the site: ``tests/unit/test_site.py``."""
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), f"{page.name} links to {target}"

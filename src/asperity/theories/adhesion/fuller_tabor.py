@@ -43,9 +43,12 @@ _JUMP_IN = 4.0 ** (2.0 / 3.0)  # a/ac of JKR at zero approach
 class FullerTabor(Theory):
     """Summits of one radius and Gaussian heights with JKR's adhesion at each.
 
-    In units of the pull-off force P_c, extension δ_c and radius a_c of one summit, with Δ_c = δ_c/σ_s and D the
-    separation over σ_s: f(D) = ∫ (P/P_c)((s - D)/Δ_c) φ(s) ds from D - Δ_c on when the surfaces part (summits hold on to
-    -δ_c), from D on when they approach (summits jump in at touch).
+    With the pull-off force P_c and the extension δ_c of one summit, Δ_c = δ_c/σ_s and D the separation over σ_s,
+
+        p = η P_c ∫_(D_0)^∞ f((s - D)/Δ_c) φ(s) ds,
+
+    f = P/P_c of JKR at the approach over δ_c; D_0 = D - Δ_c when the surfaces part (summits hold on to -δ_c), and D when
+    they approach (summits jump in at touch).
 
     Examples
     --------

@@ -58,7 +58,9 @@ class _AdhesiveSphere(Theory):
 
 @dataclass(frozen=True)
 class JKR(_AdhesiveSphere):
-    """Sphere with adhesion inside of the contact alone: P = Ka³/R - sqrt(6πwKa³), δ = a²/R - sqrt(2πwa/E*), K = 4E*/3.
+    """Sphere with adhesion inside of the contact alone.
+
+        P = K a³/R - sqrt(6 π w K a³),  δ = a²/R - sqrt(2 π w a/E*),  K = (4/3) E*.
 
     Loads may be negative down to the pull-off force -1.5πwR; approaches down to -δc (fixed grips).
 
@@ -179,7 +181,10 @@ def contact_ratio(approach: ArrayLike) -> RealArray:
 
 @dataclass(frozen=True)
 class DMT(_AdhesiveSphere):
-    """Sphere with adhesion outside of a Hertz contact: P = Ka³/R - 2πwR, δ = a²/R, K = 4E*/3."""
+    """Sphere with adhesion outside of a Hertz contact.
+
+    P = K a³/R - 2 π w R,  δ = a²/R,  K = (4/3) E*.
+    """
 
     name: ClassVar[str] = "dmt"
     title: ClassVar[str] = "DMT, adhesive sphere"
@@ -296,7 +301,14 @@ def _radius(lam: float, s: RealArray) -> RealArray:
 
 @dataclass(frozen=True)
 class MaugisDugdale(Theory):
-    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts."""
+    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts.
+
+    In Maugis' units of radius, (πwR²/K)^(1/3), load, πwR, and approach, (π²w²R/K²)^(1/3), K = 4E*/3, with m = c/a the outer
+    over the inner radius of the attraction, s = sqrt(m² - 1) and θ = arctan s,
+
+        (λ A²/2) [s + (m² - 2) θ] + (4 λ² A/3) [s θ - m + 1] = 1,  λ = 2 σ_0 (R/(π w K²))^(1/3),
+        P = A³ - λ A² [s + m² θ],  δ = A² - (4/3) λ A s.
+    """
 
     E_star: Modulus
     radius: Radius

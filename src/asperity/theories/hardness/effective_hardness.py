@@ -33,8 +33,8 @@ class HardnessAnswer:
 class EffectiveHardness(Theory):
     """Hardness H_e of a film (1) of thickness h on a substrate (2), indented to the depth h_c.
 
-    Soft film, H1 <= H2: H_e = H2 + (H1 - H2) exp[-(Y1/Y2)/(E1/E2) (h_c/h)²].
-    Hard film, H1 > H2: H_e = H2 + (H1 - H2) exp[-(H1/H2)/((Y1/Y2) (E1/E2)^½) h_c/h].
+        H_e = H_2 + (H_1 - H_2) exp[-((Y_1/Y_2)/(E_1/E_2)) (h_c/h)²]  (H_1 ≤ H_2),
+        H_e = H_2 + (H_1 - H_2) exp[-(H_1/H_2)/((Y_1/Y_2) sqrt(E_1/E_2)) (h_c/h)]  (H_1 > H_2).
 
     Notes
     -----
@@ -177,7 +177,9 @@ BERKOVICH = 24.5
 
 @dataclass(frozen=True)
 class OliverPharr(Theory):
-    """Results from the initial unloading: h_c = h_max - ε W_max/S, H = W_max/A(h_c), E_r = (√π/2) S/√A.
+    """Hardness and modulus from the initial unloading.
+
+        h_c = h_max - ε W_max/S,  H = W_max/A(h_c),  E_r = (sqrt(π)/2) S/sqrt(A).
 
     InputError if a value is not positive, or the indenter would rebound further than it went in.
     """

@@ -97,8 +97,9 @@ class PlasticShares:
 
 @dataclass(frozen=True)
 class PlasticityIndex(Theory):
-    """Plasticity of Greenwood and Williamson's summits: ψ = (E*/H) sqrt(σ_s/R), the index of Chang, Etsion & Bogy, and
-    what flows.
+    """Plasticity of Greenwood and Williamson's summits, the index of Chang, Etsion & Bogy, and what flows.
+
+        ψ = (E*/H) sqrt(σ_s/R),  ψ_c = sqrt(σ_s/ω_c),  ω_c = (π K H/(2 E*))² R,  K = 0.454 + 0.41 ν.
 
     Below ψ = 0.6 contacts are elastic at any realistic load, above 1 plastic at any.
     """
@@ -170,7 +171,10 @@ class PlasticityIndex(Theory):
 
 @dataclass(frozen=True)
 class ProfilePlasticityIndex(Theory):
-    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45."""
+    """Index of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45.
+
+    ψ = (E*/H) (σ/β*).
+    """
 
     E_star: Modulus
     rms_height: Annotated[Length, "standard deviation σ of the heights"]

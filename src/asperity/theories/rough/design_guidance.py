@@ -47,6 +47,8 @@ class LeastAreas:
 class LeastArea(Theory):
     """Surface of the least real area that stays elastic: the area falls with E* sqrt(σ_s/R) until that reaches ψ H.
 
+        A_r/A_a = 3.2 p/(E* sqrt(σ_s/R)),  E* sqrt(σ_s/R) = ψ H.
+
     A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both the real area and
     the real pressure should be low, so the elastic limit is the aim. Friction brings yield to the surface at a lower
     pressure: multiply ``plasticity_index`` by the ratio of the pressures at first yield with and without it. A stiffer

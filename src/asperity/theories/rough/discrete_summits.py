@@ -123,7 +123,10 @@ ROUNDED_ONSET = 0.5  # peak over hardness at p_m = H/3, Bhushan's rounded first 
 
 @dataclass(frozen=True)
 class IdenticalAsperities(Theory):
-    """η equal spheres per area that share the load equally and do not interact: A_r ∝ p^(2/3)."""
+    """η equal spheres per area that share the load equally and do not interact.
+
+    A_r/A_a = π η (3 p R/(4 η E*))^(2/3).
+    """
 
     E_star: Modulus
     density: Annotated[float, Number("1/m^2", above=0.0), "asperities per area η"]

@@ -252,7 +252,10 @@ class _SphereOfHardness(ElasticPlasticSphere):
 
 @dataclass(frozen=True)
 class ChangEtsionBogySphere(_SphereOfHardness):
-    """Sphere that keeps its volume beyond ω_c: A = πRω(2 - 1/x), P = KHA, x = ω/ω_c; Hertz below.
+    """Sphere that keeps its volume beyond first yield at ω_c, K = 0.454 + 0.41ν; Hertz below.
+
+        ω_c = (π K H/(2 E*))² R,  x = ω/ω_c > 1,
+        A = π R ω (2 - 1/x),  P = K H A.
 
     The load jumps by half at ω_c, from the mean pressure (2/3)KH to KH.
     """
@@ -273,7 +276,12 @@ class ChangEtsionBogySphere(_SphereOfHardness):
 
 @dataclass(frozen=True)
 class ChangEtsionBogy(_OfHardness):
-    """Greenwood and Williamson's summits, each with the law of ``ChangEtsionBogySphere``; Gaussian heights."""
+    """Greenwood and Williamson's summits, each with the law of ``ChangEtsionBogySphere``; Gaussian heights.
+
+        A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
+
+    A and P are area and load of one summit pressed by z - h, φ the density of the summit heights.
+    """
 
     name: ClassVar[str] = "chang-etsion-bogy"
     title: ClassVar[str] = "Chang-Etsion-Bogy"
@@ -287,6 +295,10 @@ class ChangEtsionBogy(_OfHardness):
 @dataclass(frozen=True)
 class KogutEtsionSphere(_SphereOfHardness):
     """Sphere with fitted powers of x = ω/ω_c between first yield and x = 110, fully plastic beyond; Hertz below.
+
+        P/P_c = 1.03 x^(1.425),  A/A_c = 0.93 x^(1.136)  (1 < x ≤ 6),
+        P/P_c = 1.40 x^(1.263),  A/A_c = 0.94 x^(1.146)  (6 < x ≤ 110),
+        P/P_c = (3/K) x,  A/A_c = 2 x  (x > 110).
 
     The fits were made at ν = 0.3 and do not join: load and area step by +3 % and -7 % at 1, +1.7 % and +2.9 % at 6, +7.9 %
     and +7.1 % at 110.
@@ -316,7 +328,12 @@ class KogutEtsionSphere(_SphereOfHardness):
 
 @dataclass(frozen=True)
 class KogutEtsion(_OfHardness):
-    """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian heights."""
+    """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian heights.
+
+        A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
+
+    A and P are area and load of one summit pressed by z - h, φ the density of the summit heights.
+    """
 
     name: ClassVar[str] = "kogut-etsion"
     title: ClassVar[str] = "Kogut-Etsion"
@@ -332,7 +349,13 @@ _FITTED_TO = "The law of one sphere was fitted to finite elements up to there."
 
 @dataclass(frozen=True)
 class JacksonGreenSphere(ElasticPlasticSphere):
-    """Sphere, Hertz up to x = ω/ω_c = 1.9, with a hardness H_G that depends on a/R beyond."""
+    """Sphere, Hertz up to x = ω/ω_c = 1.9, with a hardness H_G that depends on a/R beyond.
+
+    ω_c = (π C Y/(2 E*))² R,  C = 1.295 exp(0.736 ν),
+    P/P_c = exp(-x^(5/12)/4) x^(3/2) + (4 H_G/(C Y)) [1 - exp(-x^(5/9)/25)] x,
+    A/A_c = x (x/1.9)^B,  B = 0.14 exp(23 Y/E*),
+    H_G/Y = 2.84 [1 - exp(-0.82 (a/R)^(-0.7))].
+    """
 
     E_star: Modulus
     radius: Radius
@@ -383,7 +406,12 @@ def _mean_slope(theory: JacksonGreen, answer: Prediction) -> RealArray:
 
 @dataclass(frozen=True)
 class JacksonGreen(_OnSummits):
-    """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian heights."""
+    """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian heights.
+
+        A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
+
+    A and P are area and load of one summit pressed by z - h, φ the density of the summit heights.
+    """
 
     E_star: Modulus
     density: SummitDensity

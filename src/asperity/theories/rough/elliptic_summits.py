@@ -83,6 +83,9 @@ class _OfMoments(SeparationTheory):
 class McCool(_OfMoments):
     """Greenwood and Williamson with η, R, σ_s and z̄_s of Nayak's summits and Gaussian heights (McCool 1986).
 
+        η = m_4/(6 π √3 m_2),  R = (3/8) sqrt(π/m_4),
+        σ_s² = (1 - 0.8968/α) m_0,  z̄_s = 4 sqrt(m_0/(π α)),  α = m_0 m_4/m_2².
+
     Every summit has the mean curvature, although the highest are the sharpest: for narrow spectra the area at light load
     is too large (α = 2: by 38 % at a separation of three standard deviations), and it has no linear limit. InputError if
     m0 m4/m2² < 1.5.
@@ -112,15 +115,7 @@ class McCool(_OfMoments):
         return self.equivalent().at_pressure(pressure)
 
 
-# Contacts on all summits of an isotropic Gaussian surface, with the two curvatures of each (Nayak 1971).
-#
-# With α = m0 m4/m2², ρ = sqrt(3/(2α)), D = h/sqrt(m0), the mean curvature t of a summit in sqrt(2 m4/3) and the relative
-# difference r of its curvatures, the summits of Nayak's density carry
-#
-# A_r/A_a = sqrt(α/6) ∫ φ(t)/t G_A(t) H_1(t) dt,
-# p/(E* sqrt(m2)) = (4/9π) (3/2)^(1/4) α^(3/4) ∫ φ(t)/sqrt(t) G_P(t) H_(3/2)(t) dt,
-# n m2/m4 = (1/3π) ∫ φ(t) (t² - 1 + e^(-t²)) H_0(t) dt,
-# G(t) = ∫₀¹ t⁴ (1 - r²) 2r exp(-t² r²) f(r) dr,  H_k(t) = (1 - ρ²)^(k/2) F_k[(D - ρt)/sqrt(1 - ρ²)].
+# Contacts on all summits of an isotropic Gaussian surface, with the two curvatures of each (Nayak 1971); see BushGibsonThomas.
 
 
 _LOWEST, _HIGHEST = -12.0, 35.0  # separations in sqrt(m0) between which pressures are inverted
@@ -231,8 +226,17 @@ ASYMPTOTE = math.sqrt(2.0 * math.pi)
 class BushGibsonThomas(_OnSummits):
     """Elliptical contacts on all summits of an isotropic Gaussian surface.
 
-    The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide spectra (Carbone & Bottiglione
-    2008). InputError if m0 m4/m2² < 1.5.
+    With α = m0 m4/m2², ρ² = 3/(2α), D = h/sqrt(m0), the mean curvature t of a summit in sqrt(2 m4/3) and the relative
+    difference r of its curvatures,
+
+        A_r/A_a = sqrt(α/6) ∫ (φ(t)/t) G_A(t) H_1(t) dt,
+        p = (4/(9 π)) (3/2)^(1/4) α^(3/4) E* sqrt(m_2) ∫ (φ(t)/sqrt(t)) G_P(t) H_(3/2)(t) dt,
+        n = (m_4/(3 π m_2)) ∫ φ(t) (t² - 1 + e^(-t²)) H_0(t) dt,
+        G(t) = 2 ∫_0^1 t⁴ (1 - r²) r exp(-t² r²) f(r) dr,
+        H_k(t) = (1 - ρ²)^(k/2) F_k[(D - ρ t)/sqrt(1 - ρ²)],
+
+    f_A and f_P of Hertz's ellipse. The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide
+    spectra (Carbone & Bottiglione 2008). InputError if m0 m4/m2² < 1.5.
     """
 
     name: ClassVar[str] = "bush-gibson-thomas"
@@ -244,6 +248,10 @@ class BushGibsonThomas(_OnSummits):
 @dataclass(frozen=True)
 class GreenwoodElliptic(_OnSummits):
     """Greenwood's simplified elliptic model: on every summit a circle of the geometric mean curvature sqrt(κ1 κ2).
+
+    The formulas of ``BushGibsonThomas`` with
+
+        f_A(r) = (1 - r²)^(-1/2),  f_P(r) = (1 - r²)^(-1/4).
 
     Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the limit at vanishing load
     is the same. InputError if m0 m4/m2² < 1.5.
@@ -271,7 +279,7 @@ class AnisotropicSummits(SeparationTheory):
     With g = m20/m02, D = h/sqrt(m0), f_A and f_P of the Hertz contact of curvatures in the ratio g, and
     r = (g - 1)/(g + 1),
 
-        A_r/A_a = (1/2) f_A sqrt(1 - r²) Q(D) = sqrt(2π) (f_A/f_P) p/(E* h'_rms),  h'_rms² = m20 + m02,
+        A_r/A_a = (1/2) f_A sqrt(1 - r²) Q(D) = sqrt(2π) (f_A/f_P) p/(E* h'_rms),  (h'_rms)² = m_(20) + m_(02),
 
     Q the bearing area, and n = sqrt(m20 m02)/(2π m0) D φ(D) contacts per area. At constant gradient anisotropy raises
     the area slightly: by 1.3 % at g = 2, 12 % at g = 10.

@@ -131,6 +131,11 @@ class GreenwoodWilliamson(SphericalSummits):
 class KotwalBhushan(SphericalSummits):
     """Greenwood and Williamson's summits with heights of Pearson's system (Kotwal & Bhushan 1996).
 
+    With D, n, A_r and p as in ``GreenwoodWilliamson`` and Pearson's density p(s) of the standardised heights,
+
+        dp/ds = -(s + b) p(s)/(c_0 + c_1 s + c_2 s²),  F_m(D) = ∫_D^∞ (s - D)^m p(s) ds.
+
+    b and c_i follow from skewness and kurtosis.
     Types I and II end: there is no contact above the highest summit. InputError if kurtosis <= 1 + skewness².
 
     Examples
@@ -236,6 +241,11 @@ def _range_of_fits(form: str, share: str) -> Bound:
 @dataclass(frozen=True)
 class FittedGreenwoodWilliamson(Theory):
     """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
+
+    With P_a = p/(η R^(1/2) σ_s^(3/2) E*), the laws of the ``form`` ``"power"`` are
+
+        h = z̄_s + 1.40 σ_s [log_(10)(0.57/P_a)]^(0.65),  n = 1.21 η P_a^(0.88),
+        p_r = 0.42 E* (σ_s/R)^(1/2) P_a^(0.04),  A_r/A_a = 2.40 η R σ_s P_a^(0.96).
 
     Real area and real pressure are fits of their own: their product is the load within a few per cent only.
     """

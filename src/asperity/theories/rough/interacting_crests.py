@@ -285,6 +285,12 @@ class _Touching(Prediction):
 class InteractingCrests(Theory):
     """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on the others.
 
+    With A_1 = π² h/λ², A_2 = -π⁴ h/(3 λ⁴) and r_ij the distance of two crests, every touching crest obeys
+
+        δ_i = 2 A_1 a_i² + (8/3) A_2 a_i⁴ + Σ_j F_j/(π E* r_(ij)),
+        F_i = E* [(8/3) A_1 a_i³ + (64/15) A_2 a_i⁵],
+
+    δ_i the approach of the plane less the depth of the crest below the highest.
     ``interaction``: displacements of point forces between crests (``far field``), or none (``off``). ``method``: Newton steps
     on the touching crests (``complementarity``), or the published form by a library optimiser (``least squares``); both solve
     the same equations. ``shape``: two terms of the ``sine``, for approaches up to about the depth, or a ``paraboloid`` of the

@@ -86,8 +86,12 @@ def _self_affine_range(theory: MajumdarBhushan, roughness: Roughness) -> float |
 class MajumdarBhushan(Theory):
     """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
 
-    A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a). Spots obey Korcak's
-    law, N(A > a) = (a_l/a)^(D/2). Spots smaller than the critical area are plastic and carry the hardness, larger ones
+    A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a); spots obey Korcak's law.
+
+        N(A > a) = (a_l/a)^(D/2),  A_r = D a_l/(2 - D),  a_c = G²/(H/(2 E*))^(2/(D-1)),
+        W = (4 sqrt(π)/3) E* G^(D-1) ∫_(a_c)^(a_l) a^((3-D)/2) n(a) da + H (D/(2 - D)) a_l^(D/2) a_c^(1-D/2).
+
+    n(a) = -dN/da. Spots smaller than the critical area are plastic and carry the hardness, larger ones
     are elastic: the reverse of a single asperity that is pressed harder and harder.
 
     Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by

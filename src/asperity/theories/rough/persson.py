@@ -297,7 +297,12 @@ class Persson(Theory):
     Roughness of ever shorter waves is taken in turn; with each the density P of the pressure spreads as by diffusion,
     ∂P/∂ζ = f(ζ) ∂²P/∂p², and what reaches zero pressure is out of contact (Persson 2001; Persson et al. 2002). With
     the standard deviation s = E* h'_rms/2 of the pressure in full contact the solution is a Gaussian about the mean
-    pressure less its image. Exact at full contact; below it the area is about 30 % too small at 2 % contact and 20 %
+    pressure p̄ less its image,
+
+        P(p) = (1/(s sqrt(2 π))) [exp(-(p - p̄)²/(2 s²)) - exp(-(p + p̄)²/(2 s²))],
+        A/A_a = erf[sqrt(2) p̄/(E* h'_rms)].
+
+    Exact at full contact; below it the area is about 30 % too small at 2 % contact and 20 %
     at 20 %, against elasticity, and the same for every width of the spectrum.
 
     InputError if a parameter is not positive, or the spectrum cannot be used.

@@ -162,8 +162,9 @@ class SampledPeaks(Theory):
     """Peaks of a Gaussian profile sampled at an interval ℓ, from the correlations ρ1 = ρ(ℓ) and ρ2 = ρ(2ℓ).
 
     A peak is a point above both neighbours. Heights are in standard deviations of the profile, curvatures
-    (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s the curvature C is normal with mean 2s(1 - ρ1) and variance
-    2(1 + ρ2 - 2ρ1²), and the slope z1 - z3 independently normal with variance 2(1 - ρ2).
+    C = (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s curvature and slope z1 - z3 are independently normal,
+
+        E(C) = 2 s (1 - ρ_1),  Var(C) = 2 (1 + ρ_2 - 2 ρ_1²),  Var(z_1 - z_3) = 2 (1 - ρ_2) σ².
 
     InputError if no Gaussian profile has these correlations.
     """

@@ -23,7 +23,9 @@ RadiusY: TypeAlias = Annotated[Length, "relative radius of curvature along y"]
 
 @dataclass(frozen=True)
 class HertzPoint(Theory):
-    """Frictionless elastic contact of a sphere of relative radius R: a³ = 3PR/4E*, δ = a²/R, p = p0 sqrt(1 - r²/a²).
+    """Frictionless elastic contact of a sphere of relative radius R.
+
+        a³ = 3 P R/(4 E*),  δ = a²/R,  p = p_0 sqrt(1 - r²/a²),  p_0 = 3 P/(2 π a²).
 
     Examples
     --------
@@ -95,7 +97,9 @@ def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
 
 @dataclass(frozen=True)
 class HertzLine(Theory):
-    """Frictionless elastic contact of a cylinder of relative radius R: a² = 4PR/πE*, p0 = E*a/2R, p = p0 sqrt(1 - x²/a²).
+    """Frictionless elastic contact of a cylinder of relative radius R; P per length.
+
+        a² = 4 P R/(π E*),  p_0 = E* a/(2 R),  p = p_0 sqrt(1 - x²/a²).
 
     The approach of distant points depends on how the bodies are held (it grows with the logarithm of their size), so
     approach and stiffness are NaN.
@@ -159,8 +163,9 @@ def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
 class HertzEllipse(Theory):
     """Frictionless elastic contact of bodies whose gap before loading is x²/2Rx + y²/2Ry.
 
-    p = p0 sqrt(1 - x²/a² - y²/b²) on an ellipse, p0 = 3P/2πab, δ = p0 b K(e)/E*, e² = 1 - b²/a² with a the larger
-    semi-axis, which lies along the axis of the larger radius.
+        p = p_0 sqrt(1 - x²/a² - y²/b²),  p_0 = 3 P/(2 π a b),  δ = p_0 b K(e)/E*,  e² = 1 - b²/a².
+
+    a is the larger semi-axis, which lies along the axis of the larger radius, K the complete elliptic integral.
     """
 
     E_star: Modulus

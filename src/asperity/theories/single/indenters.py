@@ -57,9 +57,11 @@ _EDGE = small_slope(
 
 @dataclass(frozen=True)
 class PowerLawIndenter(Theory):
-    """Profile f = B r^n against an elastic half-space: δ = κ B aⁿ, P = 2n/(n + 1) E* a δ.
+    """Profile f = B r^n against an elastic half-space.
 
-    κ = √π Γ(n/2 + 1)/Γ((n + 1)/2): π/2 for the cone (n = 1, B its slope), 2 for the paraboloid (n = 2, B = 1/2R), and the
+        δ = κ B a^n,  P = (2 n/(n + 1)) E* a δ,  κ = sqrt(π) Γ(n/2 + 1)/Γ((n + 1)/2).
+
+    κ is π/2 for the cone (n = 1, B its slope), 2 for the paraboloid (n = 2, B = 1/2R), and the
     flat punch for n → ∞ at fixed B aⁿ.
     """
 
@@ -124,7 +126,10 @@ class PowerLawIndenter(Theory):
 
 @dataclass(frozen=True)
 class FlatPunch(Theory):
-    """Flat-ended rigid cylinder: P = 2E*aδ, p = P/(2πa² sqrt(1 - r²/a²))."""
+    """Flat-ended rigid cylinder.
+
+    P = 2 E* a δ,  p = P/(2 π a² sqrt(1 - r²/a²)).
+    """
 
     E_star: Modulus
     radius: Annotated[Length, "radius a of the end"]
@@ -170,7 +175,9 @@ class FlatPunch(Theory):
 
 @dataclass(frozen=True)
 class SphericalIndenter(Theory):
-    """Rigid sphere with its exact profile R - sqrt(R² - r²): δ = a artanh(a/R), P = E*[(R² + a²) artanh(a/R) - aR].
+    """Rigid sphere with its exact profile R - sqrt(R² - r²).
+
+        δ = a artanh(a/R),  P = E* [(R² + a²) artanh(a/R) - a R].
 
     The body is still a half-space with small slopes, so this shows what the paraboloid of ``HertzPoint`` leaves out.
     """
@@ -241,7 +248,9 @@ def _integral_artanh_over_x(s: RealArray) -> RealArray:
 
 @dataclass(frozen=True)
 class LinePowerLawIndenter(Theory):
-    """Profile f = B|x|ⁿ in plane strain: P = E* n B c aⁿ per length, c = (√π/2) Γ((n + 1)/2)/Γ(n/2 + 1).
+    """Profile f = B|x|ⁿ in plane strain; P per length.
+
+        P = E* n B c a^n,  c = (sqrt(π)/2) Γ((n + 1)/2)/Γ(n/2 + 1).
 
     The wedge has n = 1 and slope B, the cylinder n = 2 and B = 1/2R. Approach and stiffness depend on how the body is
     held and are NaN.
@@ -298,7 +307,10 @@ class LinePowerLawIndenter(Theory):
 
 @dataclass(frozen=True)
 class LineFlatPunch(Theory):
-    """Flat rigid punch of the half-width a in plane strain: p = P/(π sqrt(a² - x²)), P per length."""
+    """Flat rigid punch of the half-width a in plane strain; P per length.
+
+    p = P/(π sqrt(a² - x²)).
+    """
 
     E_star: Modulus
     half_width: Annotated[Length, "half the width of the punch a"]
@@ -332,7 +344,9 @@ class LineFlatPunch(Theory):
 
 @dataclass(frozen=True)
 class Cone(Theory):
-    """Cone against an elastic half-space: a = 2δ/(π slope), P = (2/π) E* δ²/slope.
+    """Cone against an elastic half-space, its flanks at the slope m to the surface.
+
+        a = 2 δ/(π m),  P = (2/π) E* δ²/m.
 
     Examples
     --------
@@ -361,7 +375,10 @@ class Cone(Theory):
 
 @dataclass(frozen=True)
 class Wedge(Theory):
-    """Wedge against an elastic half-space in plane strain."""
+    """Wedge against an elastic half-space in plane strain, its flanks at the slope m to the surface; P per length.
+
+    P = E* m a.
+    """
 
     E_star: Modulus
     slope: Slope

@@ -63,7 +63,10 @@ class SlipAnswer:
 
 @dataclass(frozen=True)
 class MindlinPoint(Theory):
-    """Sphere pressed by P, then pulled by Q: c = a (1 - Q/μP)^(1/3), δx = μ (E*/G*)(a² - c²)/R, dQ/dδx = 2G*c."""
+    """Sphere pressed by P, then pulled by Q; it sticks within the radius c.
+
+    c = a (1 - Q/(μ P))^(1/3),  δ_x = μ (E*/G*) (a² - c²)/R,  dQ/dδ_x = 2 G* c.
+    """
 
     E_star: Modulus
     radius: Radius
@@ -103,7 +106,10 @@ class MindlinPoint(Theory):
 
 @dataclass(frozen=True)
 class MindlinLine(Theory):
-    """Cylinder in plane strain pressed by P, then pulled by Q (both per length): c = a sqrt(1 - Q/μP)."""
+    """Cylinder in plane strain pressed by P, then pulled by Q (both per length); it sticks within |x| < c.
+
+    c = a sqrt(1 - Q/(μ P)).
+    """
 
     E_star: Modulus
     radius: Radius

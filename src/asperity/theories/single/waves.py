@@ -37,7 +37,10 @@ Wavelength: TypeAlias = Annotated[Length, "wavelength λ"]
 
 @dataclass(frozen=True)
 class Westergaard(Theory):
-    """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* = πE*Δ/λ just closes it everywhere.
+    """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* just closes it everywhere.
+
+        p* = π E* Δ/λ,  A/A_a = (2/π) arcsin sqrt(p̄/p*),  max p = 2 sqrt(p̄ p*),
+        δ = Δ (p̄/p*) [1 - ln(p̄/p*)].
 
     Examples
     --------
@@ -126,7 +129,11 @@ LOW_LOAD, HIGH_LOAD = 0.02, 0.95
 
 @dataclass(frozen=True)
 class CrossedWaves(Theory):
-    """Gap Δ(2 - cos 2πx/λ - cos 2πy/λ) before loading; p* = 2πE*Δ/λ closes it everywhere.
+    """Gap Δ(2 - cos 2πx/λ - cos 2πy/λ) before loading; p* closes it everywhere.
+
+        p* = 2 π E* Δ/λ,
+        A/A_a ≈ π (3 p̄/(8 π p*))^(2/3)  (p̄ ≤ 0.02 p*),
+        A/A_a ≈ 1 - (3/(2 π)) (1 - p̄/p*)  (p̄ ≥ 0.95 p*).
 
     The product form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface turned by 45°, Δ = Δ'/2, λ = λ'/√2.
     """
@@ -217,7 +224,10 @@ _NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
 class SinusoidalAsperity(Theory):
     """Cap that drops as (h/2)(1 - cos 2πr/λ) from its top, with radius of curvature λ²/2π²h.
 
-    δ = (π²ha/2λ) H0(2πa/λ) with Struve's function, P = (2πE*ha²/λ) ∫ sin²t sin((2πa/λ) sin t) dt over 0 < t < π/2.
+        δ = (π² h a/(2 λ)) H_0(2 π a/λ),
+        P = (2 π E* h a²/λ) ∫_0^(π/2) (sin t)² sin((2 π a/λ) sin t) dt.
+
+    H_0 is Struve's function.
     """
 
     E_star: Modulus

@@ -41,8 +41,11 @@ class SummitsAt:
 class NayakSummits(Theory):
     """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2, m4.
 
-    With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the joint
-    density p(ξ, t) = 2√3 (t² - 1 + e^(-t²)) φ₂(ξ, t; ρ), t > 0, ρ = sqrt(3/(2α)), α = m0 m4/m2².
+    With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the density η
+    and the joint distribution of height and curvature
+
+        η = m_4/(6 π √3 m_2),  α = m_0 m_4/m_2²,
+        p(ξ, t) = 2 √3 (t² - 1 + e^(-t²)) φ_2(ξ, t; ρ),  t > 0,  ρ = sqrt(3/(2 α)).
 
     InputError if a moment is not positive or α < 1.5, which no isotropic surface has.
     """

@@ -328,7 +328,13 @@ SOME_SHEAR = 1.0
 
 @dataclass(frozen=True)
 class HertzStress(Theory):
-    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1)."""
+    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1).
+
+    On the axis, without friction,
+
+        σ_z = -p_0/(1 + z²/a²),
+        σ_r = -p_0 {(1 + ν) [1 - (z/a) arctan(a/z)] - 1/(2 (1 + z²/a²))}.
+    """
 
     E_star: Modulus
     radius: Radius
@@ -352,6 +358,10 @@ class HertzStress(Theory):
 @dataclass(frozen=True)
 class HertzLineStress(Theory):
     """Stresses below a cylinder in plane strain that is pressed and slides (McEwen 1949; Johnson 1985, secs. 4.2c, 7.1).
+
+    On the axis, without friction,
+
+        σ_z = -p_0 a/sqrt(a² + z²),  σ_x = -(p_0/a) [(a² + 2 z²)/sqrt(a² + z²) - 2 z].
 
     Parameters as for ``HertzStress``.
     """
@@ -378,7 +388,12 @@ class HertzLineStress(Theory):
 
 @dataclass(frozen=True)
 class HertzEllipseStress(Theory):
-    """Stresses below an elliptical contact (Johnson 1985, sec. 3.5)."""
+    """Stresses below an elliptical contact (Johnson 1985, sec. 3.5).
+
+    On the axis,
+
+        σ_z = -p_0 a b/sqrt((a² + z²) (b² + z²)).
+    """
 
     E_star: Modulus
     radius_x: RadiusX

@@ -188,7 +188,11 @@ PLANE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X,)),)
 
 @dataclass(frozen=True)
 class Boussinesq(Theory):
-    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2)."""
+    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2).
+
+    σ_z = -3 P z³/(2 π ρ⁵),  τ_(xz) = -3 P x z²/(2 π ρ⁵),
+    u_z = (P/(4 π G)) [z²/ρ³ + 2 (1 - ν)/ρ],  ρ² = x² + y² + z².
+    """
 
     load: Annotated[float, Number("force"), Help("force", of="bodies")]
     shear: ShearModulus
@@ -206,7 +210,11 @@ class Boussinesq(Theory):
 
 @dataclass(frozen=True)
 class Cerruti(Theory):
-    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6)."""
+    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6).
+
+    σ_z = -3 Q x z²/(2 π ρ⁵),  τ_(xz) = -3 Q x² z/(2 π ρ⁵),
+    u_z = (Q/(4 π G)) [x z/ρ³ + (1 - 2 ν) x/(ρ (ρ + z))],  ρ² = x² + y² + z².
+    """
 
     tangential: Annotated[float, Number("force"), Help("force", of="bodies")]
     shear: ShearModulus
@@ -225,6 +233,10 @@ class Cerruti(Theory):
 @dataclass(frozen=True)
 class Flamant(Theory):
     """Forces on the line x = 0 of the surface in plane strain (Flamant 1892; Johnson 1985, secs. 2.2, 2.3).
+
+    With the forces P along z and Q along x per length, and r² = x² + z²,
+
+        σ_x = x² s,  σ_z = z² s,  τ_(xz) = x z s,  s = -2 (P z + Q x)/(π r⁴).
 
     Displacements are those up to a constant, see ``flamant_normal``.
     """
@@ -247,7 +259,14 @@ class Flamant(Theory):
 
 @dataclass(frozen=True)
 class Strip(Theory):
-    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5)."""
+    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5).
+
+    With θ_1 and θ_2 = arctan((x ± b)/z) and r_1, r_2 the distances from the ends -b and b, under the pressure p and the shear
+    traction q,
+
+        σ_z = -(p/(2 π)) [2 (θ_1 - θ_2) + sin 2θ_1 - sin 2θ_2] + (q/π) (z²/r_1² - z²/r_2²),
+        σ_x = -(p/(2 π)) [2 (θ_1 - θ_2) - sin 2θ_1 + sin 2θ_2] - (q/π) [2 ln(r_1/r_2) + z²/r_1² - z²/r_2²].
+    """
 
     half_width: Annotated[Length, Help("half the width of the strip b", of="bodies")]
     pressure: Annotated[float, Number("pressure"), Help("pressure", of="bodies")]

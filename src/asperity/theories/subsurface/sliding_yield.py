@@ -97,7 +97,10 @@ PoissonsRatio: TypeAlias = Annotated[PoissonOfSolid, Help("Poisson's ratio of th
 
 @dataclass(frozen=True)
 class SphereYield(Theory):
-    """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion."""
+    """First yield of a point contact of revolution, pressed and sliding, by von Mises' criterion.
+
+    max sqrt(J_2(p_0, μ)) = k = Y/sqrt(3).
+    """
 
     nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "first-yield"
@@ -112,7 +115,10 @@ class SphereYield(Theory):
 
 @dataclass(frozen=True)
 class CylinderYield(Theory):
-    """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``."""
+    """First yield of a line contact in plane strain, pressed and sliding; see ``SphereYield``.
+
+    max sqrt(J_2(p_0, μ)) = k = Y/sqrt(3).
+    """
 
     nu: PoissonsRatio = 0.3
     name: ClassVar[str] = "first-yield-line"

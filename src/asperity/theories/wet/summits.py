@@ -269,6 +269,10 @@ WET = (
 class WetSummits(Theory):
     """Summits in a film of liquid, each pulled by the force of a sphere that touches it, against a smooth plane.
 
+    With the load of the summits in ``GreenwoodWilliamson`` at the separation d, the film thickness h and F_0 of the heights,
+
+        p_m = 2 π R γ (1 + cos θ) η F_0((d - h - z̄_s)/σ_s),  p + p_m = p_(solid)(d).
+
     ``theory`` is the :class:`~asperity.theories.statistical_meniscus.StatisticalMeniscus` of these numbers.
     """
 
@@ -347,6 +351,11 @@ class GrownMenisci:
 class GrowingMenisci(Theory):
     """Wet summits whose menisci grow with time; Gaussian heights.
 
+    With the disjoining pressure Π = A_H/(6πh³) of the film, y = s/s_eq and τ = t/t_0 the height s of a meniscus obeys
+
+        dy/dτ = (1 - y)/y²,  s_(eq) = γ (1 + cos θ)/Π,  t_0 = 3 μ R ln(r_o/r_i) s_(eq)²/(h³ Π),
+
+    and a summit at the distance g from the plane, within the film, is pulled by 1 - g/s of the force of one that touches.
     ``theory`` is the :class:`~asperity.theories.kinetic_meniscus.KineticMeniscus` of these numbers.
     """
 

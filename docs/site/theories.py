@@ -1,8 +1,10 @@
-"""Makes the page of all theories from the catalogue and its declarations: ``make reference`` writes it anew."""
+"""The page of all theories, from what they declare: text and formulas of their docstrings, inputs, limits, sources."""
 
 from __future__ import annotations
 
-from pathlib import Path
+import re
+
+from formulas import paragraphs, tex
 
 from asperity.core.citations import reference
 from asperity.core.parameters import Parameter, parameters
@@ -11,11 +13,9 @@ from asperity.theories.ask import ways_of
 from asperity.theories.catalogue import FAMILIES
 from asperity.theories.protocol import Described
 
-PAGE = Path(__file__).with_name("theories.md")
-
 HEAD = """# All theories
 
-What `asperity theory --list` names, made from the catalogue by `make reference`. How to use them:
+What `asperity theory --list` names, made from the declarations of the theories. How to use them:
 [theories of contact](../how-to/theories.md); which must agree with which: [agreement](agreement.md). A star marks what
 `--surface FILE` and `from_roughness` or `of_roughness` measure.
 """
@@ -28,18 +28,22 @@ def page() -> str:
         parts.append(f"## {family}\n")
         parts += [section(kind) for kind in kinds]
     listed = [kind for kinds in FAMILIES.values() for kind in kinds]
-    sources = sorted({key for kind in listed for key in (*kind.citation_keys, *(bound.citation for bound in kind.limits))})
-    parts.append("## Sources\n\n" + "\n".join(f"- [{key}] {reference(key)}" for key in sources) + "\n")
+    sources = sorted(
+        {key for kind in listed for key in (*kind.citation_keys, *(bound.citation for bound in kind.limits))}
+    )
+    parts.append(
+        "## Sources\n\n" + "\n".join(f"- ({key.lower()})=\\[{key}\\] {reference(key)}" for key in sources) + "\n"
+    )
     return "\n".join(parts)
 
 
 def section(kind: type[Described]) -> str:
-    """What the page says of one theory."""
+    """What the page holds on one theory."""
     measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
-    lines = [f"### {kind.title}", "", f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.", ""]
+    lines = [f"### {kind.title}", "", f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.", "", *description(kind)]
     lines += ["| input | unit | meaning | range | default |", "|---|---|---|---|---|"]
     lines += [
-        f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {item.help} | {bounds(item)} | {default(item)} |"
+        f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {escaped(item.help)} | {bounds(item)} | {default(item)} |"
         for item in parameters(kind)
     ]
     lines.append("")
@@ -54,9 +58,35 @@ def section(kind: type[Described]) -> str:
         )
         lines += [f"From the inputs alone: {numbers}.", ""]
     if kind.limits:
-        lines += ["Holds for:", "", *(f"- {bound.rule}. {bound.message} [{bound.citation}]" for bound in kind.limits), ""]
-    lines.append(" ".join(f"[{key}]" for key in kind.citation_keys))
+        lines += [
+            "Holds for:",
+            "",
+            *(f"- {escaped(bound.rule)}. {escaped(bound.message)} [{bound.citation}]" for bound in kind.limits),
+            "",
+        ]
+    lines.append("Sources: " + " ".join(f"[{key}]" for key in kind.citation_keys))
     return "\n".join(lines) + "\n"
+
+
+def description(kind: type[Described]) -> list[str]:
+    """The docstring of a theory up to its first section, with its formulas numbered."""
+    made = []
+    for paragraph, lines in paragraphs(kind.__doc__ or ""):
+        if paragraph == "formula":
+            for line in lines:
+                made += ["$$", tex(line.strip().rstrip(".,")), "$$", ""]
+        else:
+            made += [escaped(" ".join(line.strip() for line in lines)), ""]
+    return made
+
+
+def escaped(text: str) -> str:
+    """Plain text of a docstring in Markdown: signs that Markdown would read as its own are escaped, code stays code."""
+    roles = re.sub(r":\w+:`~?([^`]*)`", r"``\1``", text)
+    parts = re.split(r"(``[^`]*``)", roles)
+    return "".join(
+        f"`{part[2:-2]}`" if part.startswith("``") else re.sub(r"([*_\[\]<|$\\])", r"\\\1", part) for part in parts
+    )
 
 
 def bounds(item: Parameter) -> str:
@@ -73,7 +103,3 @@ def default(item: Parameter) -> str:
     if words:
         return f"{words[0]}; or {', '.join(word for word in item.words if word != words[0])}"
     return "none" if item.default is None or item.default == () else f"{item.default:g}"
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,130 @@
+"""What the site is made of is sound: links resolve, contents reach every page, and what is declared is on a page."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+from fnmatch import fnmatch
+from pathlib import PurePosixPath
+
+import assemble
+import commands
+import formulas
+import pytest
+
+import asperity
+from asperity.core.citations import reference
+from asperity.run.document import json_schema
+from asperity.theories.catalogue import FAMILIES
+
+THEORIES = [kind for kinds in FAMILIES.values() for kind in kinds]
+
+
+@pytest.fixture(scope="module")
+def pages() -> dict[str, str]:
+    """Every page of the site; a link that leads nowhere in the repository is an error already here."""
+    found = assemble.pages()
+    if assemble.examples():
+        found["gallery/index.md"] = assemble.examples()["GALLERY_HEADER.rst"]  # the gallery makes its own page
+    return found
+
+
+def entries(page: str, text: str) -> list[str]:
+    """Pages, or patterns of them, in the tables of contents of a page; without ending."""
+    folder = PurePosixPath(page).parent
+    lines = [
+        line.strip()
+        for block in re.findall(r"```\{toctree\}\n(.*?)```", text, re.DOTALL)
+        for line in block.splitlines()
+    ]
+    return [os.path.normpath(folder / line) for line in lines if line and not line.startswith(":")]
+
+
+def meant(entry: str, names: set[str]) -> set[str]:
+    """Pages that an entry stands for; an asterisk means those in one folder."""
+    return {name for name in names if fnmatch(name, entry) and name.count("/") == entry.count("/")}
+
+
+def test_contents_reach_every_page_and_name_no_other(pages):
+    names = {page.removesuffix(".md") for page in pages}
+    listed = {page.removesuffix(".md"): entries(page, text) for page, text in pages.items()}
+    assert [f"{page}: {entry}" for page in listed for entry in listed[page] if not meant(entry, names)] == []
+    reached: set[str] = set()
+    front = {"index"}
+    while front:
+        reached |= front
+        front = {name for page in front for entry in listed[page] for name in meant(entry, names)} - reached
+    assert sorted(names - reached) == []
+
+
+def test_links_between_pages_resolve(pages):
+    lost = []
+    for page, text in pages.items():
+        prose = re.sub(r"^[ ]*```.*?^[ ]*```", "", text, flags=re.DOTALL | re.MULTILINE)
+        anchors = set(re.findall(r"^\(([\w-]+)\)=", prose, re.MULTILINE))
+        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", prose)):
+            path, _, anchor = target.partition("#")
+            if re.match(r"\w+:", target):
+                continue
+            aim = os.path.normpath(PurePosixPath(page).parent / path) if path else page
+            picture = (assemble.ROOT / "docs" / aim).exists() and not aim.endswith(".md")
+            if not (aim in pages or picture) or (not path and anchor not in anchors):
+                lost.append(f"{page}: {target}")
+    assert lost == []
+
+
+def test_every_theory_has_formulas_limits_and_sources_on_its_page(pages):
+    text = pages["reference/theories.md"]
+    for kind in THEORIES:
+        section = text.split(f"### {kind.title}\n")[1].split("\n### ")[0].split("\n## ")[0]
+        assert f"`{kind.name}`" in section
+        made = formulas.formulas(kind.__doc__)
+        assert made, f"the docstring of {kind.__name__} needs its formulas on lines of their own"
+        for formula in made:
+            assert f"$$\n{formula}\n$$" in section
+            assert formula.count("{") == formula.count("}")
+        for bound in kind.limits:
+            assert f"[{bound.citation}]" in section
+        for key in kind.citation_keys:
+            assert f"[{key}]" in section
+            assert reference(key) in text
+
+
+@pytest.mark.parametrize(
+    ("plain", "made"),
+    [
+        ("a³ = 3 P R/(4 E*)", r"a^{3} = 3 P R/(4 E^{*})"),
+        ("p = (4/3) η E* R^(1/2),  n = σ_s", r"p = \tfrac{4}{3} \eta  E^{*} R^{1/2}, \quad n = \sigma _s"),
+        ("A = erf[sqrt(2) p̄/h'_rms]", r"A = \operatorname{erf}[\sqrt{2} \bar{p}/h'_{\mathrm{rms}}]"),
+        ("F = ∫_(D_0)^∞ f(s) ds", r"F = \int _{D_0}^\infty  f(s) \,ds"),
+    ],
+)
+def test_formulas_of_docstrings_become_tex(plain, made):
+    assert formulas.tex(plain) == made
+    assert formulas.is_formula(f"    {plain}.")
+
+
+@pytest.mark.parametrize(
+    "line", ["    >>> x = 3", "where a = 3 holds", "    load = body.load(3)", "* n = 3 points", "A_r/A_a is the area"]
+)
+def test_other_lines_are_no_formulas(line):
+    assert not formulas.is_formula(line)
+
+
+def test_every_public_name_stands_on_one_page(pages):
+    shown = re.findall(
+        r"^\.\. auto(?:class|function|exception):: asperity\.(\w+)$", "\n".join(pages.values()), re.MULTILINE
+    )
+    wanted = [n for n in asperity.__all__ if not n.startswith("_") and not inspect.ismodule(getattr(asperity, n))]
+    assert sorted(shown) == sorted(wanted)
+
+
+def test_every_command_and_every_key_of_the_document_is_listed(pages):
+    text = pages["reference/commands.md"]
+    assert {"contact", "theory", "run", "info"} <= set(commands.names())
+    assert re.findall(r"^## asperity (\S+)$", text, re.MULTILINE) == commands.names()
+    schema = json_schema()
+    rows = set(re.findall(r"^\| `(\w+)` \|", pages["reference/document.md"], re.MULTILINE))
+    keys = {key for table in (schema, *schema["$defs"].values()) for key in table.get("properties", {})}
+    assert keys <= rows
