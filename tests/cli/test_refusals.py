@@ -81,9 +81,9 @@ def test_result_that_is_a_folder(run: Runner, tmp_path: Path) -> None:
 def test_messages_name_what_to_do(run: Runner, matrix: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A surface is no result; memory is compared before it is taken; long numbers have prefixes."""
     assert "asperity info" in refused(run, "plot", matrix)
-    monkeypatch.setattr("asperity.surfaces.prepare.extent.free_memory", lambda: 2.0**30)
+    monkeypatch.setattr("asperity.core.status.free_memory", lambda: 2.0**30)
     text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--resample", "100000")
-    assert "100000 x 100000 points need 223.5 GiB and 1.0 GiB are free" in text
+    assert "1e+10 need about 931 GiB where 1 GiB are free" in text
     text = refused(run, "contact", matrix, *SCALE, *BODY, "--pressure", "15GPa", "--hardness", "body")
     assert "mean hardness 5 GPa (force: hardness times nominal area), but is 15 GPa" in text
 

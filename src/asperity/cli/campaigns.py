@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import MappingProxyType
@@ -31,7 +32,7 @@ from ..studies.campaign import Campaign, CampaignState, open_study, prepare_stud
 from ..studies.places import problem_table
 from ..studies.run import Watch
 from .main import INTERRUPTED, NOT_CONVERGED, OK
-from .show import console, error_console, print_files, say, short_names, table, watching
+from .show import confirmed, console, error_console, print_files, say, short_names, table, watching
 
 Folder = Annotated[
     Path, typer.Argument(help="Folder of the results, or the study document they lie beside.", metavar="FOLDER")
@@ -51,6 +52,7 @@ def run(
         typer.Option("--dask", help='Scheduler of a Dask cluster instead, "tcp://host:8786".', metavar="ADDRESS"),
     ] = None,
     retry: Annotated[bool, typer.Option("--retry", help="Try again what has failed.")] = False,
+    yes: Annotated[bool, typer.Option("--yes", help="Do not ask before work of hours.")] = False,
 ) -> None:
     """Run or resume a campaign over many contacts: only missing cases are computed.
 
@@ -60,7 +62,7 @@ def run(
     130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
 
-    campaign = prepare_study(study, out)
+    campaign = prepare_study(study, out, confirm=partial(confirmed, yes=yes))
     monte_carlo = campaign.study.document.monte_carlo
     most = "at most " if monte_carlo is not None and monte_carlo.stop is not None else ""
     say(f"{campaign.title}: {most}{campaign.plan.n_cases} cases, results in {campaign.folder}")
@@ -79,7 +81,7 @@ def _run(campaign: Campaign, again: str, **options: Any) -> None:
     say(f"computed {done.done} cases, {done.failed} of them failed; {done.found} were there already")
 
 
-def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | None) -> int:
+def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | None, *, yes: bool) -> int:
     """Solve ``document`` for each of the ``files`` as a study in the folder ``out``, or one of no duration; the exit code."""
     with TemporaryDirectory() if out is None else nullcontext(out) as name:
         place = Path(name)
@@ -92,7 +94,7 @@ def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | No
             "quantities": [*DEFAULT_QUANTITIES, *parts],
             "axes": [{"path": "surface.path", "name": "file", "values": paths}],
         }
-        campaign = prepare_study(study, place, start=place)
+        campaign = prepare_study(study, place, start=place, confirm=partial(confirmed, yes=yes))
         _run(campaign, "the same command")
         found = case_table(campaign, campaign.dataset())
         rows = [(name, *row[1:]) for name, row in zip(short_names(files), found.cells, strict=False)]

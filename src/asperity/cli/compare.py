@@ -24,17 +24,17 @@ from ..report.comparison import (
     slope_table,
     write_comparison_report,
 )
-from ..run.build import Case, build
+from ..run.build import Case, build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, relocated, save_document
 from ..studies.compare import LOADS, MOST_CONTACTS
 from ..studies.compare import compare as compare_theories
 from ..studies.comparison import Comparison
 from ..studies.comparison_files import export_comparison_csv, save_comparison
-from .contact import Force, asked_table, output_folder
+from .contact import Force, Yes, asked_table, output_folder
 from .declared import Given, Option, offers, sorted_out
 from .main import NOT_CONVERGED, OK
 from .options import BASIC, OUTPUT, body_options, preparation_options, reading_options, solver_options
-from .show import console, print_advice, print_files, say, stage, table
+from .show import confirmed, console, print_advice, print_files, say, stage, table
 from .theory import option_of, read_range
 
 NAMES_IN_FOLDER = ("report.html", "comparison.nc", "comparison.csv", "plots", "problem.toml")
@@ -93,6 +93,7 @@ def compare(
         ),
     ] = None,
     force: Force = False,
+    yes: Yes = False,
 ) -> None:
     """Compare every theory of rough contact with the numerical solution, on one surface.
 
@@ -104,6 +105,7 @@ def compare(
     placed = Given({**given.values, ("control", "mean_pressure"): _PLACEHOLDER}, given.options)
     made, names, base = asked_table(file, from_, placed)
     document = checked(made, str(from_ or COMMAND_LINE), names)
+    confirmed(large_grid(stated_points(document.surface)), yes=yes)
     case = build(document, base)
     with output_folder(out, force=force) as folder:
         comparison = _compared(case, given, numerical=not no_numerical)

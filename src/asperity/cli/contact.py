@@ -19,7 +19,7 @@ from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
 from ..report import write_report
-from ..run.build import build
+from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, dumps, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
 from ..run.stored import save_outcome
@@ -27,7 +27,7 @@ from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid, own_option
-from .show import print_files, print_problem, print_result, say, stage
+from .show import confirmed, print_files, print_problem, print_result, say, stage
 
 NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 """What a run leaves in its folder."""
@@ -45,6 +45,9 @@ Out = Annotated[
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.", rich_help_panel=OUTPUT)]
+Yes = Annotated[
+    bool, typer.Option("--yes", help="Do not ask before work that takes much memory or time.", rich_help_panel=OUTPUT)
+]
 Document = Annotated[
     Path | None,
     typer.Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
@@ -103,6 +106,7 @@ def contact(
     from_: Document = None,
     out: Out = None,
     force: Force = False,
+    yes: Yes = False,
     with_: Annotated[
         list[str] | None,
         typer.Option(
@@ -136,7 +140,8 @@ def contact(
             raise InputError(
                 f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out with many files: --out DIR holds the table of all."
             )
-        raise typer.Exit(solve_files(document, file, out))
+        raise typer.Exit(solve_files(document, file, out, yes=yes))
+    confirmed(large_grid(stated_points(document.surface)), yes=yes)
     raise typer.Exit(_perform(document, base, out, files, force=force))
 
 

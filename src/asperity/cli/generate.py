@@ -19,7 +19,7 @@ from ..io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLE
 from ..io.surface_files import require_ending, save_endless, save_gaussian, save_surface
 from ..io.words import surface_text
 from ..plots.contact import save_surface_plot
-from ..run.build import build_generated, build_part, table_grid
+from ..run.build import build_generated, build_part, large_grid, stated_points, table_grid
 from ..surfaces.characterise.heights import height_parameters
 from ..surfaces.characterise.slopes import rms_slope
 from ..surfaces.generate import endless
@@ -28,7 +28,7 @@ from ..surfaces.generate.non_gaussian import Marginal
 from ..surfaces.surface import Surface
 from .declared import Given, Listing, Option, built, options_of
 from .options import steps
-from .show import console, interruptible, print_files, say, shown, stage, table
+from .show import confirmed, console, interruptible, print_files, say, shown, stage, table
 
 STREAMED = ("digital_filter", "rough")
 """Kinds that can be written piece by piece."""
@@ -72,8 +72,9 @@ def _command(kind: str) -> Any:
         ],
         plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
         force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+        yes: Annotated[bool, typer.Option("--yes", help="Do not ask before work that takes much memory.")] = False,
     ) -> None:
-        _run(kind, given, (out, plot, force))
+        _run(kind, given, (out, plot, force), yes=yes)
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
     return built(run, kind, options(kind))
@@ -114,8 +115,7 @@ def _part_options(item: Parameter, tables: Any) -> list[Option]:
     return list(found.values())
 
 
-def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None:
-
+def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool], *, yes: bool) -> None:
     out, plot, force = files
     if plot is not None and plot.suffix.lower() != ".png":
         raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
@@ -132,6 +132,7 @@ def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool]) -> None
         _stream(table, out, memory, force)
         written = [out]
     else:
+        confirmed(large_grid(stated_points(table)), yes=yes)
         surface = _generated(table)
         save_surface(surface, out, overwrite=force)
         if plot is not None:

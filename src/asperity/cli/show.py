@@ -13,6 +13,7 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import typer
 from rich import box
 from rich.console import Console
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
@@ -20,6 +21,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
+from ..core.errors import InputError
 from ..core.status import NoProgress, Progress, compiling
 from ..core.text import printable
 from ..core.units import prefixed, show
@@ -175,6 +177,21 @@ def print_files(paths: Iterable[Path]) -> None:
     """Print where things were written."""
     for path in paths:
         say(f"wrote {path}")
+
+
+def confirmed(large: str, *, yes: bool) -> None:
+    """Ask on a terminal whether to go on with what is ``large``; nothing is asked if it is empty or ``yes`` was given.
+
+    Raises
+    ------
+    InputError
+        If nobody can be asked.
+    """
+    if not large or yes:
+        return
+    if sys.stdin is None or not sys.stdin.isatty() or not watching():
+        raise InputError(f"{large} Confirm it with --yes.")
+    typer.confirm(f"{large} Go on?", abort=True, err=True)
 
 
 def watching() -> bool:

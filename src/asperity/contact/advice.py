@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..core.status import Advice, free_memory
+from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
@@ -188,14 +188,9 @@ def _softest_contact_modulus(problem: ContactProblem) -> float:
 def _memory(problem: ContactProblem) -> Iterator[Advice]:
     padding = 1 if all(problem.boundary.wraps) else 4
     needed = 8.0 * FIELDS_OF_A_SOLVE * padding * problem.grid.n_points
-    available = free_memory()
-    if needed > available:
-        yield Advice(
-            "warning",
-            "memory",
-            f"The solve needs about {needed / 2**30:.1f} GiB of memory and {available / 2**30:.1f} GiB are free. "
-            "Crop the surface or resample it to fewer points.",
-        )
+    if needed > free_memory():
+        text = f"The solve needs about {room_text(needed)}. Crop the surface or resample it to fewer points."
+        yield Advice("warning", "memory", text)
 
 
 def doubts(*results: ContactResult) -> tuple[Advice, ...]:

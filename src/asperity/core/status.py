@@ -11,6 +11,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Literal, Protocol
 
+from .errors import InputError
+
 
 class Outcome(StrEnum):
     """End of an iterative computation."""
@@ -81,6 +83,42 @@ def free_memory() -> float:
         names = getattr(os, "sysconf_names", {})
         known = "SC_AVPHYS_PAGES" in names and "SC_PAGE_SIZE" in names
         return float(os.sysconf("SC_AVPHYS_PAGES")) * float(os.sysconf("SC_PAGE_SIZE")) if known else math.inf
+
+
+def require_memory(needed: float, what: str, count: str, remedy: str, kind: type[InputError] = InputError) -> None:
+    """Refuse what takes more than the free memory, before anything is allocated.
+
+    Parameters
+    ----------
+    needed
+        Memory in bytes.
+    what, count
+        What needs it, and how much of it there is.
+    remedy
+        What to do instead, the end of a sentence.
+    kind
+        Error to raise.
+
+    Raises
+    ------
+    InputError
+        Of the ``kind``, with both sizes.
+    """
+    if needed > free_memory():
+        raise kind(f"{what} must fit into the memory, but {count} need about {room_text(needed)}; {remedy}.")
+
+
+def room_text(needed: float, free: float | None = None) -> str:
+    """Bytes ``needed`` beside those that are ``free``, by default in the memory, in words."""
+    return f"{needed / 2**30:.3g} GiB where {(free_memory() if free is None else free) / 2**30:.3g} GiB are free"
+
+
+def is_large(needed: float, free: float | None = None) -> bool:
+    """Whether the bytes ``needed`` are more than half of those that are ``free``, by default in the memory.
+
+    Work that takes as much is confirmed; the other half is for whatever else runs.
+    """
+    return needed > 0.5 * (free_memory() if free is None else free)
 
 
 def compiling() -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import FileFormatError, OutputError
 from ..core.quantity import Labelled, Quantity
-from ..core.status import free_memory
+from ..core.status import require_memory
 from ..core.text import require_file
 from .atomic import atomic_file
 
@@ -122,7 +122,10 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
     try:
         require_sound_heaps(path)
         with h5py.File(path, "r") as content:
-            _require_own(content, set(), [free_memory()])
+            size = _size_of_own(content, set())
+            require_memory(
+                size, "result file", f"{size:.3g} bytes of {path}", "use a machine with more memory", FileFormatError
+            )
             with h5netcdf.File(content, "r", decode_vlen_strings=True) as file:
                 tree = _read(file, without)
     except (MemoryError, FileFormatError):
@@ -165,10 +168,8 @@ def require_sound_heaps(path: str | Path) -> None:
             start = content.find(b"GCOL\x01\0\0\0", start + 8)
 
 
-def _require_own(group: Any, seen: set[Any], room: list[float]) -> None:
-    """Refuse links out of the file, data kept in other files, groups within themselves, and more data than there is memory.
-
-    ``room`` is what is left of the memory in bytes.
+def _size_of_own(group: Any, seen: set[Any]) -> float:
+    """Bytes of the data of a group; links out of the file, data kept in other files and groups within themselves are refused.
 
     Raises
     ------
@@ -177,6 +178,7 @@ def _require_own(group: Any, seen: set[Any], room: list[float]) -> None:
     """
     import h5py
 
+    size = 0.0
     for name in group:
         link = group.get(name, getlink=True)
         if not isinstance(link, h5py.HardLink):
@@ -187,13 +189,12 @@ def _require_own(group: Any, seen: set[Any], room: list[float]) -> None:
             raise FileFormatError(f"result file must hold its groups once, but {name!r} is there twice.")
         seen.add(place)
         if isinstance(item, h5py.Group):
-            _require_own(item, seen, room)
+            size += _size_of_own(item, seen)
         elif isinstance(item, h5py.Dataset):
             if item.external or item.is_virtual:
                 raise FileFormatError(f"result file must hold its data itself, but {name!r} lies in another file.")
-            room[0] -= item.size * item.dtype.itemsize if item.shape is not None else 0.0
-            if room[0] < 0.0:
-                raise FileFormatError(f"result file must fit into the memory that is free, but {name!r} does not.")
+            size += item.size * item.dtype.itemsize if item.shape is not None else 0.0
+    return size
 
 
 def datatree(tree: Node) -> xarray.DataTree:

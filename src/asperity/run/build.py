@@ -23,7 +23,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, json_schema, problems
-from ..core.status import free_memory
+from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
 from ..io.schemas.problem import (
     EFFECTIVE,
@@ -347,7 +347,10 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
     Relative paths of measured surfaces start at ``folder``.
     """
     arguments = {key: build_part(value, folder) for key, value in table.given(*_GRID).items()}
-    made: Surface = table.makes(table_grid(table), **arguments, **more)
+    grid = table_grid(table)
+    needed = BYTES_OF_A_POINT * grid.n_points
+    require_memory(needed, "points of the surface", "{} x {}".format(*grid.shape), "give fewer points")
+    made: Surface = table.makes(grid, **arguments, **more)
     return made
 
 
@@ -358,13 +361,28 @@ BYTES_OF_A_POINT = 100.0
 def table_grid(table: GeneratedSurface) -> Grid:
     """Grid of a generated surface."""
     (nx, ny), (length_x, length_y) = table.points, checked_size(table.size, "a generated surface", table.points)
-    needed, free = BYTES_OF_A_POINT * nx * ny, free_memory()
-    if needed > free:
-        raise InputError(
-            f"points of the surface must fit into the memory, but {nx} x {ny} need about {needed / 2**30:.3g} GiB where "
-            f"{free / 2**30:.3g} GiB are free; give fewer."
-        )
     return Grid((nx, ny), (length_x / nx, length_y / ny))
+
+
+def stated_points(table: SurfaceTable) -> int:
+    """Number of points of the grid of a surface as far as its ``table`` states it; 0 where only the file does."""
+    found = 0 if isinstance(table, FileSurface) else math.prod(table.points)
+    for step in table.prepare:
+        found = math.prod(step.points) if step.step == "resample" else found
+    return found
+
+
+def large_grid(points: int) -> str:
+    """What a grid of so many ``points`` takes, if that is much of the free memory; else empty.
+
+    Raises
+    ------
+    InputError
+        If it does not fit.
+    """
+    needed = BYTES_OF_A_POINT * points
+    require_memory(needed, "points of the surface", f"{points:.3g}", "give fewer points (--resample)")
+    return f"The grid of {points:.3g} points needs about {room_text(needed)}." if is_large(needed) else ""
 
 
 def build_part(value: Any, folder: Path) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -145,6 +145,9 @@ def run_study(
 ) -> Campaign:
     """Run or resume a study: only cases that its folder does not hold are computed.
 
+    One that does not fit into memory or disk is refused. One that fits is run however long it takes: the command
+    ``asperity run`` asks before hours of work, this function does not.
+
     Parameters
     ----------
     study
@@ -175,14 +178,19 @@ def run_study(
 
 
 def prepare_study(
-    study: str | Path | Mapping[str, Any], folder: str | Path | None = None, *, start: Path = Path()
+    study: str | Path | Mapping[str, Any],
+    folder: str | Path | None = None,
+    *,
+    start: Path = Path(),
+    confirm: Callable[[str], object] | None = None,
 ) -> Campaign:
     """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``.
 
-    Relative paths in a dictionary begin at ``start``.
+    Relative paths in a dictionary begin at ``start``. A new study that takes much of time, memory or disk is told to
+    ``confirm``, in words, before its folder is made.
     """
     from .documents import load_study, study_from_table, study_text
-    from .plan import BYTES_OF_A_RECORD
+    from .plan import BYTES_OF_A_RECORD, large_study
 
     if isinstance(study, Mapping):
         loaded, target = study_from_table(study, start), Path("study" if folder is None else folder)
@@ -195,9 +203,12 @@ def prepare_study(
             f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "
             "choose another (--out)."
         )
+    there = next(place for place in (target.absolute(), *target.absolute().parents) if place.exists())
+    free = shutil.disk_usage(there).free
+    if confirm is not None and not (target / STUDY).is_file():  # one that goes on was confirmed when it began
+        confirm(large_study(campaign.plan, free))
     try:
         target.mkdir(parents=True, exist_ok=True)
-        free = shutil.disk_usage(target).free
     except OSError as error:
         raise OutputError(
             f"folder {target} cannot be made: {error.strerror}; choose another.", subject="folder of a study"

@@ -13,15 +13,17 @@ from typing import Any
 from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..core.quantity import Quantity
-from ..core.status import free_memory
+from ..core.status import is_large, require_memory, room_text
 from ..io.provenance import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
+from ..run.build import stated_points
 from ..run.document import ProblemDocument
 from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
 from .documents import LoadedStudy
+from .local import available_cores
 from .monte_carlo import sample_axis
 from .places import Edit, content, edited_content, problem_table
 from .sensitivity import parameter_axis
@@ -124,10 +126,13 @@ def make_plan(study: LoadedStudy) -> Plan:
     Raises
     ------
     InputError
-        If a path leads nowhere, a value cannot be used, a quantity is unknown, or names clash.
+        If a path leads nowhere, a value cannot be used, a quantity is unknown, names clash, or there are too many cases.
     """
     document, base = study.document, Base(study.problem, study.folder)
-    _require_room(document)
+    counts, cases = _cases(document)
+    if max(counts, default=0) > MOST_POINTS:
+        raise InputError(f"axis of a study must have at most {MOST_POINTS} points, but one has {max(counts)}.")
+    require_memory(_memory(document), "study", f"{cases:.3g} cases", "give fewer points or samples")
     names = _names(document)
     axes = [make_axis(base, table, name) for table, name in zip(document.axes, names, strict=False)]
     if document.combine == "list" and axes:
@@ -156,14 +161,29 @@ BYTES_OF_A_RECORD = 1500
 """Disk space of a case: its record, and its place in the tables."""
 
 
-def _require_room(document: StudyDocument) -> None:
-    """Refuse a study that has too many points, or does not fit into the memory, before any of them is made.
+SECONDS_OF_A_POINT, SECONDS_OF_A_CASE = 4e-6, 0.05
+"""Time of one core for a case, for each point of its grid and besides; a map of 512 x 512 points takes about a second."""
 
-    Raises
-    ------
-    InputError
-        With the numbers.
-    """
+LONG = 4 * 3600.0
+"""Seconds of work for each core from which a study is confirmed: half a working day, of an estimate right within a factor of five."""
+
+
+def large_study(plan: Plan, free_disk: float) -> str:
+    """What ``plan`` takes of time, memory and ``free_disk`` (bytes), if that is much; else empty."""
+    grid = stated_points(plan.base.document.surface) or 512 * 512
+    seconds = plan.n_cases * (SECONDS_OF_A_CASE + SECONDS_OF_A_POINT * grid)
+    memory, disk = _memory(plan.document), BYTES_OF_A_RECORD * plan.n_cases
+    cores = available_cores()
+    if seconds <= LONG * cores and not is_large(memory) and not is_large(disk, free_disk):
+        return ""
+    return (
+        f"The study has {plan.n_cases} cases: about {seconds / cores / 3600.0:.2g} h of work on {cores} cores (on grids of "
+        f"{grid} points), {room_text(memory)} in memory, {room_text(disk, free_disk)} on the disk."
+    )
+
+
+def _cases(document: StudyDocument) -> tuple[list[int], int]:
+    """Numbers of points of the axes of a study, samples aside, and of its cases."""
     counts = [len(table.values) if table.values is not None else table.count or 0 for table in document.axes]
     if document.combine == "list":
         counts = counts[:1]
@@ -174,15 +194,13 @@ def _require_room(document: StudyDocument) -> None:
         counts.append(2 + (len(found.values) if found.values is not None else found.count or 0))
     if document.sensitivity is not None:
         counts.append(1 + 2 * len(document.sensitivity.parameters))
-    if max(counts, default=0) > MOST_POINTS:
-        raise InputError(f"axis of a study must have at most {MOST_POINTS} points, but one has {max(counts)}.")
-    cases = prod(counts) * (1 if document.monte_carlo is None else document.monte_carlo.samples)
-    needed = BYTES_OF_A_POINT * sum(counts) + cases * (BYTES_OF_A_CASE + 24 * (len(document.quantities) + 4))
-    if needed > (free := free_memory()):
-        raise InputError(
-            f"study must fit into the memory, but has {cases:.3g} cases, which need about {needed / 2**30:.3g} GiB "
-            f"where {free / 2**30:.3g} GiB are free; give fewer points or samples."
-        )
+    return counts, prod(counts) * (1 if document.monte_carlo is None else document.monte_carlo.samples)
+
+
+def _memory(document: StudyDocument) -> float:
+    """Memory in bytes of the axes and cases of a study."""
+    counts, cases = _cases(document)
+    return BYTES_OF_A_POINT * sum(counts) + cases * (BYTES_OF_A_CASE + 24 * (len(document.quantities) + 4))
 
 
 def _names(document: StudyDocument) -> list[str]:

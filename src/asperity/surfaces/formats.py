@@ -16,7 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
-from ..core.status import free_memory
+from ..core.status import require_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
 from .text_files import cut_short, gridded, is_table, stated_lines, table
@@ -554,13 +554,10 @@ def _picture(file: Path) -> Iterator[Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # remarks on metadata and on very large pictures, which maps may be
         with Image.open(file) as picture:
-            needed, free = 32.0 * picture.width * picture.height, free_memory()
-            if needed > free:
-                raise InputError(
-                    f"its {picture.width} × {picture.height} pixels need about {needed / 2**30:.1f} GiB of memory where "
-                    f"{free / 2**30:.1f} GiB are free",
-                    subject="pixels of the picture",
-                )
+            width, height = picture.size
+            require_memory(
+                32.0 * width * height, "pixels of the picture", f"{width} x {height}", "cut it or reduce it first"
+            )
             yield picture
 
 

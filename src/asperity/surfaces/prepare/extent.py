@@ -12,7 +12,7 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
 from ...core.spectral import RealTransform
-from ...core.status import free_memory
+from ...core.status import require_memory
 from ...core.units import show
 from ...core.values import Length, LengthRange, Number, Points
 from ..surface import Surface
@@ -134,12 +134,8 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     require_complete(surface, "resampled")
     if (nx, ny) == surface.shape:
         return surface
-    needed, free = 3.0 * 8.0 * nx * ny, free_memory()  # heights and two arrays to make them
-    if needed > free:
-        raise InputError(
-            f"resampled surface must fit into the memory, but {nx} x {ny} points need {needed / 2**30:.1f} GiB and "
-            f"{free / 2**30:.1f} GiB are free. Resample to fewer points (--resample)."
-        )
+    needed = 3.0 * 8.0 * nx * ny  # heights and two arrays to make them
+    require_memory(needed, "points of the resampled surface", f"{nx} x {ny}", "resample to fewer points (--resample)")
     heights: RealArray = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
         how = "in Fourier space"
