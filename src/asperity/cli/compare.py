@@ -30,7 +30,7 @@ from ..studies.compare import LOADS, MOST_CONTACTS
 from ..studies.compare import compare as compare_theories
 from ..studies.comparison import Comparison
 from ..studies.comparison_files import export_comparison_csv, save_comparison
-from .contact import Force, Yes, asked_table, output_folder
+from .contact import YES, Force, asked_table, output_folder
 from .declared import Given, Option, offers, sorted_out
 from .main import NOT_CONVERGED, OK
 from .options import BASIC, OUTPUT, body_options, preparation_options, reading_options, solver_options
@@ -69,7 +69,7 @@ def _options() -> list[Option]:
     own = [Option(option_of(item), ("compare", item.name), item, PANEL, metavar=metavar) for item, metavar in OWN]
     solver = [option for option in solver_options() if option.name in ("--tolerance", "--threads")]
     document = (*body_options(), *reading_options(), *preparation_options(), *solver)
-    return [*own, *sorted_out(document, BASIC)]
+    return [*own, YES, *sorted_out(document, BASIC)]
 
 
 @offers(_options)
@@ -93,7 +93,6 @@ def compare(
         ),
     ] = None,
     force: Force = False,
-    yes: Yes = False,
 ) -> None:
     """Compare every theory of rough contact with the numerical solution, on one surface.
 
@@ -105,7 +104,7 @@ def compare(
     placed = Given({**given.values, ("control", "mean_pressure"): _PLACEHOLDER}, given.options)
     made, names, base = asked_table(file, from_, placed)
     document = checked(made, str(from_ or COMMAND_LINE), names)
-    confirmed(large_grid(stated_points(document.surface)), yes=yes)
+    confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
     case = build(document, base)
     with output_folder(out, force=force) as folder:
         comparison = _compared(case, given, numerical=not no_numerical)

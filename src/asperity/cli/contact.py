@@ -45,9 +45,6 @@ Out = Annotated[
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.", rich_help_panel=OUTPUT)]
-Yes = Annotated[
-    bool, typer.Option("--yes", help="Do not ask before work that takes much memory or time.", rich_help_panel=OUTPUT)
-]
 Document = Annotated[
     Path | None,
     typer.Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
@@ -63,8 +60,12 @@ PLASTIC_LOAD = own_option(
 )
 
 
+YES = own_option("--yes", ("yes",), "do not ask before work that takes much memory or time", OUTPUT, values=Flag())
+
+
 def _options() -> list[Option]:
-    return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), PLASTIC_LOAD, *file_options(*FILES)]
+    own = (PLASTIC_LOAD, YES, *file_options(*FILES))
+    return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), *own]
 
 
 FILES = MappingProxyType(
@@ -106,7 +107,6 @@ def contact(
     from_: Document = None,
     out: Out = None,
     force: Force = False,
-    yes: Yes = False,
     with_: Annotated[
         list[str] | None,
         typer.Option(
@@ -140,8 +140,8 @@ def contact(
             raise InputError(
                 f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out with many files: --out DIR holds the table of all."
             )
-        raise typer.Exit(solve_files(document, file, out, yes=yes))
-    confirmed(large_grid(stated_points(document.surface)), yes=yes)
+        raise typer.Exit(solve_files(document, file, out, yes=bool(given.get("yes"))))
+    confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
     raise typer.Exit(_perform(document, base, out, files, force=force))
 
 
