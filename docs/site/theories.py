@@ -40,7 +40,13 @@ def page() -> str:
 def section(kind: type[Described]) -> str:
     """What the page holds on one theory."""
     measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
-    lines = [f"### {kind.title}", "", f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.", "", *description(kind)]
+    lines = [
+        f"### {kind.title}",
+        "",
+        f"`{kind.name}`, in Python `asperity.theories.{kind.__name__}`.",
+        "",
+        *description(kind),
+    ]
     lines += ["| input | unit | meaning | range | default |", "|---|---|---|---|---|"]
     lines += [
         f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {escaped(item.help)} | {bounds(item)} | {default(item)} |"
