@@ -14,7 +14,7 @@ from typing import Any
 from surfaces import BODY, self_affine
 
 import asperity as asp
-from asperity.contact.solvers.active_set import cells, linear_system, solver
+from asperity.contact.solvers.active_set import linear_system, solver
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
 
@@ -38,8 +38,8 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (linear_system, "_STEP_LENGTH"): [0.4, 0.55, 0.85, 1.0],
     (linear_system, "PIXEL_SHARE"): [0.4, 0.5, 0.7, 0.8, 1.0],
     (linear_system, "PIXEL_SHARE_COARSE"): [0.6, 0.7, 1.0],
-    (cells, "_DEPTH"): [2, 4],
-    (cells, "_STEEP"): [1.5, 4.0],
+    (linear_system, "_DEPTH"): [2, 4],
+    (linear_system, "_STEEP"): [1.5, 4.0],
     (cpu, "SQUARE_SIDE"): [8, 32, 64],
 }
 

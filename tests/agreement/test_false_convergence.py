@@ -133,6 +133,64 @@ def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.Boundar
     assert found.certificate.duality_gap < 1e-5
 
 
+def film_of(modulus: float) -> Compliance:
+    """Compliance of a film two pixels thick, of this modulus over that of the base."""
+    layered = asp.Layered([asp.Layer(asp.Elastic(modulus, 0.3), 2.0)], base=asp.Elastic(1.0, 0.3))
+    return asp.ContactProblem(asp.Surface(np.zeros((2, 2)), 1.0, periodic=True), layered).compliance
+
+
+@pytest.mark.parametrize(
+    ("shape", "modulus", "relative_cap"), [((3, 12), 100.0, 1.01), ((24, 24), 100.0, 10.0), ((24, 24), 1000.0, 2.0)]
+)
+def test_bending_films_under_a_cap_are_solved(shape: tuple[int, int], modulus: float, relative_cap: float) -> None:
+    """Steps that are clipped to the bounds must let points reach them: shortened as a whole they went on for ever."""
+    heights = 1e-3 * np.random.default_rng(shape[0] // 24).standard_normal(shape)
+    load = 1.0 if shape[0] == 3 else 0.1
+    operator = prepare_operator(film_of(modulus), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.CpuEngine(1))
+    qp = ContactQP(operator, heights, load * relative_cap, FixedMean(load), float(heights.std()))
+    found, exact = run(ActiveSet(), qp), run(EXACT, qp, feasible_start(qp))
+    assert found.status.converged, found.status.message
+    assert np.linalg.norm(found.state.pressure - exact.state.pressure) <= 1e-3 * np.linalg.norm(exact.state.pressure)
+
+
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-10])
+@pytest.mark.parametrize("pressure", [5e-4, 6e-4, 5e-3, 0.3])
+@pytest.mark.parametrize("shape", [(2, 2), (8, 6), (8, 1)], ids=str)
+def test_flat_periodic_bodies_far_above_the_datum_are_solved(
+    shape: tuple[int, int], pressure: float, tolerance: float
+) -> None:
+    """Their height, many times what a wave would deflect by, must not round away the error."""
+    problem = asp.ContactProblem(asp.Surface(np.ones(shape), 1.0, 0.7, periodic=True), asp.Elastic(1.0, 0.0))
+    result = asp.solve(problem, asp.MeanPressure(pressure), solver=ActiveSet(tolerance=tolerance))
+    np.testing.assert_allclose(result.pressure, pressure, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("shape", "seed", "load"), [((2, 2), 8, 1e-2), ((2, 3), 7, 2e-3)])
+def test_a_load_just_below_the_cap_is_solved_to_rounding(shape: tuple[int, int], seed: int, load: float) -> None:
+    """Only the missing 1e-4 of the load deflects, so that heights count from the level of the last point that bears."""
+    heights = np.random.default_rng(seed).standard_normal(shape)
+    operator = prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.CpuEngine(1))
+    qp = ContactQP(operator, heights, 1.0001 * load, FixedMean(load), float(heights.std()))
+    solution = run(ActiveSet(tolerance=1e-10), qp)
+    assert solution.status.converged, solution.status.message
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+@pytest.mark.parametrize("film", [1.0, 100.0])
+def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary: asp.Boundary, film: float) -> None:
+    wrong = []
+    for seed in (*range(20), 153, 263):
+        rng = np.random.default_rng([seed, 13])
+        grid = asp.Grid((10, 11), (1.0, float(rng.choice([20.0, 0.05]))))
+        operator = prepare_operator(film_of(film), grid, boundary, engine=asp.CpuEngine(1))
+        cap = 0.03 * (rng.uniform(0.5, 1.5, grid.shape) if seed % 2 else np.ones(grid.shape))
+        heights, mean = heights_of(rng, grid.shape), float(cap.mean()) * (1.0 - 1e-16 * rng.integers(0, 50))
+        solution = run(ActiveSet(), ContactQP(operator, heights, cap, FixedMean(mean), float(heights.std()) or 1.0))
+        if not (solution.status.converged and np.array_equal(solution.state.pressure, cap)):
+            wrong.append(f"seed {seed}: {solution.status.message}")
+    assert not wrong, wrong
+
+
 EXTREME = {
     "approach": {"control": lambda: asp.Approach(1e300)},
     "mean gap": {"control": lambda: asp.MeanGap(1e-300)},

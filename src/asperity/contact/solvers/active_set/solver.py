@@ -22,6 +22,8 @@ from ....core.engine import FreeSet, Load, Survey, Totals
 from ....core.errors import InputError
 from ...operators.convolution import restricted
 from ..protocol import (
+    LOAD_ROUNDING,
+    LOAD_SWEEPS,
     ContactQP,
     FixedMean,
     FixedOffset,
@@ -176,18 +178,19 @@ LEAST_SHARE = 0.1
 """Share of a clipped step below which it is replaced by one along the projected gradient: what little would be left of it shows
 that the set was wrong. No case of the sweep gets there (0.01 to 0.3: the same pairs); random small problems with caps do."""
 
-_LOAD_SWEEPS = 100
-"""Rescalings at most to the prescribed load; each puts more points at their cap, and two or three suffice."""
-
-_LOAD_ROUNDING = 1e-14
-"""Relative error of the load that counts as none: the rounding of a sum of 10⁴ terms and more."""
+_PARTS = 4
+"""Parts of a step at most that are clipped, one product each, before it is shortened. Bending films show what it is for: moduli of
+100 and 1000, 2 pixels thick, white noise of 24² and 64² points under caps of 1.01, 2 and 10 mean pressures take 170 pairs on
+average; with one part they took 1770, and 9 of 24 did not converge in 300 steps. Two to eight parts differ by 1 %. No case of
+the sweep needs a second one."""
 
 
 class _Clipping(NamedTuple):
-    """Number of points ``clipped`` by a step, and the ``share`` of the step that was taken."""
+    """Number of points ``clipped`` by a step, the ``share`` of the step that was taken, and the ``products`` it needed."""
 
     clipped: int
     share: float
+    products: int
 
 
 def clear_tension(work: Workspace, free: FreeSet, total: float) -> PressureChange:
@@ -202,24 +205,31 @@ def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float)
     """Add ``d``, clipped and scaled to the load, to the pressure of sum ``total``.
 
     The deflection by the whole step is left in the response of the scaled operator. The energy falls: it changes by
-    -r·step + step·K step / 2, ``r`` being the residual on the set, and the step is shortened to its minimum.
+    -r·step + step·K step / 2, ``r`` being the residual on the set. Where it would rise, a part of d is clipped instead, so
+    that points still reach their bounds; after some attempts the step is shortened to its minimum.
     """
     qp, scaled, p = work.qp, work.scaled, work.pressure
     old, load = free.gather(p)
-    found, clipped = free.add_clipped(p, d, work.unit, work.cap)
-    if isinstance(qp.constraint, FixedMean):
-        missing = qp.constraint.mean_pressure * qp.profile.size - total
-        _restore_load(free, p, work.cap, found, max(load + missing, 0.0))
-    change, along = free.scatter_change(old, p, r, scaled.field)
-    scaled.product.apply(scaled.field, scaled.response)
-    reaction = free.gather_products(scaled.response, change, change, d).first
-    slope, curvature = -along * qp.height_scale, reaction * scaled.scale
-    share = 1.0
-    if slope + 0.5 * curvature > 0.0:
+    part, products = 1.0, 0
+    while True:
+        found, clipped = free.add_clipped(p, d, part * work.unit, work.cap)
+        if isinstance(qp.constraint, FixedMean):
+            missing = qp.constraint.mean_pressure * qp.profile.size - total
+            _restore_load(free, p, work.cap, found, max(load + missing, 0.0))
+        change, along = free.scatter_change(old, p, r, scaled.field)
+        scaled.product.apply(scaled.field, scaled.response)
+        products += 1
+        reaction = free.gather_products(scaled.response, change, change, free.zeros()).first
+        slope, curvature = -along * qp.height_scale, reaction * scaled.scale
+        if slope + 0.5 * curvature <= 0.0:
+            return _Clipping(clipped, 1.0, products)
         share = -slope / curvature if slope < 0.0 else 0.0
-        share = share if share >= LEAST_SHARE else 0.0
-        free.interpolate(old, share, p)
-    return _Clipping(clipped, share)
+        if products == _PARTS:
+            share = share if share >= LEAST_SHARE else 0.0
+            free.interpolate(old, share, p)
+            return _Clipping(clipped, share, products)
+        free.interpolate(old, 0.0, p)
+        part *= max(share, LEAST_SHARE)
 
 
 def _restore_load(free: FreeSet, pressure: Any, cap: Any, found: Load, target: float) -> None:
@@ -227,14 +237,16 @@ def _restore_load(free: FreeSet, pressure: Any, cap: Any, found: Load, target: f
 
     Where every loaded point is at its cap, the rest of the load is spread over the points below it.
     """
-    for _ in range(_LOAD_SWEEPS):
+    for _ in range(LOAD_SWEEPS):
         missing = target - found.pressure
-        if abs(missing) <= _LOAD_ROUNDING * target:
+        if abs(missing) <= LOAD_ROUNDING * target:
             break
         if found.movable > 0.0 and found.movable + missing > 0.0:
             found = free.rescale(pressure, (found.movable + missing) / found.movable, 0.0, cap)
         elif missing < 0.0:
             found = free.rescale(pressure, target / found.pressure, 0.0, None)
+        elif found.below == 0:
+            break  # all are at their cap: what is missing is rounding of the sum over all points
         else:
             found = free.rescale(pressure, 1.0, missing / found.below, cap)
 
@@ -411,8 +423,8 @@ class ActiveSet:
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
-        clipped, share = clipped_update(work, free, found.d, r, memory.survey.totals.pressure)
-        spent = replace(spent, applications=spent.applications + 1)
+        clipped, share, products = clipped_update(work, free, found.d, r, memory.survey.totals.pressure)
+        spent = replace(spent, applications=spent.applications + products)
         if share < LEAST_SHARE:
             return self._gradient_step(memory, spent)
         work.engine.add(work.scaled.response, share * work.scaled.scale, work.deflection)
