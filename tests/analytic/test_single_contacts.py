@@ -20,7 +20,7 @@ from asperity.theories.single.indenters import (
     SphericalIndenter,
 )
 from asperity.theories.single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
-from asperity.theories.single.waves import HIGH_LOAD, LOW_LOAD, CrossedWaves, Westergaard
+from asperity.theories.single.waves import AREA_ERROR, CrossedWaves, Westergaard
 
 DIGITS = 1e-13  # the tables carry 16 digits; some hundred roundings in the longest formulas (found: 3e-14)
 AXISYMMETRIC, PLANE = reference("axisymmetric_indenters"), reference("plane_strain_indenters")
@@ -222,14 +222,28 @@ def test_crossed_waves(row):
     assert waves.area_fraction_at_low_load(p) == pytest.approx(row["area_fraction_low_load"], rel=DIGITS)
     assert waves.area_fraction_at_high_load(p) == pytest.approx(row["area_fraction_high_load"], rel=DIGITS)
     assert waves.max_pressure_at_low_load(p) / full == pytest.approx(row["pmax_over_pstar_low_load"], rel=DIGITS)
-    if row["area_fraction_numeric"] != "" and row["pbar_over_pstar"] > HIGH_LOAD:
+    if row["area_fraction_numeric"] != "":
+        assert waves.area_fraction(p) == pytest.approx(row["area_fraction_numeric"], abs=AREA_ERROR)
+    if row["area_fraction_numeric"] != "" and row["pbar_over_pstar"] > 0.95:
         assert waves.area_fraction_at_high_load(p) == pytest.approx(row["area_fraction_numeric"], abs=3e-4)
-    found = waves.at_pressure(p)
-    outside = not LOW_LOAD < row["pbar_over_pstar"] < HIGH_LOAD
-    assert bool(waves.validity(found)[1].holds[0]) == outside == bool(np.isfinite(found.area_fraction[0]))
+    assert waves.at_pressure(p).area_fraction[0] == pytest.approx(float(waves.area_fraction(p)))
     assert waves.area_fraction_at_high_load(1.2 * full) == 1.0
     with refused(InputError, "mean pressure"):
         waves.full_contact(0.0, 0.0, 0.9 * full)
+
+
+def test_tabulated_area_of_crossed_waves_has_both_asymptotes():
+    waves = CrossedWaves(1.0, 0.01, 1.0)
+    p = waves.full_contact_pressure * np.linspace(0.0, 1.2, 1201)
+    area = waves.area_fraction(p)
+    assert np.all(np.diff(area[p <= waves.full_contact_pressure]) > 0.0)
+    assert area[0] == 0.0
+    assert area[p >= waves.full_contact_pressure] == pytest.approx(1.0, rel=1e-12)
+    light, nearly = np.array([1e-6, 1e-4]), np.array([0.985, 0.99, 0.998])
+    full = waves.full_contact_pressure
+    assert waves.area_fraction(light * full) == pytest.approx(waves.area_fraction_at_low_load(light * full), rel=2e-3)
+    high = waves.area_fraction_at_high_load(nearly * full)
+    assert waves.area_fraction(nearly * full) == pytest.approx(high, abs=AREA_ERROR / 2.0)
 
 
 def mindlin(row):

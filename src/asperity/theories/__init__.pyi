@@ -39,9 +39,12 @@ from .rough.interacting_crests import InteractingCrests
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
+from .single.friction import SlidingCylinder, SlidingPunch, StickingIndenter, StickingPunch, StickingPunchLine
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
+    EllipticPunch,
     FlatPunch,
     LineFlatPunch,
     LinePowerLawIndenter,
@@ -103,10 +106,12 @@ __all__ = [
     "Cone",
     "ContactAnswer",
     "CrossedWaves",
+    "CylinderInHole",
     "CylinderYield",
     "DiscreteSummits",
     "EffectiveHardness",
     "ElasticPlasticSummits",
+    "EllipticPunch",
     "Evaluation",
     "ExponentialHeights",
     "FittedGreenwoodWilliamson",
@@ -149,16 +154,23 @@ __all__ = [
     "OnionsArchard",
     "PearsonHeights",
     "Persson",
+    "PinInHole",
     "PlasticityIndex",
     "PowerLawIndenter",
     "Prediction",
     "ProfilePlasticityIndex",
     "SampledPeaks",
     "SinusoidalAsperity",
+    "SlidingCylinder",
+    "SlidingPunch",
+    "SphereInCavity",
     "SphereYield",
     "SphericalIndenter",
     "StackHardness",
     "StatisticalMeniscus",
+    "StickingIndenter",
+    "StickingPunch",
+    "StickingPunchLine",
     "Strip",
     "TriangularHeights",
     "UniformHeights",

@@ -32,9 +32,12 @@ from .rough.interacting_crests import InteractingCrests
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
+from .single.friction import SlidingCylinder, SlidingPunch, StickingIndenter, StickingPunch, StickingPunchLine
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
+    EllipticPunch,
     FlatPunch,
     LineFlatPunch,
     LinePowerLawIndenter,
@@ -80,12 +83,21 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             PowerLawIndenter,
             Cone,
             FlatPunch,
+            EllipticPunch,
             SphericalIndenter,
             LinePowerLawIndenter,
             Wedge,
             LineFlatPunch,
+            CylinderInHole,
+            PinInHole,
+            SphereInCavity,
             MindlinPoint,
             MindlinLine,
+            SlidingCylinder,
+            SlidingPunch,
+            StickingIndenter,
+            StickingPunch,
+            StickingPunchLine,
             JKR,
             DMT,
             MaugisDugdale,

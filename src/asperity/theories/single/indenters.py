@@ -174,6 +174,62 @@ class FlatPunch(Theory):
 
 
 @dataclass(frozen=True)
+class EllipticPunch(Theory):
+    """Flat rigid punch with an elliptic end of the half-axes a >= b.
+
+        p = P/(2 π a b sqrt(1 - x²/a² - y²/b²)),  δ = P K(e)/(π E* a).
+
+    K is the complete elliptic integral of the eccentricity e; either half-axis may be the longer one.
+    """
+
+    E_star: Modulus
+    half_axis_x: Annotated[Length, "half-axis of the end along x"]
+    half_axis_y: Annotated[Length, "half-axis of the end along y"]
+    name: ClassVar[str] = "elliptic-punch"
+    title: ClassVar[str] = "Flat punch with an elliptic end"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope(
+            "approach over shorter half-axis of the punch",
+            lambda theory, answer: answer.approach / min(theory.half_axis_x, theory.half_axis_y),
+        ),
+    )
+
+    @property
+    def stiffness(self) -> float:
+        """dP/dδ = πE*a/K(e) in N/m."""
+        from scipy.special import ellipkm1
+
+        short, long = sorted((self.half_axis_x, self.half_axis_y))
+        return math.pi * self.E_star * long / float(ellipkm1((short / long) ** 2))
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N, >= 0, of any shape."""
+        P = checked(load, "load (N)")
+        everywhere = np.ones_like(P)
+        return ContactAnswer(
+            load=P,
+            approach=P / self.stiffness,
+            radius=math.sqrt(self.half_axis_x * self.half_axis_y) * everywhere,
+            area=math.pi * self.half_axis_x * self.half_axis_y * everywhere,
+            max_pressure=np.where(P > 0.0, np.inf, 0.0),
+            stiffness=self.stiffness * everywhere,
+        )
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at the ``approach`` δ in m, >= 0, of any shape."""
+        return self.at_load(self.stiffness * checked(approach, "approach (m)"))
+
+    def pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the axis under ``load`` in N, > 0; infinite at the edge."""
+        mean = require.positive(load, "load (N)") / (math.pi * self.half_axis_x * self.half_axis_y)
+        place = (np.asarray(x) / self.half_axis_x) ** 2 + (np.asarray(y) / self.half_axis_y) ** 2
+        with np.errstate(divide="ignore"):
+            profile: RealArray = np.where(place > 1.0, 0.0, 0.5 * mean / np.sqrt(np.maximum(1.0 - place, 0.0)))
+        return profile
+
+
+@dataclass(frozen=True)
 class SphericalIndenter(Theory):
     """Rigid sphere with its exact profile R - sqrt(R² - r²).
 
