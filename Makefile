@@ -11,7 +11,7 @@
 #   make hooks        checks style and types before every commit (pre-commit)
 #   make package      wheel and source archive in dist/, installed in empty environments, where the demo runs
 #   make bench        speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
-#   make validate     every page of validation/ anew, one process at a time, and pictures in PICTURES=validation-pictures
+#   make validate     every page of validation/ anew, one process at a time, their summary, and pictures in PICTURES=validation-pictures
 #   make docs         the site in build/docs/html, without network; warnings are errors
 #   make docs-serve   shows it on http://127.0.0.1:8000 (PORT=8000), on this machine only
 #   make clean        remove the environments and everything that was built
@@ -103,6 +103,7 @@ PICTURES ?= validation-pictures
 
 validate: $(DEV_OK)
 	@status=0; for page in $(PAGES:.md=.py); do $(ONE_THREAD) $(BIN)/python $$page || status=1; done; \
+	$(BIN)/python validation/summary.py || status=1; \
 	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
 
 docs: $(DOCS_OK)

@@ -27,7 +27,7 @@ ABOUT = (
     "*Theory*: the summits of the same surfaces by the statistical model (eqs 56 and 57, with the skewness and kurtosis of their heights)."
 )
 
-WORDS = """* The published 3 W for fig. 39 is that of the first pass at this load. With feedback, the force on such a smooth surface is four times as large,
+WORDS = """* The published 3 W for fig. 39 is that of the first pass at this load, which was chosen freely: the agreement is one of size only. With feedback, the force on such a smooth surface is four times as large,
   and at 32.8 kPa it ends near 1300 W: the real area is then determined by the meniscus force and hardly by the load. The review
   introduces the film *over the deformed surfaces* and does not say that the contact is solved again; Peng (2001, fig. 3.12) does so.
 * The rougher the surface, the thicker the film needed for the same force, as published. There is no threshold in our curves, but a thickness above

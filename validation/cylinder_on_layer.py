@@ -13,7 +13,7 @@ import asperity as asp
 RATIOS = (0.25, 0.5, 2.0, 4.0)
 """E1/E2 of the columns."""
 
-PUBLISHED = {
+INDEPENDENT = {
     0.1: ((1.14238, 1.05867, 0.95579, 0.91860), (0.92748, 0.97171, 1.01926, 1.03361)),
     0.5: ((1.40194, 1.17705, 0.85276, 0.71627), (0.76663, 0.88490, 1.11679, 1.27029)),
     1.0: ((1.57720, 1.26091, 0.77463, 0.57441), (0.66586, 0.81109, 1.27635, 1.72322)),
@@ -33,14 +33,14 @@ def compare(pixels: int = 4097) -> Comparison:
     """Ours on ``pixels`` strips with the free line boundary."""
     rows = tuple(
         ((f"{thickness:g}", f"{ratio:g}"), _pairs(ratio, thickness, (width, peak), pixels))
-        for thickness, (widths, peaks) in PUBLISHED.items()
+        for thickness, (widths, peaks) in INDEPENDENT.items()
         for ratio, width, peak in zip(RATIOS, widths, peaks, strict=True)
     )
     size = WIDTH / pixels
     return Comparison(
         title="Rigid cylinder on a coated half-space, plane strain",
         about=(
-            "Cole & Sayles (1992) in the form of Peng (2001, fig. 2.6): ν₁ = ν₂ = 0.3, no friction. Theirs: Fredholm equation of "
+            "Cole & Sayles (1992) in the form of Peng (2001, fig. 2.6): ν₁ = ν₂ = 0.3, no friction. Independent solution of our own: Fredholm equation of "
             "the second kind for the same problem, six digits. Ours: `asperity.solve` with the boundary `FreeLine()` on "
             f"{pixels} strips over {WIDTH:g} half-widths of the contact. The half-width comes from counting strips; "
             "the far field, a logarithm, is that of the base."

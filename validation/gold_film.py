@@ -156,7 +156,7 @@ def page(realisations: int = 20) -> Page:
             ),
             Table(
                 f"{realisations} generated surfaces of that shape at σ = 2.7 nm, 512² points, characterised as measured maps:",
-                ("quantity", "reported", "mean", "deviation of one map"),
+                ("quantity", "theirs", "ours", "deviation of one map"),
                 rows,
             ),
             f"Rank-ordered with the measured marginal: skewness {heights.Ssk:.3f}, kurtosis {heights.Sku:.3f}, rms height "

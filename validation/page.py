@@ -57,13 +57,73 @@ def within_scatter(text: str, theirs: float, ours: np.ndarray) -> Claim:
 
 
 @dataclass(frozen=True)
+class Published:
+    """A published number beside ours.
+
+    Parameters
+    ----------
+    source
+        Work and place in it, such as ``"Peng 2001, fig. 2.5"``.
+    what
+        The quantity and its inputs.
+    theirs
+        The number as printed.
+    ours
+        Ours; of several surfaces the mean.
+    within
+        Largest deviation relative to theirs that counts as agreement.
+    spread
+        Standard deviation of ours from surface to surface: twice that counts as agreement, too.
+    reason
+        Why they differ, where they do; or what was chosen freely.
+    """
+
+    source: str
+    what: str
+    theirs: str
+    ours: float
+    within: float = 0.02
+    spread: float = 0.0
+    reason: str = ""
+
+    @property
+    def value(self) -> float:
+        """Their number."""
+        return float(self.theirs.replace("−", "-"))
+
+    @property
+    def deviation(self) -> float:
+        """Ours over theirs, less one."""
+        return self.ours / self.value - 1.0
+
+    @property
+    def agrees(self) -> bool:
+        """Whether ours lies within the bound, within two standard deviations, or rounds to theirs."""
+        digits = len(self.theirs.partition(".")[2])
+        near = abs(self.ours - self.value) <= max(2.0 * self.spread, 0.5001 * 10.0**-digits * ("e" not in self.theirs))
+        return near or abs(self.deviation) <= self.within
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """Row of the table ``PUBLISHED_HEAD``."""
+        ours = f"{float(f'{self.ours:.3g}'):g}" + (f" ± {self.spread:.2g}" if self.spread else "")
+        verdict = ("agrees" if self.agrees else "differs") + (f": {self.reason}" if self.reason else "")
+        return self.source, self.what, self.theirs, ours, f"{100.0 * self.deviation:+.1f} %", verdict
+
+
+PUBLISHED_TITLE = "## Published numbers"
+PUBLISHED_HEAD = ("source", "number", "theirs", "ours", "deviation", "verdict")
+
+
+@dataclass(frozen=True)
 class Page:
-    """A published result: text and tables in order, and what is claimed of them."""
+    """A published result: text and tables in order, what is claimed of them, and the published numbers beside ours."""
 
     title: str
     about: str
     parts: tuple[str | Table, ...]
     claims: tuple[Claim, ...]
+    published: tuple[Published, ...] = ()
 
     @property
     def agrees(self) -> bool:
@@ -75,6 +135,9 @@ class Page:
         lines = [f"# {self.title}", "", self.about, ""]
         for part in self.parts:
             lines += [*(part.lines() if isinstance(part, Table) else [part]), ""]
+        if self.published:
+            lines += Table(PUBLISHED_TITLE, PUBLISHED_HEAD, tuple(one.cells for one in self.published)).lines()
+            lines.append("")
         rows = tuple(
             (claim.text, f"{claim.found:.3g}", claim.expected, "yes" if claim.holds else "NO") for claim in self.claims
         )

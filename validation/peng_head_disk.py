@@ -164,7 +164,7 @@ def _critical_table(about: str, curves: Curves) -> Table:
                     f"{1e9 * theirs:.0f}" if theirs else "",
                 )
             )
-    head = ("", "E₁/E₂", "no carbon", "endless", "floor (nm)", "theirs", "ceiling (nm)", "theirs")
+    head = ("", "E₁/E₂", "no carbon", "endless", "floor (nm): ours", "theirs", "ceiling (nm): ours", "theirs")
     return Table(about, head, tuple(rows))
 
 

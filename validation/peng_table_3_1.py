@@ -217,7 +217,7 @@ def _capped(rows: list[Row], shapes: list[asp.Surface]) -> Table:
         "Contact pixels of the rows at the hardness. Limiting the pressure enlarges the contact. In his rows of X = 2·10⁻⁴ it does "
         "not: they have 16, 13 and 7 pixels, as the elastic rows of the same X, and the 16 is farthest of all from our mean."
     )
-    head = ("E₁/E₂", "X", "theirs", "ours", "ours without hardness")
+    head = ("E₁/E₂", "X", "printed, in pixels", "our pixels", "without hardness")
     return Table(about, head, tuple(lines))
 
 

@@ -183,7 +183,7 @@ def _depths(found: dict[tuple[str, float], list[Seen]], roughness: Sequence[floa
 
 
 WORDS = f"""* The largest pressure is several times the Hertzian one and grows with the roughness; the published one is about that of σ =
-  {ALIKE * 1e9:g} nm.
+  {ALIKE * 1e9:g} nm. That σ was chosen freely to be so, as theirs is not stated: this agreement proves nothing.
 * Outside the contact the displacement hardly differs from that under the smooth sphere: the deformation is Hertzian on the large scale. The rougher
   the sphere, the wider the load is distributed, so both the displacement outside and the stresses far below deviate with σ.
 * The largest √J2 lies just below the surface, under the asperities; at depths of half a contact radius and more it is nearly that under the smooth sphere.

@@ -1,4 +1,4 @@
-"""Tables of our numbers beside published ones, as Markdown."""
+"""Tables of our numbers beside those of an independent solution of the same problem, as Markdown."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Pair:
-    """One number of ours and theirs."""
+    """One number of ours and of the independent solution."""
 
     ours: float
-    theirs: float
+    independent: float
 
     @property
     def deviation(self) -> float:
-        """Ours over theirs, less one."""
-        return self.ours / self.theirs - 1.0
+        """Ours over the independent one, less one."""
+        return self.ours / self.independent - 1.0
 
 
 @dataclass(frozen=True)
@@ -43,10 +43,10 @@ class Comparison:
 
     def markdown(self) -> str:
         """The whole page."""
-        head = [*self.cases, *(f"{name}: {who}" for name in self.quantities for who in ("ours", "theirs"))]
+        head = [*self.cases, *(f"{name}: {who}" for name in self.quantities for who in ("ours", "independent"))]
         lines = [f"# {self.title}", "", self.about, "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
         for texts, pairs in self.rows:
-            numbers = [f"{value:.{self.digits}f}" for pair in pairs for value in (pair.ours, pair.theirs)]
+            numbers = [f"{value:.{self.digits}f}" for pair in pairs for value in (pair.ours, pair.independent)]
             lines.append("| " + " | ".join((*texts, *numbers)) + " |")
         lines += ["", "| quantity | largest relative deviation | expected |", "|---|---|---|"]
         lines += [

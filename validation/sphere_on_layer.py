@@ -11,7 +11,7 @@ from side_by_side import Comparison, Pair, write
 
 import asperity as asp
 
-PUBLISHED = {
+INDEPENDENT = {
     0.25: (1.446997391651, 0.507137611520, 1.544688967967, 0.421980645886),
     0.5: (1.206607645348, 0.704682272448, 1.227128046026, 0.599867795007),
     1.0: (1.0, 1.0, 1.0, 0.866025403784),
@@ -30,13 +30,13 @@ RADIUS = 10.0 * THICKNESS
 
 def compare(pixels: int = 257) -> Comparison:
     """Ours on ``pixels`` x ``pixels`` with the free boundary; constant pressure on pixels errs by their square."""
-    rows = tuple(((f"{ratio:g}",), _row(ratio, expected, pixels)) for ratio, expected in PUBLISHED.items())
+    rows = tuple(((f"{ratio:g}",), _row(ratio, expected, pixels)) for ratio, expected in INDEPENDENT.items())
     size = WIDTH / pixels
     return Comparison(
         title="Rigid sphere on a coated half-space",
         about=(
             "O'Sullivan & King (1988) in the form of Peng (2001, fig. 2.3): ν₁ = ν₂ = 0.3, h = a₀, R = 10 h, no friction. "
-            "Theirs: Fredholm equation of the second kind for the same problem, 12 digits. Ours: `asperity.solve` with the free "
+            "Independent solution of our own: Fredholm equation of the second kind for the same problem, 12 digits. Ours: `asperity.solve` with the free "
             f"boundary on {pixels} x {pixels} pixels over {WIDTH:g} contact radii. The radius comes from the counted contact "
             "area, the pressure at a/2 from a linear interpolation."
         ),
