@@ -11,6 +11,7 @@ from cli.conftest import LOAD, SCALE, Runner
 from contact_cases import slid
 
 import asperity as asp
+from asperity.core.units import show
 from asperity.io.results import load, open_tree
 from asperity.run.document import load_document
 
@@ -197,3 +198,28 @@ def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> Non
     np.testing.assert_allclose(planes["zz"][0], -solved.pressure, atol=1e-9 * scale)
     np.testing.assert_allclose(planes["xz"][0], -0.3 * solved.pressure, atol=1e-9 * scale)
     assert "The body yields" in result.stdout
+
+
+def test_places_in_the_table_are_those_of_the_screen(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    """The middles of the pixels, as in figures; the library counts from their corners."""
+    out = tmp_path / "run"
+    result = run("contact", matrix, *SCALE, *COATED, *LOAD, "--friction", 0.3, "--depths", "0nm", "--out", out)
+    assert result.exit_code == 0, result.stderr
+    solved = load(out / "result.nc")
+    dx, dy = solved.problem.grid.spacing
+    with (out / "stress.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    names = {"max_von_mises": "von Mises", "max_principal": "tension σ1", "max_shear": "shear (σ1 − σ3)/2"}
+    placed = [row for row in rows if row["part"] == "layer" and row["name"] == "film" and row["quantity"] in names]
+    assert len(placed) == 3
+    printed = " ".join(result.stdout.split("Largest stresses inside each layer")[1].split("base, below")[0].split())
+    for row in placed:
+        x, y = float(row["x"]), float(row["y"])
+        assert x / dx % 1.0 == pytest.approx(0.5)
+        assert y / dy % 1.0 == pytest.approx(0.5)
+        text = f"{names[row['quantity']]} {show(float(row['value']), 'Pa')} {show(x, 'm')} {show(y, 'm')}"
+        assert text in printed
+    surface = asp.stress(solved, [0.0], friction=0.3)
+    peak = surface.peak(surface.von_mises)
+    (von_mises,) = [row for row in placed if row["quantity"] == "max_von_mises" and row["side"] == "surface"]
+    assert (float(von_mises["x"]), float(von_mises["y"])) == pytest.approx((peak.x + 0.5 * dx, peak.y + 0.5 * dy))

@@ -149,3 +149,25 @@ def test_a_force_that_runs_away_is_told(run: Runner, scan: Path) -> None:
     assert found.exit_code == 2
     assert "meniscus force runs away" in found.stderr
     assert "times the external force" in found.stderr
+
+
+def test_the_shear_strength_limits_the_viscous_force(run: Runner, scan: Path, tmp_path: Path) -> None:
+    moving = (*DLC, *WATER, "--friction", 0.3, "--speed", "1m/s")
+    strength, force, area = 3e3, {}, {}
+    for name, more in (
+        ("free", ()),
+        ("limited", ("--shear-strength", "3kPa")),
+        ("strong", ("--shear-strength", "1TPa")),
+    ):
+        out = tmp_path / name
+        assert run("contact", scan, *moving, *more, "--out", out).exit_code == 0
+        wet = asp.load(out / "result.nc")
+        force[name], area[name] = wet.menisci.viscous_force, np.count_nonzero(wet.menisci.wetting.menisci)
+    pixel = wet.problem.grid.pixel_area
+    assert force["free"] / (area["free"] * pixel) > strength
+    assert force["limited"] == pytest.approx(strength * area["limited"] * pixel, rel=1e-12)
+    assert force["strong"] == force["free"]
+    assert load_document(tmp_path / "limited" / "problem.toml").film.shear_strength == strength
+    refused = run("contact", scan, *moving, "--shear-strength", "3nm")
+    assert refused.exit_code == 2
+    assert "--shear-strength" in refused.stderr

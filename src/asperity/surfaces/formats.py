@@ -19,7 +19,7 @@ from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
 from ..core.status import require_memory
 from ..core.units import show, unit_factor
 from .surface import Origin, Surface
-from .text_files import cut_short, gridded, is_table, stated_lines, table
+from .text_files import gridded, is_table, table, text_end
 
 # What a file holds, before it is read.
 
@@ -103,12 +103,12 @@ def _require_whole(
     """Refuse text that may be cut short: broken lines, and where the header does not count them, no last line break or
     pixels that are not square. Returns the ``size`` that is still to be used: None if it confirms the one in the file.
     """
-    if line := cut_short(file):
+    line, lines, ended = text_end(file)
+    if line:
         raise FileFormatError(
             f"file {file} was cut short or is damaged: line {line} is no complete row of numbers.",
             subject=f"file {file}",
         )
-    lines = stated_lines(file)
     if lines is not None and lines != info.shape[1]:
         raise FileFormatError(
             f"file {file} was cut short or is damaged: it has {info.shape[1]} of {lines} lines.", subject=f"file {file}"
@@ -118,9 +118,6 @@ def _require_whole(
     if size is not None and np.allclose(size, info.size, rtol=_SQUARE, atol=0.0):
         return None
     (length_x, length_y), (nx, ny) = info.size, info.shape
-    with file.open("rb") as stream:
-        stream.seek(-1, 2)
-        ended = stream.read() == b"\n"
     if not ended or abs(length_x / nx - length_y / ny) > _SQUARE * length_x / nx:
         lengths = f"{show(length_x, 'm', 6)} x {show(length_y, 'm', 6)}"
         raise FileFormatError(

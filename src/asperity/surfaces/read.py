@@ -28,8 +28,10 @@ def read(
       that the instrument software shows has its top row at the largest y.
     * Surfaces saved by this package (.nc) come back whole, with period and history.
     * Text matrices (.txt, .dat, .asc, .csv, .tsv, .xyz): one line per row of the picture, top row first, separated by
-      blanks, tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``. A row of
-      column names and decimal commas (with blanks, tabs or semicolons between) are understood.
+      blanks, tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``. One
+      title or a row of column names, and decimal commas (with blanks, tabs or semicolons between) are understood. A text
+      that was cut exactly between two lines is refused where its header counts them or its pixels cease to be square;
+      otherwise nothing tells it from a whole one.
     * Lists of points, in the same text files: three columns x, y, z on more than three lines, in any order, on a
       regular grid on which points may be missing. They need ``lateral_unit`` and ``height_unit``.
     * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.

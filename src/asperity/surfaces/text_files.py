@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,10 +19,11 @@ _SPARSE = 4  # nodes of the grid for every point of a list, at most
 
 
 def is_table(file: Path) -> bool:
-    """Whether a text begins with a row of numbers, after comments (#) and one row of column names at most."""
+    """Whether a text begins with a row of numbers, after comments (#) and one title or row of column names at most."""
     with file.open("rb") as stream:
         start = stream.read(_START)
     lines = start.decode("utf-8-sig", "replace").splitlines()
+    lines = lines[:-1] if len(start) == _START and len(lines) > 2 else lines  # the last one may go on
     return b"\0" not in start and _first_row(lines) is not None
 
 
@@ -39,23 +41,32 @@ def table(file: Path) -> RealArray:
     return np.loadtxt(rows, delimiter=delimiter, ndmin=2)
 
 
-def cut_short(file: Path) -> int:
-    """Number of the first line after the first row of numbers that begins as one but is none; 0 if there is none."""
-    started = False
-    for number, line in enumerate(file.read_text(encoding="utf-8-sig", errors="replace").splitlines(), start=1):
+class TextEnd(NamedTuple):
+    """How whole a text with a matrix is.
+
+    ``broken``: number of the first line after the first row of numbers that begins as one but is none, 0 if there is none;
+    ``lines``: number of lines of the map by the header of a text that asperity wrote, None in other texts; ``ended``: whether
+    the last line has its line break.
+    """
+
+    broken: int
+    lines: int | None
+    ended: bool
+
+
+def text_end(file: Path) -> TextEnd:
+    """How whole the text in ``file`` is."""
+    text = file.read_text(encoding="utf-8-sig", errors="replace")
+    stated = _STATED_LINES.search(text, 0, _START)
+    started, broken = False, 0
+    for number, line in enumerate(text.splitlines(), start=1):
         cells = line.split()
         if cells and all(_is_number(cell) for cell in cells):
             started = True
         elif started and cells and cells[0][0] in "+-.0123456789":
-            return number
-    return 0
-
-
-def stated_lines(file: Path) -> int | None:
-    """Number of lines of the map by the header of a text that asperity wrote; None in other texts."""
-    with file.open("rb") as stream:
-        found = _STATED_LINES.search(stream.read(_START).decode("utf-8-sig", "replace"))
-    return int(found[1]) if found else None
+            broken = number
+            break
+    return TextEnd(broken, int(stated[1]) if stated else None, text.endswith("\n"))
 
 
 def gridded(points: RealArray) -> tuple[RealArray, None, tuple[float, float]]:
@@ -123,12 +134,31 @@ def _first_row(lines: list[str]) -> int | None:
         delimiter, comma = _separator(line)
         cells = line.strip(" \t,;").split(delimiter)
         if _is_number(cells[0].replace(",", ".") if comma else cells[0]):
-            named = names is None or len(names.strip(" \t,;").split(delimiter)) == len(cells)
+            titles = [] if names is None else names.strip(" \t,;").split(delimiter)
+            named = names is None or len(titles) == len(cells) or _is_title(titles, lines[number:], len(cells))
             return number if named else None
         if names is not None:
             return None
         names = line
     return None
+
+
+_SAMPLE = 20  # rows behind a title that are compared; other formats have several lines of numbers of their own first
+
+
+def _is_title(titles: list[str], rows: list[str], columns: int) -> bool:
+    """Whether a line before the ``rows`` is their title: words without numbers, marks of a header or a cell for each column.
+
+    Only where all of the first rows have ``columns`` numbers: the head of another format is no title.
+    """
+    if len(titles) >= columns or any(_is_number(cell) or set(cell) & set(':=[]{}"') for cell in titles):
+        return False
+    for row in [row for row in rows if row.strip()][:_SAMPLE]:
+        delimiter, comma = _separator(row)
+        cells = row.strip(" \t,;").split(delimiter)
+        if len(cells) != columns or not all(_is_number(c.replace(",", ".") if comma else c) for c in cells):
+            return False
+    return True
 
 
 def _separator(row: str) -> tuple[str | None, bool]:

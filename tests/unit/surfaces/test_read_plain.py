@@ -240,3 +240,47 @@ def test_a_name_that_is_too_long_and_a_damaged_record_are_refused(tmp_path):
         (tmp_path / "a.nc").write_bytes(wrong)
         with pytest.raises(FileFormatError):
             read(tmp_path / "a.nc", size=SIZE, height_unit="nm")
+
+
+TITLES = [("Disk A, side 2\n", ";"), ("A disk\n", ","), ("# scan 3\nSurface\n", " "), ("A disk\n\n", "\t")]
+
+
+@pytest.mark.parametrize(("title", "mark"), TITLES)
+def test_one_title_before_the_numbers_is_left_out(tmp_path, title, mark):
+    rows = "\n".join(mark.join(str(v) for v in row) for row in PICTURE)
+    (tmp_path / "a.csv").write_text(title + rows, encoding="utf-8")
+    np.testing.assert_allclose(read(tmp_path / "a.csv", size=SIZE, height_unit="nm").heights, EXPECTED * 1e-9)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "DSAA\n4,3\n0,4\n0,3\n1,12\n",  # head of another format, in which rows are shorter
+        "size: 4 um\n",  # what states something that would be lost
+        "Title\nSecond title\n",
+        "one,two,three,four,five\n",  # more names than columns
+        "1.5,nm\n",
+        "Title\n1,2,3\n",  # a row that is cut short
+    ],
+)
+def test_what_may_be_the_head_of_a_format_is_no_title(tmp_path, head):
+    (tmp_path / "a.csv").write_text(head + "\n".join(",".join(map(str, row)) for row in PICTURE), encoding="utf-8")
+    with pytest.raises(FileFormatError):
+        read(tmp_path / "a.csv", size=SIZE, height_unit="nm")
+
+
+def test_a_title_stands_before_rows_longer_than_what_is_looked_at(tmp_path):
+    heights = np.random.default_rng(1).standard_normal((3, 9000))
+    np.savetxt(tmp_path / "a.csv", heights, delimiter=",", header="A disk", comments="")
+    assert read(tmp_path / "a.csv", size=SIZE, height_unit="nm").shape == (9000, 3)
+
+
+def test_a_text_is_read_once_more_at_the_most_to_see_whether_it_is_whole(tmp_path, monkeypatch):
+    path = tmp_path / "export.txt"
+    header = "# Channel: Z\n# Width: 4 µm\n# Height: 3 µm\n# Value units: m\n"
+    path.write_text(header + "".join(" ".join(f"{v}e-9" for v in row) + "\n" for row in PICTURE), encoding="utf-8")
+    reads = []
+    whole = Path.read_text
+    monkeypatch.setattr(Path, "read_text", lambda self, **options: reads.append(self) or whole(self, **options))
+    read(path)
+    assert reads == [path]
