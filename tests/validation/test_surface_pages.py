@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import crossed_waves
 import figure_10
 import gallery
 import gold_film
@@ -20,6 +21,7 @@ RUNS = {
     "standard_surface": lambda: standard_surface.page(realisations=8),
     "figure_10": lambda: figure_10.page(realisations=1, loads=(0.008, 0.03, 0.1)),
     "interacting_crests": interacting_crests.page,
+    "crossed_waves": lambda: crossed_waves.page(points=128),
     "scan_size": lambda: scan_size.page(count=8, sides=(4e-6, 64e-6)),
 }
 
