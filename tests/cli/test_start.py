@@ -13,6 +13,7 @@ from cli.conftest import Runner
 from heavy_imports import HEAVY
 
 from asperity.cli.main import COMMANDS as PROGRAM
+from asperity.cli.main import Program
 
 
 def test_help_imports_nothing_heavy() -> None:
@@ -58,8 +59,8 @@ def test_help_lists_every_command(run: Runner) -> None:
 
 
 def test_every_command_has_help(run: Runner) -> None:
-    for name, (module, line) in PROGRAM.items():
-        command = getattr(importlib.import_module(f"asperity.cli.{module}"), name)
+    for name, line in Program.lines().items():
+        command = getattr(importlib.import_module(f"asperity.cli.{PROGRAM[name]}"), name)
         assert command.__doc__.partition("\n")[0] == line, "the list of commands and the page agree"
         page = " ".join(run(name, "-h").stdout.split())
         assert f"Usage: root {name}" in page or f"Usage: asperity {name}" in page, name

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 import typer
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperCommand
 
 from ..core import units
 from ..core.errors import InputError
@@ -247,21 +247,6 @@ def _whole_page(ctx: typer.Context, wanted: bool) -> None:
         ctx.meta[WHOLE] = True
         typer.echo(ctx.get_help())
         raise typer.Exit
-
-
-class Listing(TyperGroup):
-    """Group of commands that are made when they are asked for; its page lists them with one line each."""
-
-    lines: ClassVar[Callable[[], Mapping[str, str]]]
-
-    def list_commands(self, ctx: Any) -> list[str]:
-        """Names of the commands."""
-        return list(type(self).lines())
-
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write name and line of each command."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(type(self).lines().items()))
 
 
 def built(command: Callable[..., None], name: str, options: Sequence[Option] | None = None) -> Any:

@@ -26,7 +26,8 @@ from ..surfaces.generate import endless
 from ..surfaces.generate.gaussian import Spectrum
 from ..surfaces.generate.non_gaussian import Marginal
 from ..surfaces.surface import Surface
-from .declared import Given, Listing, Option, built, options_of
+from .declared import Given, Option, built, options_of
+from .main import Listing
 from .options import steps
 from .show import confirmed, console, interruptible, print_files, say, shown, stage, table
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import difflib
 import errno
-import importlib
+import importlib.resources
 import io
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import typer
 from typer.core import TyperGroup
@@ -25,34 +25,61 @@ INTERNAL_ERROR = 3
 INTERRUPTED = 130
 """Exit codes."""
 
-COMMANDS: Mapping[str, tuple[str, str]] = MappingProxyType(
+COMMANDS: Mapping[str, str] = MappingProxyType(
     {
-        "contact": (
-            "contact",
-            "Press rough surfaces against a body: contact area, pressure, gap; menisci and stresses.",
-        ),
-        "demo": ("contact", "Solve a built-in problem: a rough magnetic disk under a flat slider. Nothing to prepare."),
-        "stress": ("stress", "Compute the stresses in a saved contact, without solving it again."),
-        "compare": ("compare", "Compare every theory of rough contact with the numerical solution, on one surface."),
-        "run": ("campaigns", "Run or resume a campaign over many contacts: only missing cases are computed."),
-        "status": ("campaigns", "Tell how far a campaign is, also while it runs."),
-        "collect": ("campaigns", "Write what a campaign has found so far: NetCDF, CSV, pictures and a report."),
-        "info": ("info", "Tell what is in files with heights: channels, size, pixel, units, roughness."),
-        "generate": ("generate", "Generate a rough surface, a texture or an indenter and write it to a file."),
-        "theory": ("theory", "Evaluate a theory, from numbers or for a measured surface."),
-        "materials": ("materials", "List the named materials with their values and sources."),
-        "liquids": ("materials", "List the named liquids for films between surfaces, with their values and sources."),
-        "plot": ("results", "Draw the figures of a result as PNG files."),
-        "report": ("results", "Write the report of a result again, from what its file holds."),
-        "export": ("results", "Write a result for other programs."),
-        "cite": ("results", "Print the papers behind the numbers of a result or a problem."),
+        **dict.fromkeys(("contact", "demo"), "contact"),
+        "stress": "stress",
+        "compare": "compare",
+        **dict.fromkeys(("run", "status", "collect"), "campaigns"),
+        "info": "info",
+        "generate": "generate",
+        "theory": "theory",
+        **dict.fromkeys(("materials", "liquids"), "materials"),
+        **dict.fromkeys(("plot", "report", "export", "cite"), "results"),
     }
 )
-"""Module and line of the help of each command, in the order of the help."""
+"""Module of each command, in the order of the help."""
 
 
-class Reporting(TyperGroup):
-    """Group of commands that turns every exception into a sentence on stderr and an exit code."""
+class Listing(TyperGroup):
+    """Group of commands that are made when they are asked for; its page lists them with one line each."""
+
+    lines: ClassVar[Callable[[], Mapping[str, str]]]
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names of the commands."""
+        return list(type(self).lines())
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write name and line of each command."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(type(self).lines().items()))
+
+
+class Program(Listing):
+    """The commands, each made when it is asked for; every exception ends as a sentence on stderr and an exit code."""
+
+    @staticmethod
+    def lines() -> Mapping[str, str]:
+        """Names of the commands and the first lines of their docstrings, read from the text: modules take long to import."""
+        folder = importlib.resources.files(__package__)
+        texts = {module: folder.joinpath(f"{module}.py").read_text(encoding="utf-8") for module in COMMANDS.values()}
+        begin = {name: texts[module].partition(f"\ndef {name}(")[2] for name, module in COMMANDS.items()}
+        return {name: text.split('"""')[1].partition("\n")[0] for name, text in begin.items()}
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Command of a name; None if there is none."""
+        if cmd_name not in COMMANDS:
+            near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
+            if near and not ctx.resilient_parsing:
+                ctx.fail(f"No such command {cmd_name!r}; did you mean {near[0]}?")
+            return None
+        from .declared import built
+
+        module = importlib.import_module(f".{COMMANDS[cmd_name]}", __package__)
+        if hasattr(module, "app"):
+            return typer.main.get_command(module.app)
+        return built(getattr(module, cmd_name), cmd_name)
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; leave deliberate exits to typer."""
@@ -104,33 +131,6 @@ def _say(sentence: str, *, traceback: bool = False) -> None:
     console.print(
         printable(f"asperity: {sentence}", keep="\n\t"), style="red", markup=False, highlight=False, soft_wrap=True
     )
-
-
-class Program(Reporting):
-    """The commands, each made when it is asked for."""
-
-    def list_commands(self, ctx: Any) -> list[str]:
-        """Names of the commands."""
-        return list(COMMANDS)
-
-    def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Command of a name; None if there is none."""
-        if cmd_name not in COMMANDS:
-            near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
-            if near and not ctx.resilient_parsing:
-                ctx.fail(f"No such command {cmd_name!r}; did you mean {near[0]}?")
-            return None
-        from .declared import built
-
-        module = importlib.import_module(f".{COMMANDS[cmd_name][0]}", __package__)
-        if hasattr(module, "app"):
-            return typer.main.get_command(module.app)
-        return built(getattr(module, cmd_name), cmd_name)
-
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write name and line of each command."""
-        with formatter.section("Commands"):
-            formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
 
 
 app = typer.Typer(

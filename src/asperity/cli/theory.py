@@ -31,7 +31,8 @@ from ..theories.ask import Evaluation, evaluate, ways_of
 from ..theories.catalogue import FAMILIES, THEORIES
 from ..theories.catalogue import theory as theory_of
 from ..theories.protocol import Described, Limit
-from .declared import FILE, Given, Listing, Option, built, options_of
+from .declared import FILE, Given, Option, built, options_of
+from .main import Listing
 from .options import READING, body_options, levelled_as, read_surface, reading_options
 from .show import console, print_files, say, table
 
