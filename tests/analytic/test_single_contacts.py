@@ -89,6 +89,14 @@ def test_hertz_in_three_ways():
     assert answer.stiffness == pytest.approx(rise / (2.0 * step * answer.approach), rel=1e-9)
 
 
+def test_line_contact_in_three_ways():
+    theory = HertzLine(E_star=70e9, radius=1e-3)
+    answer = theory.at_load([1.0, 2e4])
+    for again in (theory.at_half_width(answer.radius), theory.at_peak(answer.max_pressure)):
+        assert again.load == pytest.approx(answer.load, rel=1e-13)
+    assert answer.load == pytest.approx(0.5 * np.pi * answer.max_pressure * answer.radius, rel=1e-13)
+
+
 def test_hertz_displacements_flatten_the_sphere_and_decay_as_a_point_force():
     theory, load = HertzPoint(1.0, 2.0), 0.3
     answer = theory.at_load(load)

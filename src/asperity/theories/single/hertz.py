@@ -131,6 +131,11 @@ class HertzLine(Theory):
             stiffness=unknown,
         )
 
+    def at_peak(self, pressure: ArrayLike) -> ContactAnswer:
+        """The contact whose largest pressure p0 in Pa is ``pressure``, >= 0, of any shape."""
+        p0 = checked(pressure, "largest pressure (Pa)")
+        return self.at_half_width(2.0 * p0 * self.radius / self.E_star)
+
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0."""
         answer = self.at_load(require.positive(load, "load per length (N/m)"))
