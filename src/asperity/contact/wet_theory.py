@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import dataclass
 
@@ -16,7 +17,6 @@ from ..theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 from .problem import ContactProblem
 from .result import ContactResult
 from .roughness import roughness_of
-from .wetting import LiquidFilm
 
 HAMAKER = 1e-19
 """Hamaker constant in J of solid, liquid and vapour in remarks on the growth of menisci; of the usual order."""
@@ -81,7 +81,13 @@ def wet_theory(result: ContactResult) -> WetTheory:
     contact = KotwalBhushan.from_roughness(roughness, problem.contact_modulus).greenwood_williamson
     angle = math.acos(wetting_factor(*film.contact_angles) - 1.0)
     statistical = StatisticalMeniscus(contact, film.surface_tension, film.thickness, angle)
-    growth, area = _growth(film, contact.radius, angle), problem.grid.area
+    growth, area = None, problem.grid.area
+    if not math.isnan(film.viscosity):
+        with contextlib.suppress(
+            InputError
+        ):  # the disjoining pressure of so thin a film exceeds the suction of its menisci
+            liquid = (film.surface_tension, film.thickness, film.viscosity, HAMAKER, angle)
+            growth = MeniscusGrowth(contact.radius, *liquid)
     pressure = np.array([load / area])
     balance = statistical.at_pressure(pressure)
     first = math.nan
@@ -105,13 +111,3 @@ def _roughness(problem: ContactProblem) -> tuple[Roughness, int]:
     if count < FEWEST:
         raise InputError(f"profile must have at least {FEWEST} summits for the theory of summits, but has {count}.")
     return found, count
-
-
-def _growth(film: LiquidFilm, radius: float, angle: float) -> MeniscusGrowth | None:
-    """Growth of a meniscus in ``film`` on a summit of ``radius`` in m; None where nothing grows or it is not known how."""
-    if math.isnan(film.viscosity):
-        return None
-    try:
-        return MeniscusGrowth(radius, film.surface_tension, film.thickness, film.viscosity, HAMAKER, angle)
-    except InputError:  # the disjoining pressure of so thin a film exceeds the suction of its menisci
-        return None

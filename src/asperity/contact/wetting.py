@@ -188,13 +188,9 @@ def wetting(
     # liquid that bridges the gap: a contact with no other pixel around it holds no meniscus
     menisci = kept & ~contact
     numbers = np.where(kept, np.cumsum(holds)[labels], 0)
-    regime = _regime(numbers, kept, menisci, wraps)
-    return Wetting(wetted, cut, kept, menisci, numbers, count, int(holds.sum()), regime)
-
-
-def _regime(labels: Labels, kept: BoolArray, menisci: BoolArray, wraps: tuple[bool, bool]) -> str:
+    regime = "pillbox" if spans(numbers, wraps=wraps).any() else "toe-dipping"
     if not menisci.any():
-        return "dry"
-    if kept.mean() >= FLOODED:
-        return "flooded"
-    return "pillbox" if spans(labels, wraps=wraps).any() else "toe-dipping"
+        regime = "dry"
+    elif kept.mean() >= FLOODED:
+        regime = "flooded"
+    return Wetting(wetted, cut, kept, menisci, numbers, count, int(holds.sum()), regime)

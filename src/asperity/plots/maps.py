@@ -123,7 +123,13 @@ def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     title = f"{look.label} ({in_unit.symbol})"
     drawn = in_unit(values)
     if 1 in grid.shape:
-        return _plot_curve(drawn.ravel(), grid, ax, title, log=look.log)
+        axis = 0 if grid.shape[0] >= grid.shape[1] else 1
+        length: Scale = scale(grid.size[axis], "m")
+        places = (np.arange(drawn.size) + 0.5) * grid.spacing[axis]
+        ax.plot(length(places), drawn.ravel(), color=BLUE, marker=".", markersize=3.0)
+        ax.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=title, xlim=(0.0, float(length(grid.size[axis]))))
+        ax.set_yscale("log" if look.log else "linear")
+        return ax
     low, high = _limits(drawn, from_zero=look.from_zero)
     if look.about_zero:
         low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
@@ -289,13 +295,3 @@ def enlarge_island(
     if window is not None:
         enlarge(ax, grid, window, title)
     return window is not None
-
-
-def _plot_curve(values: RealArray, grid: Grid, ax: Axes, title: str, *, log: bool) -> Axes:
-    axis = 0 if grid.shape[0] >= grid.shape[1] else 1
-    length: Scale = scale(grid.size[axis], "m")
-    ax.plot(length((np.arange(values.size) + 0.5) * grid.spacing[axis]), values, color=BLUE, marker=".", markersize=3.0)
-    if log:
-        ax.set_yscale("log")
-    ax.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=title, xlim=(0.0, float(length(grid.size[axis]))))
-    return ax

@@ -300,7 +300,9 @@ def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
     for number, section in enumerate(survey.sections, start=1):
         yield from _section(section, number, wraps=boundary.wraps["xy".index(section.field.dims[1])])
     for number, field in enumerate(survey.profiles, start=1):
-        picture = png(partial(plot_stress_profile, field, quantities=_worth_drawing(field)), CURVE_SIZE)
+        sizes = {name: float(np.abs(getattr(field, name)).max()) for name in PROFILE}
+        quantities = tuple(name for name, size in sizes.items() if size > 1e-3 * max(sizes.values()))
+        picture = png(partial(plot_stress_profile, field, quantities=quantities), CURVE_SIZE)
         caption = "Stresses against depth; a break where a stress jumps at an interface."
         yield Figure(f"stress_profile_{number}", f"Depth profile {number}", caption, picture)
 
@@ -375,8 +377,3 @@ def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> Stres
     tensor = field.tensor.map(lambda component: component.take(part, 1, mode="wrap"))
     lines = {"x": field.x, "y": field.y} | {axis: line[0] + step * part}
     return replace(field, tensor=tensor, x=lines["x"], y=lines["y"])
-
-
-def _worth_drawing(field: StressField) -> tuple[str, ...]:
-    sizes = {name: float(np.abs(getattr(field, name)).max()) for name in PROFILE}
-    return tuple(name for name, size in sizes.items() if size > 1e-3 * max(sizes.values()))

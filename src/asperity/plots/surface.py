@@ -111,7 +111,8 @@ def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
         for axis, colour in (("x", BLUE), ("y", ORANGE)):
             lags, values = covariance.along(axis)
             part = lags <= min(reach, longest)
-            label = f"along {axis}{_length_text(found, axis, in_unit)}"
+            length = float(in_unit(getattr(found.spatial, f"beta_e_{axis}")))
+            label = f"along {axis}" + ("" if math.isnan(length) else f", $\\beta_e$ {length:.3g} {in_unit.symbol}")
             ax.plot(in_unit(lags[part]), values[part] / covariance.mean_square, color=colour, label=label)
         ax.legend(loc="upper right")
     return ax
@@ -123,11 +124,6 @@ def _reach(found: Characterisation) -> float:
     lengths = np.array([found.spatial.beta_e_x, found.spatial.beta_e_y])
     known: RealArray = lengths[np.isfinite(lengths) & (lengths > 0.0)]
     return min(half, 6.0 * float(known.max())) if known.size else half
-
-
-def _length_text(found: Characterisation, axis: str, in_unit: Scale) -> str:
-    length = getattr(found.spatial, f"beta_e_{axis}")
-    return f", $\\beta_e$ {float(in_unit(length)):.3g} {in_unit.symbol}" if length == length else ""
 
 
 def _fill_reduced(ax: Axes, width: float, heights: tuple[float, float], *, at_left: bool) -> None:
@@ -285,7 +281,10 @@ def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
 
 def _draw_fit(fit: SpectralFit, unit: Scale, ax: Axes) -> None:
     q = np.geomspace(fit.first, fit.last, 400)
-    ax.plot(q * unit.factor, fit.model.psd(q) / unit.factor**4, color=VERMILLION, label=_fit_text(fit))
+    label = ", ".join(f"$q^{{{-exponent:.2f}}}$" for exponent in fit.model.exponents)
+    if 0.0 < fit.model.hurst[0] <= 1.0:
+        label += f", H = {fit.model.hurst[0]:.2f} ± {fit.hurst_error:.2f}"
+    ax.plot(q * unit.factor, fit.model.psd(q) / unit.factor**4, color=VERMILLION, label=label)
     ax.axvspan(fit.first * unit.factor, fit.last * unit.factor, color=SKY, alpha=0.13, linewidth=0.0)
     bends = [(fit.model.rolloff_wavelength, r"$\lambda_r$", BLACK)] if fit.has_rolloff else []
     if len(fit.model.exponents) == 2:
@@ -293,12 +292,6 @@ def _draw_fit(fit: SpectralFit, unit: Scale, ax: Axes) -> None:
     for wavelength, name, colour in bends:
         label = f"{name} {show(wavelength, 'm', 3)}"
         ax.axvline(2.0 * math.pi / wavelength * unit.factor, color=colour, linewidth=0.8, linestyle=":", label=label)
-
-
-def _fit_text(fit: SpectralFit) -> str:
-    laws = ", ".join(f"$q^{{{-exponent:.2f}}}$" for exponent in fit.model.exponents)
-    hurst = fit.model.hurst[0]
-    return f"{laws}, H = {hurst:.2f} ± {fit.hurst_error:.2f}" if 0.0 < hurst <= 1.0 else laws
 
 
 def _wavelengths(unit: Scale, ax: Axes) -> None:

@@ -258,21 +258,17 @@ def _split(shape: Shape, values: RealArray) -> tuple[float, float, float, tuple[
 
 def _log_psd(shape: Shape, values: RealArray, log_q: RealArray) -> tuple[RealArray, RealArray]:
     """ln C at ``log_q`` and its derivatives by the parameters, shape (parameters, rings)."""
-    rest = [float(v) for v in values]
-    log_c = np.full(log_q.shape, rest.pop(0))
+    level, log_r, bend, exponents, floor = _split(shape, values)
     rows: list[RealArray] = [np.ones(log_q.shape)]
-    log_r = rest.pop(0) if shape.plateau else 0.0
-    distance = rest.pop(0) if shape.slopes == 2 else math.inf
-    exponents = [rest.pop(0) for _ in range(shape.slopes)]
     first = np.maximum(log_q - log_r, 0.0) if shape.plateau else log_q
-    log_c = log_c - exponents[0] * first
+    log_c = level - exponents[0] * first
     beyond = (log_q > log_r).astype(float)
     slope_rows = [-first]
     if shape.plateau:
         rows.append(exponents[0] * beyond)
     if shape.slopes == 2:
         step = exponents[1] - exponents[0]
-        second = np.maximum(log_q - log_r - distance, 0.0)
+        second = np.maximum(log_q - bend, 0.0)
         past = (second > 0.0).astype(float)
         log_c = log_c - step * second
         rows += [step * past]
@@ -281,7 +277,7 @@ def _log_psd(shape: Shape, values: RealArray, log_q: RealArray) -> tuple[RealArr
         slope_rows = [second - first, -second]
     rows += slope_rows
     if shape.floor:
-        total = np.logaddexp(log_c, rest[0])
+        total = np.logaddexp(log_c, floor)
         share = np.exp(log_c - total)
         return total, np.array([row * share for row in rows] + [1.0 - share])
     return log_c, np.array(rows)

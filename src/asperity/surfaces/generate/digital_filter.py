@@ -246,7 +246,10 @@ def endless(
     grid = Grid((2 * kernel.reach[0] + 1, 2 * kernel.reach[1] + 1), (dx, dy))
     length = f"{show(kernel.reach[0] * dx, 'm')} x {show(kernel.reach[1] * dy, 'm')}"
     how = f"reach {length}, error of the autocorrelation {kernel.error:.1e}, Philox seed {seed}"
-    origin = _origin(spectrum, _embedded(spectrum, grid), (skewness, kurtosis), noise, how)
+    # a grid on which the spectrum can be described: at least as large as its embedding
+    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
+    nx, ny = (max(n, int(np.ceil(side / d))) for n, side, d in zip(grid.shape, sides, grid.spacing, strict=True))
+    origin = _origin(spectrum, Grid((nx, ny), grid.spacing), (skewness, kurtosis), noise, how)
     return EndlessSurface(kernel, noise, seed, origin)
 
 
@@ -299,13 +302,6 @@ def input_noise(weights: RealArray, skewness: float, kurtosis: float, system: st
             "Use rank_ordered() or translated(), or larger pixels."
         )
     return height_law(skew, kurt, system)
-
-
-def _embedded(spectrum: Spectrum, grid: Grid) -> Grid:
-    """A grid on which ``spectrum`` can be described: at least as large as its embedding."""
-    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
-    nx, ny = (max(n, int(np.ceil(side / d))) for n, side, d in zip(grid.shape, sides, grid.spacing, strict=True))
-    return Grid((nx, ny), grid.spacing)
 
 
 def _origin(spectrum: Spectrum, grid: Grid, moments: tuple[float, float], noise: HeightLaw, how: str) -> Origin:

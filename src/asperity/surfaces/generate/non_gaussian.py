@@ -77,7 +77,11 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
         skewness = 0.0
     if skewness < 0.0:
         return _mirrored(johnson(-skewness, kurtosis))
-    w = _lognormal_w(skewness)
+    from scipy.optimize import brentq
+
+    # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >= 9
+    top = 1.0 + skewness**2 / 9.0 + 1e-15
+    w = float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - skewness**2, 1.0, top, xtol=1e-15, rtol=1e-14))
     line = w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
     if abs(kurtosis - line) <= _ON_LINE * line:
         if skewness == 0.0:
@@ -96,15 +100,6 @@ def _mirrored(other: Johnson) -> Johnson:
     if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
         return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
     return other
-
-
-def _lognormal_w(skewness: float) -> float:
-    """w = exp(1/δ²) >= 1 with (w - 1)(w + 2)² = skewness²."""
-    from scipy.optimize import brentq
-
-    square = skewness**2
-    upper = 1.0 + square / 9.0  # (w + 2)² >= 9
-    return float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - square, 1.0, upper + 1e-15, xtol=1e-15, rtol=1e-14))
 
 
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:

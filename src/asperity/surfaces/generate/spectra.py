@@ -205,11 +205,17 @@ class TabulatedSpectrum:
     def __init__(
         self, q: ArrayLike, psd: ArrayLike, *, words: str = "tabulated spectrum", citation_keys: tuple[str, ...] = ()
     ) -> None:
-        columns = [np.array(values, dtype=np.float64) for values in (q, psd)]
-        _require_table(columns[0], columns[1])
-        for values in columns:
-            values.flags.writeable = False
-        given = {"q": columns[0], "psd": columns[1], "words": words, "citation_keys": tuple(citation_keys)}
+        q, psd = (np.array(values, dtype=np.float64) for values in (q, psd))
+        if q.ndim != 1 or q.shape != psd.shape or q.size < 2:
+            raise InputError(
+                f"table of a spectrum must have two columns of equal length, at least 2, but has {q.shape} and {psd.shape}."
+            )
+        if not (np.isfinite(q).all() and np.isfinite(psd).all() and q[0] > 0.0 and (np.diff(q) > 0.0).all()):
+            raise InputError("wavenumbers of a spectrum (rad/m) must be positive and ascending numbers, but are not.")
+        if not ((psd >= 0.0).all() and psd.any()):
+            raise InputError("spectrum C (m^4) of a table must not be negative, and positive somewhere, but is not.")
+        q.flags.writeable = psd.flags.writeable = False
+        given = {"q": q, "psd": psd, "words": words, "citation_keys": tuple(citation_keys)}
         for name, value in given.items():
             object.__setattr__(self, name, value)
 
@@ -345,17 +351,6 @@ def _plane(psd: RealArray, count_y: int) -> RealArray:
         rows = np.concatenate([rows, rows[:1]])  # both signs of the Nyquist wavenumber
     column = min(1, count_y // 2)
     return np.concatenate([rows[::-1, column : column + 1], rows], axis=1)
-
-
-def _require_table(q: RealArray, psd: RealArray) -> None:
-    if q.ndim != 1 or q.shape != psd.shape or q.size < 2:
-        raise InputError(
-            f"table of a spectrum must have two columns of equal length, at least 2, but has {q.shape} and {psd.shape}."
-        )
-    if not (np.isfinite(q).all() and np.isfinite(psd).all() and q[0] > 0.0 and (np.diff(q) > 0.0).all()):
-        raise InputError("wavenumbers of a spectrum (rad/m) must be positive and ascending numbers, but are not.")
-    if not ((psd >= 0.0).all() and psd.any()):
-        raise InputError("spectrum C (m^4) of a table must not be negative, and positive somewhere, but is not.")
 
 
 # The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it was averaged over.

@@ -255,14 +255,8 @@ def periodised(surface: Surface) -> Surface:
         return surface
     require_complete(surface, "periodised")
     heights = surface.heights.astype(np.float64, copy=False)
-    smooth = _smooth_component(heights, surface.grid.spacing)
-    text = f"periodised: smooth component (rms {show(float(smooth.std()), 'm', 3)}) removed"
-    return recorded(surface, heights - smooth, text, periodic=True, citation_keys=("Moisan2011",))
-
-
-def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealArray:
-    (nx, ny), smallest = heights.shape, min(spacing)
-    weight_x, weight_y = ((smallest / step) ** 2 for step in spacing)
+    (nx, ny), smallest = heights.shape, min(surface.grid.spacing)
+    weight_x, weight_y = ((smallest / step) ** 2 for step in surface.grid.spacing)
     jumps = np.zeros_like(heights)
     jump_x, jump_y = weight_x * (heights[-1] - heights[0]), weight_y * (heights[:, -1] - heights[:, 0])
     jumps[0] += jump_x
@@ -275,4 +269,6 @@ def _smooth_component(heights: RealArray, spacing: tuple[float, float]) -> RealA
     transform = RealTransform((nx, ny))
     spectrum = transform.forward(jumps) / laplacian
     spectrum[0, 0] = 0.0
-    return transform.backward(spectrum)
+    smooth = transform.backward(spectrum)
+    text = f"periodised: smooth component (rms {show(float(smooth.std()), 'm', 3)}) removed"
+    return recorded(surface, heights - smooth, text, periodic=True, citation_keys=("Moisan2011",))

@@ -25,12 +25,11 @@ from ..protocol import (
     Prediction,
     SummitDensity,
     SummitRadius,
-    Theory,
     bisected,
     curve,
     prediction,
 )
-from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson
+from ..rough.greenwood_williamson import HIGHEST, LOWEST, GreenwoodWilliamson, OnSummits
 from ..statistics.roughness import Roughness
 from .spheres import JKR, approach_ratio, contact_ratio, load_ratio
 
@@ -40,7 +39,7 @@ _JUMP_IN = 4.0 ** (2.0 / 3.0)  # a/ac of JKR at zero approach
 
 
 @dataclass(frozen=True)
-class FullerTabor(Theory):
+class FullerTabor(OnSummits):
     """Summits of one radius and Gaussian heights with JKR's adhesion at each.
 
     With the pull-off force P_c and the extension δ_c of one summit, Δ_c = δ_c/σ_s and D the separation over σ_s,
@@ -97,19 +96,9 @@ class FullerTabor(Theory):
         return cls(E_star, s.density, s.radius, s.height_deviation, work, s.mean_height, parting, spacing)
 
     @property
-    def summits(self) -> GreenwoodWilliamson:
-        """The same summits without adhesion."""
-        return GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
-
-    @property
     def sphere(self) -> JKR:
         """One summit."""
         return JKR(self.E_star, self.radius, self.work, self.spacing)
-
-    @property
-    def roughness_ratio(self) -> float:
-        """σ_s/R."""
-        return self.height_deviation / self.radius
 
     @property
     def reach(self) -> float:

@@ -126,12 +126,13 @@ class JKR(_AdhesiveSphere):
         x = a / self.critical_radius
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (np.sqrt(x) * x - 3.0) / (np.sqrt(x) * x - 1.0)  # dP/dδ = 2E*a (x^1.5 - 3)/(x^1.5 - 1)
+            pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
         return ContactAnswer(
             load=self.pull_off * load_ratio(x),
             approach=self.critical_extension * approach_ratio(x),
             radius=a,
             area=np.pi * a**2,
-            max_pressure=self._central(a),
+            max_pressure=2.0 / np.pi * self.E_star * a / self.radius - pull,
             stiffness=2.0 * self.E_star * a * slope,
         )
 
@@ -146,11 +147,6 @@ class JKR(_AdhesiveSphere):
         with np.errstate(divide="ignore"):
             inside = 2.0 / np.pi * self.E_star * a / self.radius * s - pull / s
         return np.where(np.abs(np.asarray(r)) <= a, inside, 0.0)
-
-    def _central(self, a: RealArray) -> RealArray:
-        with np.errstate(divide="ignore"):
-            pull = np.sqrt(2.0 * self.E_star * self.work / (np.pi * a))
-        return np.asarray(2.0 / np.pi * self.E_star * a / self.radius - pull)
 
 
 def load_ratio(x: RealArray) -> RealArray:

@@ -36,7 +36,7 @@ from ..protocol import (
 from ..single.hertz import HertzPoint
 from ..statistics.heights import GaussianHeights
 from ..statistics.roughness import Roughness
-from .greenwood_williamson import GreenwoodWilliamson
+from .greenwood_williamson import GreenwoodWilliamson, OnSummits
 
 HardnessOfSofter: TypeAlias = Annotated[
     Pressure, Help("hardness H of the softer body, 2.8 times its yield stress", of="bodies")
@@ -171,14 +171,9 @@ class ElasticPlasticSummits(SeparationTheory):
         return q * q, 2.0 * q * weight
 
 
-class _OnSummits(Theory):
+class _ElasticPlastic(OnSummits):
     """Base of theories of rough surfaces that differ by the law of one ``summit`` only; Gaussian heights."""
 
-    E_star: float
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float
     limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
     @property
@@ -189,13 +184,7 @@ class _OnSummits(Theory):
     @property
     def model(self) -> ElasticPlasticSummits:
         """The summits, and the law of one of them."""
-        summits = GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
-        return ElasticPlasticSummits(summits, self.law)
-
-    @property
-    def roughness_ratio(self) -> float:
-        """σ_s/R."""
-        return self.height_deviation / self.radius
+        return ElasticPlasticSummits(self.summits, self.law)
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
         """Prediction at separations (n,) in m from the mean plane of the surface."""
@@ -207,7 +196,7 @@ class _OnSummits(Theory):
 
 
 @dataclass(frozen=True)
-class _OfHardness(_OnSummits):
+class _OfHardness(_ElasticPlastic):
     """Base of those whose summit yields by its hardness, in a law of the class ``sphere``."""
 
     E_star: Modulus
@@ -405,7 +394,7 @@ def _mean_slope(theory: JacksonGreen, answer: Prediction) -> RealArray:
 
 
 @dataclass(frozen=True)
-class JacksonGreen(_OnSummits):
+class JacksonGreen(_ElasticPlastic):
     """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian heights.
 
         A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
@@ -424,7 +413,7 @@ class JacksonGreen(_OnSummits):
     title: ClassVar[str] = "Jackson-Green"
     citation_keys: ClassVar[tuple[str, ...]] = ("Jackson2005",)
     limits: ClassVar[tuple[Bound, ...]] = (
-        *_OnSummits.limits,
+        *_ElasticPlastic.limits,
         Bound("mean contact radius over radius of summits", _mean_slope, 0.0, _FITTED, "Jackson2005", _FITTED_TO),
     )
 

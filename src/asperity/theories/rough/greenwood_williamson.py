@@ -127,6 +127,26 @@ class GreenwoodWilliamson(SphericalSummits):
         )
 
 
+class OnSummits(Theory):
+    """Base of theories that put another law on each of Greenwood and Williamson's summits, or fits in place of integrals."""
+
+    E_star: float
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float
+
+    @property
+    def summits(self) -> GreenwoodWilliamson:
+        """The same summits in the theory of Greenwood & Williamson, with Gaussian heights."""
+        return GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
+
+    @property
+    def roughness_ratio(self) -> float:
+        """σ_s/R."""
+        return self.summits.roughness_ratio
+
+
 @dataclass(frozen=True)
 class KotwalBhushan(SphericalSummits):
     """Greenwood and Williamson's summits with heights of Pearson's system (Kotwal & Bhushan 1996).
@@ -232,14 +252,14 @@ class FittedLaws:
 
 def _range_of_fits(form: str, share: str) -> Bound:
     def value(theory: FittedGreenwoodWilliamson, answer: Prediction) -> RealArray | None:
-        return answer.pressure / theory._exact.pressure_unit if theory.form == form else None
+        return answer.pressure / theory.summits.pressure_unit if theory.form == form else None
 
     message = f"The fits leave the integrals that they replace by more than a {share}."
     return Bound(f"P_a of the {form} form", value, *FORMS[form], "Bhushan1998", message)
 
 
 @dataclass(frozen=True)
-class FittedGreenwoodWilliamson(Theory):
+class FittedGreenwoodWilliamson(OnSummits):
     """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
 
     With P_a = p/(η R^(1/2) σ_s^(3/2) E*), the laws of the ``form`` ``"power"`` are
@@ -274,7 +294,7 @@ class FittedGreenwoodWilliamson(Theory):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa."""
         p = curve(pressure, "pressures (Pa)", positive=True)
-        exact, laws = self._exact, FittedLaws(self.form)
+        exact, laws = self.summits, FittedLaws(self.form)
         P_a = p / exact.pressure_unit
         return prediction(
             p,
@@ -283,10 +303,6 @@ class FittedGreenwoodWilliamson(Theory):
             mean_real_pressure=self.E_star * exact.roughness_ratio**0.5 * laws.real_pressure(P_a),
             separation=self.mean_height + self.height_deviation * laws.separation(P_a),
         )
-
-    @property
-    def _exact(self) -> GreenwoodWilliamson:
-        return GreenwoodWilliamson(self.E_star, self.density, self.radius, self.height_deviation, self.mean_height)
 
 
 # Onset of plastic flow in the theory of Greenwood & Williamson (1966): the plastic share of the contact.

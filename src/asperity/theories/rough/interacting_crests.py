@@ -418,9 +418,8 @@ class InteractingCrests(Theory):
         """
         path = graded_loads(pressure)
         depths = self.highest - np.asarray(self.height)
-        spheres = DiscreteSummits(
-            self.E_star, self.height, np.asarray(self.wavelength) ** 2 / self._twice_depth, self.area
-        )
+        radius = np.asarray(self.wavelength) ** 2 / (2.0 * math.pi**2 * np.asarray(self.depth))
+        spheres = DiscreteSummits(self.E_star, self.height, radius, self.area)
         alone = self.highest - spheres.at_pressure(path).separation
         loads, approaches, more = path * self.area / self.E_star, np.empty_like(path), 1.0
         system = self._system(0)
@@ -439,11 +438,6 @@ class InteractingCrests(Theory):
         found = np.searchsorted(path, pressure)
         wanted = approaches[found]
         return wanted, self._states(wanted) if self.method == "least squares" else [states[n] for n in found]
-
-    @property
-    def _twice_depth(self) -> RealArray:
-        """2π² h in m, the square of the wavelength over the radius."""
-        return 2.0 * math.pi**2 * np.asarray(self.depth)
 
     def _states(self, deltas: RealArray) -> list[State]:
         """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one

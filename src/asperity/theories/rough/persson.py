@@ -240,7 +240,11 @@ class PerssonGap:
 
     @cached_property
     def _nodes(self) -> tuple[RealArray, RealArray]:
-        return _gauss_panels(self.spectrum.span)
+        """Gauss points in ln q/q_L and weights between the points of the table, ever finer panels towards the first."""
+        steps = pairwise(self.spectrum.span)
+        panels = [np.linspace(a, b, max(1, math.ceil((b - a) / _WIDEST)) + 1)[1:] for a, b in steps]
+        first = panels[0][0] * 0.25 ** np.arange(_FINEST, 0, -1)
+        return gauss(np.concatenate([[0.0], first, *panels]), _NODES)
 
     @cached_property
     def _sharpness(self) -> RealArray:
@@ -254,14 +258,6 @@ class PerssonGap:
         q = np.asarray(self.spectrum.wavenumber)[0] * np.exp(spans)
         level = self.spectrum.at(spans) / (2.0 * math.pi) ** 2
         return np.asarray(math.sqrt(math.pi) * q**3 * level * self._sharpness * steps)
-
-
-def _gauss_panels(table: RealArray) -> tuple[RealArray, RealArray]:
-    """Gauss points and weights between the points of ``table``, ever finer panels towards the first."""
-    panels = [np.linspace(a, b, max(1, math.ceil((b - a) / _WIDEST)) + 1)[1:] for a, b in pairwise(table)]
-    edges = np.concatenate(panels)
-    edges = np.concatenate([[0.0], edges[0] * 0.25 ** np.arange(_FINEST, 0, -1), edges])
-    return gauss(edges, _NODES)
 
 
 def _squared_erf_integral() -> CubicHermiteSpline:

@@ -312,7 +312,7 @@ class WetSummits(Theory):
     ) -> Self:
         """Theory for the summits of a map, with the skewness and kurtosis of their heights."""
         s = roughness.known(roughness.summits, "its summits", cls.name)
-        summits = (s.density, 1.0 / float(s.curvature.mean()), s.height_deviation)
+        summits = (s.density, s.mean_radius, s.height_deviation)
         shape = (s.mean_height, s.height_skewness, s.height_kurtosis)
         return cls(E_star, *summits, surface_tension, film_thickness, contact_angle, *shape)
 
