@@ -5,12 +5,31 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from typing import Self
 
 from .arrays import RealArray
 
 
+class _Components:
+    """Base of values with named components: sums, multiples, and functions of every component."""
+
+    def __add__(self, other: Self) -> Self:
+        return self.combined(other, operator.add)
+
+    def __mul__(self, factor: float) -> Self:
+        return self.map(lambda component: component * factor)
+
+    def map(self, function: Callable[[RealArray], RealArray]) -> Self:
+        """``function`` of every component."""
+        return type(self)(*(function(component) for component in vars(self).values()))
+
+    def combined(self, other: Self, function: Callable[[RealArray, RealArray], RealArray]) -> Self:
+        """``function`` of every component of both."""
+        return type(self)(*map(function, vars(self).values(), vars(other).values()))
+
+
 @dataclass(frozen=True, eq=False)
-class StressTensor:
+class StressTensor(_Components):
     """Six components of the symmetric stress in Pa, tension positive: arrays of one shape, any shape."""
 
     xx: RealArray
@@ -20,46 +39,18 @@ class StressTensor:
     xz: RealArray
     yz: RealArray
 
-    def __add__(self, other: StressTensor) -> StressTensor:
-        return self.combined(other, operator.add)
-
-    def __mul__(self, factor: float) -> StressTensor:
-        return self.map(lambda component: component * factor)
-
-    def map(self, function: Callable[[RealArray], RealArray]) -> StressTensor:
-        """``function`` of every component."""
-        return StressTensor(*(function(getattr(self, name)) for name in STRESSES))
-
-    def combined(self, other: StressTensor, function: Callable[[RealArray, RealArray], RealArray]) -> StressTensor:
-        """``function`` of every component of both."""
-        return StressTensor(*(function(getattr(self, name), getattr(other, name)) for name in STRESSES))
-
     def exchanged(self) -> StressTensor:
         """The same state with the axes x and y renamed into each other."""
         return StressTensor(xx=self.yy, yy=self.xx, zz=self.zz, xy=self.xy, xz=self.yz, yz=self.xz)
 
 
 @dataclass(frozen=True, eq=False)
-class Displacement:
+class Displacement(_Components):
     """Three components of the displacement in m: arrays of one shape, any shape."""
 
     x: RealArray
     y: RealArray
     z: RealArray
-
-    def __add__(self, other: Displacement) -> Displacement:
-        return self.combined(other, operator.add)
-
-    def __mul__(self, factor: float) -> Displacement:
-        return self.map(lambda component: component * factor)
-
-    def map(self, function: Callable[[RealArray], RealArray]) -> Displacement:
-        """``function`` of every component."""
-        return Displacement(function(self.x), function(self.y), function(self.z))
-
-    def combined(self, other: Displacement, function: Callable[[RealArray, RealArray], RealArray]) -> Displacement:
-        """``function`` of every component of both."""
-        return Displacement(function(self.x, other.x), function(self.y, other.y), function(self.z, other.z))
 
     def exchanged(self) -> Displacement:
         """The same displacement with the axes x and y renamed into each other."""
@@ -67,17 +58,11 @@ class Displacement:
 
 
 @dataclass(frozen=True, eq=False)
-class ElasticFields:
+class ElasticFields(_Components):
     """Displacement and stress at the same points."""
 
     displacement: Displacement
     stress: StressTensor
-
-    def __add__(self, other: ElasticFields) -> ElasticFields:
-        return self.combined(other, operator.add)
-
-    def __mul__(self, factor: float) -> ElasticFields:
-        return ElasticFields(self.displacement * factor, self.stress * factor)
 
     def map(self, function: Callable[[RealArray], RealArray]) -> ElasticFields:
         """``function`` of every component."""
@@ -107,5 +92,4 @@ def second_invariant(s: StressTensor) -> RealArray:
     """J2 of the deviator in Pa²: [(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²]/6 + σxy² + σyz² + σxz²."""
     normal = (s.xx - s.yy) ** 2 + (s.yy - s.zz) ** 2 + (s.zz - s.xx) ** 2
     shear = s.xy**2 + s.yz**2 + s.xz**2
-    invariant: RealArray = normal / 6.0 + shear
-    return invariant
+    return normal / 6.0 + shear
