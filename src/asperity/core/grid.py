@@ -63,11 +63,17 @@ class Grid:
         x, y = self.coordinates()
         return x - x[self.shape[0] // 2, 0], y - y[0, self.shape[1] // 2]
 
-    def wavevector(self) -> tuple[RealArray, RealArray]:
-        """Wavevector components qx (nx, 1) and qy (1, ny // 2 + 1) in rad/m, in the order of a real 2-D FFT."""
+    def wavevector(self, *, odd: bool = False) -> tuple[RealArray, RealArray]:
+        """Wavevector components qx (nx, 1) and qy (1, ny // 2 + 1) in rad/m, in the order of a real 2-D FFT.
+
+        With ``odd`` zero at the Nyquist wavenumbers of even sizes, whose sign is undefined: for odd functions of them.
+        """
         (nx, ny), (dx, dy) = self.shape, self.spacing
         qx = 2.0 * np.pi * np.fft.fftfreq(nx, dx)[:, None]
         qy = 2.0 * np.pi * np.fft.rfftfreq(ny, dy)[None, :]
+        for q, n in ((qx, nx), (qy, ny)) if odd else ():
+            if n % 2 == 0:
+                q.flat[n // 2] = 0.0
         return qx, qy
 
     def wavenumber(self) -> RealArray:

@@ -208,9 +208,11 @@ class PeriodicPlanes:
 
     def _waves(self) -> tuple[RealArray, RealArray, RealArray, RealArray]:
         """Components of the wavevectors along y and x, not negative; each also with the highest of an even grid set to zero."""
-        (nx, ny), (qx, qy) = self.tractions.grid.shape, self.tractions.grid.wavevector()
-        xi, eta = np.abs(qx[: nx // 2 + 1, 0]), np.abs(qy[0])
-        return eta, _without_highest(eta, ny), xi, _without_highest(xi, nx)
+        grid, half = self.tractions.grid, self.tractions.grid.shape[0] // 2 + 1
+        (xi, eta), (xi_odd, eta_odd) = (
+            (np.abs(qx[:half, 0]), np.abs(qy[0])) for qx, qy in (grid.wavevector(), grid.wavevector(odd=True))
+        )
+        return eta, eta_odd, xi, xi_odd
 
     def _transformed(self) -> tuple[Any, ...]:
         """Spectra of pressure and shear fields, with the ratios of the shear to the pressure where it follows it."""
@@ -229,13 +231,6 @@ class PeriodicPlanes:
 def _limit(plane: Plane) -> float:
     """Wavenumber from which nothing reaches the plane."""
     return _NEGLIGIBLE / plane.depth if plane.depth > 0.0 else np.inf
-
-
-def _without_highest(components: RealArray, n: int) -> RealArray:
-    odd = components.copy()
-    if n % 2 == 0:
-        odd[-1] = 0.0
-    return odd
 
 
 # Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002).

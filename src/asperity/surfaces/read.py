@@ -63,7 +63,13 @@ def read(
     """
     file = _checked(path)
     if netcdf.is_own(file):
-        _require_nothing_more(file, channel, size, height_unit, z_scale, lateral_unit)
+        chosen((netcdf.netcdf_channel(file),), channel, file)
+        if any(scale is not None for scale in (size, height_unit, z_scale, lateral_unit)):
+            raise FileFormatError(
+                f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
+                "(--size, --height-unit, --z-scale).",
+                subject=f"size and unit of file {file}",
+            )
         surface = netcdf.read_netcdf(file)
     elif plain.is_plain(file):
         surface = plain.read_plain(
@@ -95,17 +101,6 @@ def channels(path: str | os.PathLike[str]) -> tuple[ChannelInfo, ...]:
     if netcdf.is_own(file):
         return (netcdf.netcdf_channel(file),)
     return plain.plain_channels(file) if plain.is_plain(file) else instrument.instrument_channels(file)
-
-
-def _require_nothing_more(file: Path, channel: str | int | None, *scales: object) -> None:
-    """Refuse a channel or scales for a surface of our own, which states them itself."""
-    chosen((netcdf.netcdf_channel(file),), channel, file)
-    if any(scale is not None for scale in scales):
-        raise FileFormatError(
-            f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
-            "(--size, --height-unit, --z-scale).",
-            subject=f"size and unit of file {file}",
-        )
 
 
 def _checked(path: str | os.PathLike[str]) -> Path:

@@ -152,7 +152,13 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
         if not numbers:
             raise InputError(f"{theory.name} must be asked {_choice(theory)}, but nothing is given.")
         return Evaluation(theory, numbers)
-    way = _way(theory, set(arguments))
+    names = set(arguments)
+    for way in ways_of(theory):
+        needed = {way.axis.name} | {item.name for item in way.given if item.required}
+        if needed <= names <= needed | {item.name for item in way.given}:
+            break
+    else:
+        raise InputError(f"{theory.name} must be asked {_choice(theory)}, but is asked by {', '.join(sorted(names))}.")
     values = curve(arguments[way.axis.name], f"{way.axis.help} ({way.axis.unit or 'number'})")
     given = {item.name: _one(item, arguments.get(item.name, item.default)) for item in way.given}
     answer = getattr(theory, way.method)(**{way.axis.name: values}, **given)
@@ -170,14 +176,6 @@ def _one(item: Parameter, value: ArrayLike) -> float:
     if numbers.size != 1:
         raise InputError(f"{item.name} must be one number beside the range, but has {numbers.size}.")
     return float(numbers[0])
-
-
-def _way(theory: Described, names: set[str]) -> Way:
-    for way in ways_of(theory):
-        needed = {way.axis.name} | {item.name for item in way.given if item.required}
-        if needed <= names <= needed | {item.name for item in way.given}:
-            return way
-    raise InputError(f"{theory.name} must be asked {_choice(theory)}, but is asked by {', '.join(sorted(names))}.")
 
 
 def _choice(theory: Described) -> str:

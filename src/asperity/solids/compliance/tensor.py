@@ -57,7 +57,7 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     q = grid.wavenumber()
     q[0, 0] = 1.0
     c, s = qx / q, qy / q
-    odd_x, odd_y = _without_nyquist(c, grid.shape[0], 0), _without_nyquist(s, grid.shape[1], 1)
+    odd_x, odd_y = (component / q for component in grid.wavevector(odd=True))
     difference = both.LL - both.T
     tensor = SurfaceTensor(
         xx=c * c * difference + both.T,
@@ -85,13 +85,6 @@ def _relative(q: RealArray, body: Body, counter_body: Body) -> PlaneCompliance:
         Lz=np.add.reduce([sign * part.Lz for part, sign in parts]),
         T=np.add.reduce([part.T for part, _ in parts]),
     )
-
-
-def _without_nyquist(direction: RealArray, count: int, axis: int) -> RealArray:
-    result = direction.copy()
-    if count % 2 == 0:
-        result[(slice(None),) * axis + (count // 2,)] = 0.0
-    return result
 
 
 def _mean_modes(body: Body, counter_body: Body) -> tuple[float, float]:

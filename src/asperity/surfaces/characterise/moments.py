@@ -183,7 +183,7 @@ def spectral_moments(spectrum: PowerSpectrum) -> SpectralMoments:
     of a non-periodic one adds scatter and a share of about (2π σ/L)² to the mean square slope.
     """
     qx, qy = spectrum.grid.wavevector()
-    odd_x, odd_y = (_without_nyquist(q, n) for q, n in zip((qx, qy), spectrum.grid.shape, strict=True))
+    odd_x, odd_y = spectrum.grid.wavevector(odd=True)
 
     def moment(power_x: int, power_y: int) -> float:
         factor_x = (odd_x if power_x % 2 else qx) ** power_x
@@ -202,10 +202,3 @@ def nayak_parameter(m0: float, m2: float, m4: float) -> float:
 def _weighted(psd: RealArray, factor_x: RealArray, factor_y: RealArray) -> RealArray:
     """One row of sums over q_x, weighted: the matrix product does not write a field as large as the spectrum."""
     return (factor_x.ravel() @ psd)[None, :] * factor_y
-
-
-def _without_nyquist(q: RealArray, n: int) -> RealArray:
-    kept: RealArray = q.copy()
-    if n % 2 == 0:
-        kept.flat[n // 2] = 0.0
-    return kept

@@ -117,7 +117,10 @@ def particles(
     draw = np.random.Generator(np.random.PCG64(place_seed))
     count = int(draw.poisson(density * grid.area))
     places = draw.random((count, 2)) * grid.size
-    for place, size in zip(places, _radii(draw, count, radius, radius_deviation), strict=True):
+    radii = radius + radius_deviation * draw.standard_normal(count)
+    while (wrong := radii <= 0.0).any():
+        radii[wrong] = radius + radius_deviation * draw.standard_normal(int(np.count_nonzero(wrong)))
+    for place, size in zip(places, radii, strict=True):
         _add_sphere(heights, ground, grid, place, float(size), exposure)
     text = (
         f"{count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
@@ -125,14 +128,6 @@ def particles(
     )
     keys = (*citation_keys(matrix), *_KEYS)
     return generated(grid, heights, "particles", text, citation_keys=keys)
-
-
-def _radii(draw: np.random.Generator, count: int, mean: float, deviation: float) -> RealArray:
-    """Positive normal numbers (count,) in m."""
-    radii = mean + deviation * draw.standard_normal(count)
-    while (wrong := radii <= 0.0).any():
-        radii[wrong] = mean + deviation * draw.standard_normal(int(np.count_nonzero(wrong)))
-    return radii
 
 
 def _add_sphere(

@@ -265,7 +265,12 @@ class MeasuredSpectrum:
         psd = self.spectrum.psd.copy()
         beside = [*(psd[k, 0] for k in (1, -1) if psd.shape[0] > 1), *psd[0, 1:2]]  # modes next to the mean
         psd[0, 0] = float(np.mean(beside)) if beside else 0.0
-        plane = _plane(psd, measured.shape[1])
+        # the modes kx = -(nx // 2) … nx // 2 and ky = -1 … ny // 2
+        rows = np.roll(psd, measured.shape[0] // 2, axis=0)
+        if measured.shape[0] % 2 == 0:
+            rows = np.concatenate([rows, rows[:1]])  # both signs of the Nyquist wavenumber
+        before = min(1, measured.shape[1] // 2)
+        plane = np.concatenate([rows[::-1, before : before + 1], rows], axis=1)
         step_x, step_y = (2.0 * np.pi / side for side in measured.size)
         qx, qy = grid.wavevector()
         row = np.broadcast_to(_on_modes(qx / step_x) + measured.shape[0] // 2, (qx.size, qy.size))
@@ -341,16 +346,6 @@ def _without_mixed(spectrum: PowerSpectrum, first: float) -> RealArray:
         psd[mixed] = psd[beyond].mean()
     psd[0, 0] = 0.0
     return psd
-
-
-def _plane(psd: RealArray, count_y: int) -> RealArray:
-    """C on the modes kx = -(nx // 2) … nx // 2 and ky = -1 … ny // 2, from the half spectrum."""
-    count_x = psd.shape[0]
-    rows = np.roll(psd, count_x // 2, axis=0)
-    if count_x % 2 == 0:
-        rows = np.concatenate([rows, rows[:1]])  # both signs of the Nyquist wavenumber
-    column = min(1, count_y // 2)
-    return np.concatenate([rows[::-1, column : column + 1], rows], axis=1)
 
 
 # The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it was averaged over.
