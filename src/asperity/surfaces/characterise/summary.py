@@ -366,8 +366,6 @@ def characterise(
     difference = attempt("moments by differences", lambda: difference_moments(surface))
     difference = difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
     spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
-    slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
-    area = attempt("developed area Sdr", lambda: developed_area_ratio(surface))
     eight = summit_statistics(curves.summits)
     known = dict(zip("xy", curves.structure, strict=True))
     fractal = attempt.along_axes(
@@ -379,9 +377,7 @@ def characterise(
         surface,
         heights=height_parameters(surface),
         spatial=_spatial(curves, spectra, difference.slope_tensor),
-        hybrid=HybridParameters(
-            Sdq=math.nan if slope is None else slope, Sdr=math.nan if area is None else area, Ssc=eight.mean_curvature
-        ),
+        hybrid=_hybrid(surface, eight.mean_curvature, attempt),
         functional=core or undefined(FunctionalParameters),
         moments=Moments(difference, spectral),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),
@@ -408,4 +404,12 @@ def _spatial(curves: Curves, spectra: SpectralCurves, tensor: SlopeTensor) -> Sp
         beta_e_y=covariance.correlation_length(DROP_1E, axis="y"),
         beta_01_x=covariance.correlation_length(DROP_TENTH, axis="x"),
         beta_01_y=covariance.correlation_length(DROP_TENTH, axis="y"),
+    )
+
+
+def _hybrid(surface: Surface, summit_curvature: float, attempt: Attempts) -> HybridParameters:
+    slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
+    area = attempt("developed area Sdr", lambda: developed_area_ratio(surface))
+    return HybridParameters(
+        Sdq=math.nan if slope is None else slope, Sdr=math.nan if area is None else area, Ssc=summit_curvature
     )
