@@ -77,24 +77,21 @@ def test_a_load_beyond_the_hardness_is_named_and_the_exit_code_tells(run: Runner
 
 
 @pytest.mark.parametrize(
-    ("options", "expected"),
+    ("options", "subject"),
     [
-        (("--pressures", "5"), "--pressures must have a unit"),
-        (("--pressures", "1MPa..2nm"), "--pressures must be a pressure (unit such as Pa)"),
-        (("--pressures", "1MPa,0Pa"), "pressure (Pa) of a comparison must be greater than zero, but is 0.0."),
-        (("--loads", "5"), "--loads must be given together with a range only"),
-        (("--pressures", "1MPa,2MPa", "--loads", "5"), "--loads must be given together with a range only"),
-        (("--pressures", "1MPa..2MPa", "--loads", "1"), "--loads must be a whole number of at least 2, but is 1."),
-        (("--theories", "gw"), "name of a theory to compare must be one of greenwood-williamson"),
+        (("--pressures", "5"), "--pressures"),
+        (("--pressures", "1MPa,0Pa"), "pressure (Pa) of a comparison"),
+        (("--pressures", "1MPa,2MPa", "--loads", "5"), "--loads"),
+        (("--pressures", "1MPa..2MPa", "--loads", "1"), "--loads"),
+        (("--theories", "gw"), "name of a theory to compare"),
         (("--work", "5 Pa"), "--work"),
-        (("--from", "a.toml"), "must be left out together with --from"),
+        (("--from", "a.toml"), "FILE and the options for reading, preparation and counter surface"),
     ],
 )
-def test_what_cannot_be_compared_is_refused(run: Runner, matrix: Path, options: tuple[str, ...], expected: str) -> None:
+def test_what_cannot_be_compared_is_refused(run: Runner, matrix: Path, options: tuple[str, ...], subject: str) -> None:
     result = run("compare", matrix, *SCALE, *BODY, *options)
     assert result.exit_code == 2, result.output
-    assert result.stderr.startswith("asperity: ")
-    assert expected in result.stderr
+    assert result.stderr.startswith(f"asperity: {subject} must ")
 
 
 def test_a_surface_and_a_body_are_needed(run: Runner, matrix: Path) -> None:

@@ -89,19 +89,16 @@ def test_a_contact_of_a_filtered_scan_writes_its_steps(run: Runner, matrix: Path
 
 
 def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
-    for options, words in (
-        (("--short-cutoff", "1"), "--short-cutoff must have a unit"),
-        (("--short-cutoff", "2nm"), "must be at least 4 pixels"),
-        (("--tip-radius", "-1nm"), "--tip-radius must be greater than zero"),
-        (("--level", "21"), "--level must be a whole number from 0 to 20"),
-        (("--line-correct", "z"), "--line-correct must be 'x' or 'y'"),
-        (("--despike", "0"), "--despike must be greater than zero"),
-        (("--shift", "1um,0um"), "--shift must be given together with --counter-surface"),
-        (("--common-grid",), "--common-grid must be given together with --counter-surface"),
+    for options, subject in (
+        (("--short-cutoff", "1"), "--short-cutoff"),
+        (("--short-cutoff", "2nm"), "short cut-off of a filter"),
+        (("--tip-radius", "-1nm"), "--tip-radius"),
+        (("--shift", "1um,0um"), "--shift"),
+        (("--common-grid",), "--common-grid"),
     ):
         result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options)
         assert result.exit_code == 2
-        assert words in result.stderr, options
+        assert result.stderr.startswith(f"asperity: {subject} must "), options
 
 
 def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: Path) -> None:

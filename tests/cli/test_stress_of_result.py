@@ -96,19 +96,19 @@ def test_a_coupled_pressure_belongs_to_its_friction(run: Runner, tmp_path: Path,
     assert "[Dundurs1969]" in run("cite", file).stdout
     refused = run("stress", file, "--friction", 0.2)
     assert refused.exit_code == 2
-    assert "was solved coupled with friction 0.5" in refused.stderr
-    assert "was solved without coupling" in run("stress", plain, "--coupled", "--friction", 0.2).stderr
+    assert "0.5" in refused.stderr
+    assert "without coupling" in run("stress", plain, "--coupled", "--friction", 0.2).stderr
 
 
 @pytest.mark.parametrize(
-    ("options", "expected"),
+    ("options", "subject"),
     [
-        (("--stress-in", "counter"), "must deform, but the counter body is rigid"),
-        (("--depths", "1nm,5"), "part 2 of --depths must have a unit"),
-        (("--section", "z=1nm"), "--section must be a position"),
+        (("--stress-in", "counter"), "body in which stresses are asked"),
+        (("--depths", "1nm,5"), "part 2 of --depths"),
+        (("--section", "z=1nm"), "part 1 of --section"),
     ],
 )
-def test_refusals(run: Runner, plain: Path, options: tuple[str, ...], expected: str) -> None:
+def test_refusals(run: Runner, plain: Path, options: tuple[str, ...], subject: str) -> None:
     result = run("stress", plain, *options)
     assert result.exit_code == 2
-    assert expected in " ".join(result.stderr.split())
+    assert result.stderr.startswith(f"asperity: {subject} must ")

@@ -12,6 +12,37 @@ from study_cases import plan
 
 import asperity as asp
 
+STRESS: tuple[tuple[str, ...], ...] = (
+    ("--friction", "-0.1"),
+    ("--direction", "90"),
+    ("--depths", "1nm,5"),
+    ("--depths", "1nm,"),
+    ("--section", "middle"),
+    ("--section", "x=max,y=max"),
+    ("--section", "y=5"),
+    ("--section", "y=99um"),
+    ("--profile", "x=1kg"),
+    ("--deepest", "0nm"),
+    ("--criterion", "hope"),
+    ("--tensile-strength", "1"),
+    ("--stress-in", "counter"),
+    ("--stress-in", "air"),
+    ("--stress-precision", "half"),
+)
+"""Options of stresses."""
+
+PREPARATION: tuple[tuple[str, ...], ...] = (
+    ("--short-cutoff", "1"),
+    ("--short-cutoff", "2nm"),
+    ("--tip-radius", "-1nm"),
+    ("--level", "21"),
+    ("--line-correct", "z"),
+    ("--despike", "0"),
+    ("--shift", "1um,0um"),
+    ("--common-grid",),
+)
+"""Options of the steps between the file and the contact."""
+
 CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, "--pressure", "50"),
     (*BODY, "--pressure", "50 nm"),
@@ -77,8 +108,22 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--taper", "0.9"),
     (*BODY, *LOAD, "--mirror", "x"),
     (*BODY, *LOAD, "--materials-file", "none.toml", "--body", "DLC"),
+    ("--body", "DLC:5nm~/steel", *LOAD, "--friction", "0.1"),
+    ("--body", "DLC:5nm/rigid", *LOAD, "--depths", "1um"),
+    *((*BODY, *LOAD, *options) for options in (*STRESS, *PREPARATION)),
 )
 """Options of ``asperity contact`` on a matrix of stated size."""
+
+COMPARE: tuple[tuple[str, ...], ...] = (
+    (*BODY, "--pressures", "5"),
+    (*BODY, "--pressures", "1MPa..2nm"),
+    (*BODY, "--pressures", "1MPa,0Pa"),
+    (*BODY, "--loads", "5"),
+    (*BODY, "--pressures", "1MPa..2MPa", "--loads", "1"),
+    (*BODY, "--work", "5 Pa"),
+    (*BODY, "--from", "a.toml"),
+)
+"""Options of ``asperity compare`` on a matrix of stated size."""
 
 INFO: tuple[tuple[str, ...], ...] = (
     (),
@@ -88,6 +133,9 @@ INFO: tuple[tuple[str, ...], ...] = (
     ("--size", "8um", "--height-unit", "kg"),
     ("--size", "8um", "--height-unit", "nm", "--channel", "Phase"),
     ("--size", "8um", "--height-unit", "nm", "--z-scale", "5nm"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--report", "page.pdf"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--plot", "map.jpg"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--level", "cubic"),
 )
 """Options of ``asperity info`` on a matrix that states neither size nor unit."""
 

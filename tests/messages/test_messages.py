@@ -6,6 +6,7 @@ Tests elsewhere check kinds of exceptions and their fields; the words stand in m
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from collections.abc import Iterator
@@ -14,11 +15,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE
-from messages.bad_input import CALLS, CONTACT, FILES, INFO
+from messages.bad_documents import DOCUMENTS, GOOD
+from messages.bad_input import CALLS, COMPARE, CONTACT, FILES, INFO
 from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
+from asperity.run.document import checked
 
 WRITTEN = Path(__file__).with_name("messages.txt")
 JARGON = (
@@ -49,13 +52,14 @@ def commands() -> Iterator[tuple[str, ...]]:
     """Every command line, with paths relative to the current folder."""
     yield from (("contact", "rough.txt", *SCALE, *options) for options in CONTACT)
     yield from (("info", "rough.txt", *options) for options in INFO)
+    yield from (("compare", "rough.txt", *SCALE, *options) for options in COMPARE)
     for name in FILES:
         scale = () if name.startswith("noise") else SCALE
         yield "info", name, *scale
         yield "contact", name, *scale, *BODY, *LOAD
 
 
-def said(arguments: tuple[str, ...]) -> str:
+def printed(arguments: tuple[str, ...]) -> str:
     """What the program prints on stderr, which must be one sentence, with exit code 2."""
     result = CliRunner().invoke(app, list(arguments))
     text = result.stderr
@@ -74,6 +78,14 @@ def raised(name: str) -> str:
     raise AssertionError(f"{name} raises nothing")
 
 
+def refused(tables: dict[str, object]) -> str:
+    """The message on the good document with these ``tables``."""
+    document = {key: table for key, table in (GOOD | tables).items() if table is not None}
+    with pytest.raises(asp.InputError) as caught:
+        checked(document)
+    return str(caught.value)
+
+
 def entry(what: str, message: str) -> str:
     assert message.endswith((".", "?", ")")), f"{what}: {message}"
     assert not [word for word in JARGON if word in message], f"{what}: {message}"
@@ -81,8 +93,9 @@ def entry(what: str, message: str) -> str:
 
 
 def test_messages_are_those_of_the_file(folder: Path) -> None:
-    parts = [entry(" ".join(("asperity", *command)), said(command)) for command in commands()]
+    parts = [entry(" ".join(("asperity", *command)), printed(command)) for command in commands()]
     parts += [entry(name, raised(name)) for name in CALLS]
+    parts += [entry(f"document with {json.dumps(tables)}", refused(tables)) for tables in DOCUMENTS]
     text = "\n".join(parts).replace(f"{folder}{os.sep}", "")
     text = re.sub(r"(?<=as a map of heights: )(the number|EOF).*", "(what numpy says)", text)
     if os.environ.get("ASPERITY_WRITE_MESSAGES"):

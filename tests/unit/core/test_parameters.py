@@ -139,31 +139,30 @@ def test_text_is_read(values: Values, text: Any, value: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("values", "text", "words"),
+    ("values", "text", "shown"),
     [
-        (Number("length", above=0.0), "0 nm", "greater than zero, but is '0 nm'"),
-        (Number("length"), "5", "must have a unit"),
-        (Number("length"), 5.0, "bare number 5.0"),
-        (Number("length"), "5 kPa", "must be a length"),
+        (Number("length", above=0.0), "0 nm", "'0 nm'"),
+        (Number("length"), "5", "'5' without"),
+        (Number("length"), 5.0, "5.0"),
+        (Number("length"), "5 kPa", "'kPa'"),
         (Number("length", words=("max",)), "most", "'most'"),
-        (Number(least=0.0, most=1.0), 2, "at least zero and at most 1"),
-        (Number("number", above=0.0, below=1.0, percent=True), "60", "greater than 0 % and less than 100 %, but is '60'. Write 60%."),
-        (Whole(3, odd=True), 4, "an odd whole number of at least 3"),
-        (Whole(0, 20), "21", "from 0 to 20"),
+        (Number(least=0.0, most=1.0), 2, "2"),
+        (Number("number", above=0.0, below=1.0, percent=True), "60", "60%"),
+        (Whole(3, odd=True), 4, "odd"),
+        (Whole(0, 20), "21", "0 to 20"),
         (Whole(1), "²", "'²'"),
         (Whole(1), 3.0, "3.0"),
-        (Choice({"a": 1}), "b", "one of a"),
-        (Several(Number(), 2), "1", "2 values"),
-        (Lengths(), "20 um x 0 um", "greater than zero, but is '20 um x 0 um'"),
-        (Numbers(), "0x3", "numbers of points"),
+        (Choice({"a": 1}), "b", "b"),
+        (Several(Number(), 2), "1", "2"),
+        (Lengths(), "20 um x 0 um", "'20 um x 0 um'"),
+        (Numbers(), "0x3", "'0x3'"),
         (Numbers(), [3, 0], "[3, 0]"),
         (Interval(), "5um:1um", "from '5um' to '1um'"),
     ],
 )  # fmt: skip
-def test_text_that_cannot_be_used_is_refused(values: Values, text: Any, words: str) -> None:
-    with refused(InputError, "--option") as caught:
+def test_text_that_cannot_be_used_is_refused(values: Values, text: Any, shown: str) -> None:
+    with refused(InputError, "--option", shown):
         values.read(text, "--option")
-    assert words in str(caught.value)
 
 
 def test_a_number_that_was_written_keeps_its_text() -> None:
