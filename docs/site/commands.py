@@ -40,7 +40,7 @@ def _help(command: tuple[str, ...]) -> str:
 
 
 def _printed(words: tuple[str, ...]) -> str:
-    with patch.dict(os.environ, {"COLUMNS": "100", "TERMINAL_WIDTH": "100", "NO_COLOR": "1", "TERM": "dumb"}):
+    with patch.dict(os.environ, {"COLUMNS": "96", "TERMINAL_WIDTH": "96", "NO_COLOR": "1", "TERM": "dumb"}):
         result = CliRunner().invoke(app, list(words), prog_name="asperity")
     if result.exit_code:
         raise RuntimeError(result.output)

@@ -44,20 +44,47 @@ def _example(kind: str, unit: str) -> str:
 def _document() -> str:
     schema = json_schema()
     kinds: dict[str, Schema] = schema["$defs"]
-    parts = [HEAD, "## The document\n", _table(schema)]
-    parts += [
-        f"({_anchor(name)})=\n## {_title(name, kind)}\n\n{_about(kind)}{_table(kind)}"
-        for name, kind in sorted(kinds.items(), key=lambda item: item[0].lower())
-    ]
+    groups = {
+        "Tables": [name for name in kinds if _selector(kinds[name]) is None],
+        "Surfaces": _mapped(schema["properties"]["surface"]),
+        "Steps of preparation": _mapped(kinds["FileSurface"]["properties"]["prepare"]["items"]),
+    }
+    listed = [name for names in groups.values() for name in names]
+    groups["Spectra, statistics and laws"] = [name for name in kinds if name not in listed]
+    parts = [HEAD, "## The document\n", _table(schema, kinds)]
+    for title, names in groups.items():
+        parts.append(f"## {title}\n")
+        parts += [_section(name, kinds) for name in sorted(names, key=lambda name: _title(name, kinds[name]).lower())]
     return "\n".join(parts)
 
 
-def _title(name: str, kind: Schema) -> str:
-    """What selects a table: its kind or step if it has one."""
+def _mapped(key: Schema) -> list[str]:
+    return [aim.rpartition("/")[2] for aim in key["discriminator"]["mapping"].values()]
+
+
+def _section(name: str, kinds: dict[str, Schema]) -> str:
+    kind = _whole(kinds[name])
+    return f"({_anchor(name)})=\n### {_title(name, kinds[name])}\n\n{_about(kind)}{_table(kind, kinds)}"
+
+
+def _whole(kind: Schema) -> Schema:
+    """The table itself of what may also be text."""
+    return next((one for one in kind.get("anyOf", ()) if one.get("properties")), kind)
+
+
+def _selector(kind: Schema) -> str | None:
+    """The key and value that select a table among others, if it has them."""
     for key in ("kind", "step"):
-        constant = kind.get("properties", {}).get(key, {}).get("const")
+        constant = _whole(kind).get("properties", {}).get(key, {}).get("const")
         if constant:
-            return f'`{key} = "{constant}"`'
+            return f'{key} = "{constant}"'
+    return None
+
+
+def _title(name: str, kind: Schema) -> str:
+    selector = _selector(kind)
+    if selector:
+        return f"`{selector}`"
     words = re.sub(r"(Table|Settings|Surface)$", "", name)
     return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", words).lower().capitalize()
 
@@ -79,18 +106,18 @@ def _escaped(text: str) -> str:
     )
 
 
-def _table(schema: Schema) -> str:
+def _table(schema: Schema, kinds: dict[str, Schema]) -> str:
     required = schema.get("required", [])
     lines = ["| key | value | default | meaning |", "|---|---|---|---|"]
     for name, key in schema.get("properties", {}).items():
         default = "" if name in required else _default(key)
-        lines.append(f"| `{name}` | {_value(key)} | {default} | {_meaning(key)} |")
+        lines.append(f"| `{name}` | {_value(key, kinds)} | {default} | {_meaning(key)} |")
     return "\n".join(lines) + "\n" if len(lines) > 2 else ""
 
 
 def _default(key: Schema) -> str:
     value = key.get("default")
-    if value in (None, "", [], {}):
+    if value in (None, "", []) or isinstance(value, dict):
         return "–"
     return f"`{str(value).lower() if isinstance(value, bool) else value}`"
 
@@ -100,22 +127,28 @@ def _meaning(key: Schema) -> str:
     return _escaped(" ".join(str(key.get("description", "")).split())) + (f" (`{option}`)" if option else "")
 
 
-def _value(key: Schema) -> str:
+def _value(key: Schema, kinds: dict[str, Schema]) -> str:
     """What a key takes, in words and links."""
     if "$ref" in key:
         name = key["$ref"].rpartition("/")[2]
-        return f"[table](#{_anchor(name)})"
+        selector = _selector(kinds[name])
+        return f"[{_title(name, kinds[name]) if selector is None else selector.split(' = ')[1].strip(chr(34))}](#{_anchor(name)})"
+    if "discriminator" in key and len(key["discriminator"]["mapping"]) > 6:
+        word = key["discriminator"]["propertyName"]
+        return f"a table of {'[surfaces](#surfaces)' if word == 'kind' else '[steps](#steps-of-preparation)'}"
     for word in ("anyOf", "oneOf", "allOf"):
         if word in key:
-            found = dict.fromkeys(_value(one) for one in key[word] if one.get("type") != "null")
-            return f"one of {len(found)} tables by its `kind`" if len(found) > 6 else " or ".join(found)
+            found = dict.fromkeys(_value(one, kinds) for one in key[word] if one.get("type") != "null")
+            return " or ".join(found)
+    if not key:
+        return "text"
     if "const" in key:
         return f"`{key['const']}`"
     if "enum" in key:
         return ", ".join(f"`{one}`" for one in key["enum"])
     if key.get("type") == "array":
         items = key.get("items") or {}
-        return f"list of {_value(items)}" if items else "list"
+        return f"list of {_value(items, kinds)}" if items else "list"
     if "quantity" in key:
         return f"{key['quantity']}{_range(key)}"
     return f"{ {'string': 'text', 'boolean': '`true` or `false`', 'integer': 'integer', 'number': 'number', 'object': 'table'}.get(str(key.get('type')), 'value') }{_range(key)}"

@@ -78,7 +78,14 @@ def _page(title: str, about: str, module: str, names: list[str]) -> str:
     if tables:
         lines += [f"Tables and constants: {', '.join(f'`{name}`' for name in tables)}.", ""]
     documented = {name: kind for name, kind in kinds.items() if kind != "data"}
-    lines += ["```{eval-rst}", ".. autosummary::", "", *(f"   ~{module}.{name}" for name in documented), ""]
+    lines += [
+        "```{eval-rst}",
+        ".. autosummary::",
+        "   :nosignatures:",
+        "",
+        *(f"   ~{module}.{name}" for name in documented),
+        "",
+    ]
     for name, kind in documented.items():
         lines += [f".. auto{kind}:: {module}.{name}", *([] if kind == "function" else ["   :members:"]), ""]
     return "\n".join([*lines, "```", ""])

@@ -87,12 +87,31 @@ def description(kind: type[Described]) -> list[str]:
 
 
 def escaped(text: str) -> str:
-    """Plain text of a docstring in Markdown: signs that Markdown would read as its own are escaped, code stays code."""
+    """Plain text of a docstring in Markdown: code stays code, symbols with an index or a power become formulas."""
     roles = re.sub(r":\w+:`~?([^`]*)`", r"``\1``", text)
     parts = re.split(r"(``[^`]*``)", roles)
-    return "".join(
-        f"`{part[2:-2]}`" if part.startswith("``") else re.sub(r"([*_\[\]<|$\\])", r"\\\1", part) for part in parts
-    )
+    return "".join(f"`{part[2:-2]}`" if part.startswith("``") else _prose(part) for part in parts)
+
+
+def _prose(text: str) -> str:
+    words = re.split(r"(\s+)", text)
+    return "".join(_symbol(word) or re.sub(r"([*_\[\]<|$\\])", r"\\\1", word) for word in words)
+
+
+def _symbol(word: str) -> str:
+    """A word that is one symbol, with its punctuation outside of the formula; empty for any other word."""
+    found = re.fullmatch(r"(\(?)(.+?)([,.:;)]*)", word)
+    if found is None:
+        return ""
+    before, symbol, after = found.groups()
+    if symbol.count("(") > symbol.count(")") and after.startswith(")"):
+        symbol, after = symbol + ")", after[1:]
+    letters = r"[A-Za-zα-ωΑ-Ωϑℓ][\u0304\u0302]?['*]?"
+    power = r"\^\([^()]+\)|\^[\w*]+|[²³⁴⁵]"
+    shape = rf"{letters}(_\([^()]+\)|_\w+)?({power})?(\(\w+\))?|{letters}({power})"
+    if not re.fullmatch(shape, symbol) or not re.search(r"[_^*\u0304²³⁴⁵]", symbol):
+        return ""
+    return f"{before}${tex(symbol)}${after}"
 
 
 def bounds(item: Parameter) -> str:

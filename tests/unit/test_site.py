@@ -38,7 +38,8 @@ def entries(page: str, text: str) -> list[str]:
         for block in re.findall(r"```\{toctree\}\n(.*?)```", text, re.DOTALL)
         for line in block.splitlines()
     ]
-    return [os.path.normpath(folder / line) for line in lines if line and not line.startswith(":")]
+    aims = [re.sub(r".*<(.+)>", r"\1", line) for line in lines if line and not line.startswith(":")]
+    return [os.path.normpath(folder / aim) for aim in aims]
 
 
 def meant(entry: str, names: set[str]) -> set[str]:
@@ -62,7 +63,10 @@ def test_links_between_pages_resolve(pages):
     lost = []
     for page, text in pages.items():
         prose = re.sub(r"^[ ]*```.*?^[ ]*```", "", text, flags=re.DOTALL | re.MULTILINE)
-        anchors = set(re.findall(r"^\(([\w-]+)\)=", prose, re.MULTILINE))
+        titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
+        anchors = {title.lower().replace(" ", "-") for title in titles} | set(
+            re.findall(r"^\(([\w-]+)\)=", prose, re.MULTILINE)
+        )
         for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", prose)):
             path, _, anchor = target.partition("#")
             if re.match(r"\w+:", target):
