@@ -35,6 +35,10 @@ def homes() -> dict[str, str]:
     }
 
 
+ELSEWHERE = {"examples/README.md": "gallery/index.md", "examples": "gallery/index.md"}
+"""Files of the repository in whose place the site has a page of its own."""
+
+
 def _below(folder: Path, pattern: str) -> list[str]:
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob(pattern))
 
@@ -95,7 +99,7 @@ def linked(text: str, path: str, known: dict[str, str]) -> str:
         aim = PurePosixPath(os.path.normpath(folder / target)).as_posix()
         if aim + "/index.md" in known:
             aim += "/index.md"
-        home = known.get(aim) or (
+        home = (known | ELSEWHERE).get(aim) or (
             aim.removeprefix("docs/") if aim.removeprefix("docs/") in MADE or _is_picture(aim) else None
         )
         if home is not None:

@@ -86,7 +86,7 @@ if any(examples.glob("*/*.py")):
     sphinx_gallery_conf = {
         "examples_dirs": str(examples),
         "gallery_dirs": "gallery",
-        "subsection_order": ExplicitOrder([str(examples / name) for name in levels] + ["*"]),
+        "subsection_order": ExplicitOrder([*(f"../examples/{name}" for name in levels), "*"]),
         "within_subsection_order": FileNameSortKey,
         "filename_pattern": r"\.py$",
         "ignore_pattern": r"(__init__|conftest)\.py$",

@@ -99,8 +99,9 @@ def heights_between(heights: SummitHeights, mean: float, deviation: float) -> tu
 class GreenwoodWilliamson(SphericalSummits):
     """Independent spherical summits on a rough surface against a rigid plane, each a Hertz contact.
 
-    With D = (h - z̄_s)/σ_s and F_m(D) = ∫_D^∞ (s - D)^m p(s) ds (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
+    With the density p(s) of the standardised summit heights (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
 
+        D = (h - z̄_s)/σ_s,  F_m(D) = ∫_D^∞ (s - D)^m p(s) ds,
         n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
     """
 
@@ -262,8 +263,9 @@ def _range_of_fits(form: str, share: str) -> Bound:
 class FittedGreenwoodWilliamson(OnSummits):
     """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
 
-    With P_a = p/(η R^(1/2) σ_s^(3/2) E*), the laws of the ``form`` ``"power"`` are
+    The laws of the ``form`` ``"power"`` are
 
+        P_a = p/(η R^(1/2) σ_s^(3/2) E*),
         h = z̄_s + 1.40 σ_s [log_(10)(0.57/P_a)]^(0.65),  n = 1.21 η P_a^(0.88),
         p_r = 0.42 E* (σ_s/R)^(1/2) P_a^(0.04),  A_r/A_a = 2.40 η R σ_s P_a^(0.96).
 
