@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from refusals import refused
 
 from asperity.core.errors import InputError
-from asperity.theories.rough.design_guidance import LeastArea
+from asperity.theories.hardness.plasticity import LeastArea
 
 
 def test_the_numbers_of_the_source():

@@ -14,7 +14,7 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.units import percent, show
 from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
-from ..surfaces.characterise.material_ratio import core
+from ..surfaces.characterise.heights import core
 from ..surfaces.characterise.spectral_fit import SpectralFit
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface

@@ -24,26 +24,24 @@ from .characterise.correlation import (
     tip_cutoff,
 )
 from .characterise.heights import (
+    Core,
+    FunctionalParameters,
     HeightDistribution,
     HeightParameters,
+    MaterialRatioCurve,
+    core,
     deepest_valley,
+    functional_parameters,
     height_distribution,
     height_parameters,
     highest_peak,
     kurtosis,
+    material_ratio_curve,
     mean_absolute_height,
     peak_to_valley,
     rms_height,
     skewness,
     tilt_share,
-)
-from .characterise.material_ratio import (
-    Core,
-    FunctionalParameters,
-    MaterialRatioCurve,
-    core,
-    functional_parameters,
-    material_ratio_curve,
 )
 from .characterise.moments import (
     DifferenceMoments,

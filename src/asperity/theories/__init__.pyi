@@ -5,6 +5,7 @@ from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
 from .hardness.plasticity import (
+    LeastArea,
     PlasticityIndex,
     ProfilePlasticityIndex,
     critical_interference,
@@ -15,7 +16,6 @@ from .hardness.plasticity import (
     yield_coefficient,
 )
 from .protocol import ContactAnswer, Limit, Prediction
-from .rough.design_guidance import LeastArea
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,

@@ -9,9 +9,8 @@ from ..core.errors import InputError
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
-from .hardness.plasticity import PlasticityIndex, ProfilePlasticityIndex
+from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
-from .rough.design_guidance import LeastArea
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
     ChangEtsionBogy,

@@ -1,11 +1,14 @@
-"""Height parameters of ISO 25178-2 about the mean of the valid points, normalised by their number N."""
+"""Height parameters of ISO 25178-2 about the mean of the valid points, normalised by their number N; material ratio."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
@@ -165,3 +168,224 @@ def _explained(sums: RealArray, count: int) -> float:
     x = np.arange(sums.size) - 0.5 * (sums.size - 1)
     spread = float(x @ x) * count / sums.size
     return float(x @ sums) ** 2 / spread if spread > 0.0 else 0.0
+
+
+# The areal material ratio (Abbott-Firestone, bearing area) curve and its parameters (ISO 25178-2, 4.5).
+
+
+CORE_LINES = ("least squares", "secant")
+"""Definitions of the core line through the 40 % of the curve with the smallest slope."""
+
+_CORE = 0.4  # share of the curve in the window of the core line, ISO 13565-2 and ISO 25178-2
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialRatioCurve:
+    """Height against the share of the area above it.
+
+    ``heights`` (N,) of the valid points about their mean in m, highest first. The k-th of them (from 1) has the
+    material ratio p = (k - 1/2)/N; the curve is linear in between and constant beyond the ends. Ratios are fractions,
+    not per cent. The curve describes a geometric section, not a contact area.
+    """
+
+    heights: RealArray
+    citation_keys: ClassVar[tuple[str, ...]] = ("Abbott1933", "ISO25178")
+
+    @property
+    def ratios(self) -> RealArray:
+        """Material ratios of ``heights``, shape (N,)."""
+        return (np.arange(self.heights.size) + 0.5) / self.heights.size
+
+    def height(self, ratio: ArrayLike) -> RealArray:
+        """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
+        place, below = self._place(np.asarray(ratio, dtype=float))
+        return self.heights[below] + (place - below) * (self._next[below] - self.heights[below])
+
+    def ratio(self, height: ArrayLike) -> RealArray:
+        """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean plane (any shape)."""
+        above = np.searchsorted(-self.heights, -np.asarray(height, dtype=float), side="right")
+        return above / self.heights.size
+
+    def height_difference(self, upper: float, lower: float) -> float:
+        """Sdc(p, q) = Smc(p) - Smc(q) in m for two material ratios."""
+        return float(self.height(upper) - self.height(lower))
+
+    def material_volume(self, ratio: float) -> float:
+        """Vm(p) = ∫₀^p [Smc(t) - Smc(p)] dt, volume of material above Smc(p) per area, in m."""
+        return self._area_to(ratio) - ratio * float(self.height(ratio))
+
+    def void_volume(self, ratio: float) -> float:
+        """Vv(p) = ∫_p^1 [Smc(p) - Smc(t)] dt, volume of voids below Smc(p) per area, in m."""
+        return (1.0 - ratio) * float(self.height(ratio)) - (self._area_to(1.0) - self._area_to(ratio))
+
+    def crossing(self, height: float) -> float:
+        """Material ratio at which the continuous curve passes ``height`` (m); 0 above and 1 below all points."""
+        n, h = self.heights.size, self.heights
+        if height >= h[0]:
+            return 0.0
+        if height <= h[-1]:
+            return 1.0
+        below = int(np.searchsorted(-h, -height, side="left"))  # first point at or below the height
+        upper, lower = float(h[below - 1]), float(h[below])
+        return (below - 0.5 + (upper - height) / (upper - lower)) / n
+
+    @cached_property
+    def _next(self) -> RealArray:
+        return np.append(self.heights[1:], self.heights[-1])
+
+    @cached_property
+    def _areas(self) -> RealArray:
+        """∫ of the curve from 0 to each of the ratios, m."""
+        n, h = self.heights.size, self.heights
+        areas: RealArray = np.empty(n)
+        areas[0] = 0.5 * h[0] / n
+        np.cumsum(0.5 * (h[1:] + h[:-1]) / n, out=areas[1:])
+        areas[1:] += areas[0]
+        return areas
+
+    def _place(self, ratio: RealArray) -> tuple[RealArray, np.ndarray[tuple[int, ...], np.dtype[np.intp]]]:
+        """Position of ``ratio`` in steps of the samples, within the first and the last, and the sample before it."""
+        n = self.heights.size
+        place: RealArray = np.clip(ratio * n - 0.5, 0.0, n - 1.0)
+        return place, np.floor(place).astype(np.intp)
+
+    def _area_to(self, ratio: float) -> float:
+        n = self.heights.size
+        if ratio <= 0.5 / n:
+            return ratio * float(self.heights[0])
+        if ratio >= 1.0 - 0.5 / n:
+            return float(self._areas[-1] + (ratio - 1.0 + 0.5 / n) * self.heights[-1])
+        below = int(self._place(np.asarray(ratio))[1])
+        step = ratio - (below + 0.5) / n
+        return float(self._areas[below] + 0.5 * step * (self.heights[below] + float(self.height(ratio))))
+
+
+@dataclass(frozen=True)
+class FunctionalParameters:
+    """Parameters of the material ratio curve (ISO 25178-2, 4.5): heights and volumes per area in m, ratios of one.
+
+    ``Sk`` height of the core, ``Spk`` of the reduced peaks, ``Svk`` of the reduced valleys; ``Smr1``, ``Smr2`` ratios
+    that bound the core; ``Vmp``, ``Vmc`` material volume of peaks (above 10 %) and core (10 to 80 %); ``Vvc``, ``Vvv``
+    void volume of core and valleys (below 80 %); ``Sxp`` = Smc(2.5 %) - Smc(50 %); ``Sdc`` = Smc(10 %) - Smc(80 %).
+    """
+
+    Sk: float
+    Spk: float
+    Svk: float
+    Smr1: float
+    Smr2: float
+    Vmp: float
+    Vmc: float
+    Vvc: float
+    Vvv: float
+    Sxp: float
+    Sdc: float
+
+
+@dataclass(frozen=True)
+class Core:
+    """Core of a material ratio curve: line from ``top`` at ratio 0 to ``bottom`` at ratio 1 (m), between two ratios.
+
+    ``start`` is the ratio where the window of least slope begins; ``reduced_peak`` and ``reduced_valley`` are the
+    heights (m) of the triangles that replace peaks and valleys.
+    """
+
+    top: float
+    bottom: float
+    ratio_1: float
+    ratio_2: float
+    start: float
+    reduced_peak: float
+    reduced_valley: float
+
+
+def material_ratio_curve(surface: Surface) -> MaterialRatioCurve:
+    """Curve of the valid heights of ``surface`` about their mean."""
+    heights = np.sort(deviations(surface))[::-1]
+    heights.flags.writeable = False
+    return MaterialRatioCurve(heights)
+
+
+def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
+    """Core of ``curve`` by its 40 % window of least slope (the first, if several) (ISO 25178-2, 4.5.7 to 4.5.11).
+
+    ``line`` is ``least squares`` (ISO: fitted to the curve in the window) or ``secant`` (through its ends, as in many
+    programs; for Gaussian heights Sk is 2 % larger and Smr1 4 % smaller).
+    Raises InputError if the line is unknown or all heights are equal.
+    """
+    require.one_of(line, CORE_LINES, "core line")
+    if curve.heights[0] == curve.heights[-1]:
+        raise InputError(
+            "surface must have heights that differ for a core of its material ratio curve, but all are equal."
+        )
+    start, drop = _flattest(curve)
+    if line == "secant":
+        slope = -drop / _CORE
+        top = float(curve.height(start)) - slope * start
+    else:
+        slope, top = _fitted(curve, start)
+    bottom = top + slope
+    ratio_1, ratio_2 = curve.crossing(top), curve.crossing(bottom)
+    peak = curve._area_to(ratio_1) - ratio_1 * top
+    valley = (1.0 - ratio_2) * bottom - (curve._area_to(1.0) - curve._area_to(ratio_2))
+    return Core(
+        top=top,
+        bottom=bottom,
+        ratio_1=ratio_1,
+        ratio_2=ratio_2,
+        start=start,
+        reduced_peak=2.0 * peak / ratio_1 if ratio_1 > 0.0 else 0.0,
+        reduced_valley=2.0 * valley / (1.0 - ratio_2) if ratio_2 < 1.0 else 0.0,
+    )
+
+
+def functional_parameters(curve: MaterialRatioCurve, line: str = "least squares") -> FunctionalParameters:
+    """Parameters of ``curve``; ``line`` as for :func:`core`.
+
+    Raises InputError if the line is unknown or all heights are equal.
+    """
+    found = core(curve, line)
+    volume_10, volume_80 = curve.material_volume(0.1), curve.material_volume(0.8)
+    void_10, void_80 = curve.void_volume(0.1), curve.void_volume(0.8)
+    return FunctionalParameters(
+        Sk=found.top - found.bottom,
+        Spk=found.reduced_peak,
+        Svk=found.reduced_valley,
+        Smr1=found.ratio_1,
+        Smr2=found.ratio_2,
+        Vmp=volume_10,
+        Vmc=volume_80 - volume_10,
+        Vvc=void_10 - void_80,
+        Vvv=void_80,
+        Sxp=curve.height_difference(0.025, 0.5),
+        Sdc=curve.height_difference(0.1, 0.8),
+    )
+
+
+def _flattest(curve: MaterialRatioCurve) -> tuple[float, float]:
+    """Ratio at which the window of least drop begins (one of the samples), and that drop in m."""
+    n = curve.heights.size
+    width = _CORE * n
+    whole = int(np.floor(width + 1e-9))
+    part = max(0.0, width - whole)
+    first = curve.heights[: max(1, n - whole - (part > 1e-9))]
+    last = curve.heights[whole : whole + first.size]
+    following = curve._next[whole : whole + first.size]
+    drops = first - (last + part * (following - last))
+    best = int(np.argmin(drops))
+    return (best + 0.5) / n, float(drops[best])
+
+
+def _fitted(curve: MaterialRatioCurve, start: float) -> tuple[float, float]:
+    """Slope and intercept at ratio 0 (m) of the least-squares line through the samples in the window."""
+    n = curve.heights.size
+    first = round(start * n - 0.5)
+    count = int(np.floor(_CORE * n + 1e-9)) + 1
+    heights = curve.heights[first : first + count]
+    ratios = (np.arange(heights.size) + first + 0.5) / n
+    centred = ratios - ratios.mean()
+    if heights.size < 2:
+        raise InputError(f"surface must have more points for a core of its material ratio curve than {n}.")
+    mean = float(heights.mean())
+    slope = float(centred @ (heights - mean) / (centred @ centred))
+    return slope, mean - slope * float(ratios.mean())

@@ -27,8 +27,17 @@ from .correlation import (
     structure_function,
     tip_cutoff,
 )
-from .heights import HeightDistribution, HeightParameters, height_distribution, height_parameters, tilt_share
-from .material_ratio import FunctionalParameters, MaterialRatioCurve, functional_parameters, material_ratio_curve
+from .heights import (
+    FunctionalParameters,
+    HeightDistribution,
+    HeightParameters,
+    MaterialRatioCurve,
+    functional_parameters,
+    height_distribution,
+    height_parameters,
+    material_ratio_curve,
+    tilt_share,
+)
 from .moments import DifferenceMoments, SlopeTensor, SpectralMoments, difference_moments, spectral_moments
 from .quantities import QUANTITIES
 from .slopes import developed_area_ratio, rms_slope

@@ -16,13 +16,14 @@ from .deterministic import (
     sinusoid,
     sphere,
     wedge,
+    weierstrass_mandelbrot,
+    weierstrass_mandelbrot_profile,
 )
 from .digital_filter import EndlessSurface, digital_filter, endless
 from .gaussian import gaussian
 from .non_gaussian import HeightMoments, HeightsOf, TwoLevels, rank_ordered, translated
 from .power_laws import PlateauPSD, RmsHeight, RmsSlope
 from .spectra import MeasuredSpectrum, SelfAffine, Spectrum, TabulatedSpectrum, TwoSlopes, spectrum_of
-from .weierstrass import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 
 __all__ = [
     "EndlessSurface",
