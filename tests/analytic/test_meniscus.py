@@ -17,6 +17,7 @@ from asperity.theories.rough.greenwood_williamson import GreenwoodWilliamson
 from asperity.theories.statistics.heights import ExponentialHeights, GaussianHeights
 from asperity.theories.wet import meniscus
 from asperity.theories.wet.meniscus import MeniscusGrowth, grown
+from asperity.theories.wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from asperity.theories.wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits, caught
 
 
@@ -34,6 +35,34 @@ def test_kelvin_radius_and_film(row):
     for factor in (both, film):
         pressure = meniscus.laplace_pressure(gamma, radius * factor, factor)
         assert pressure == pytest.approx(row["laplace_pressure_MPa"] * 1e6, rel=1e-12)
+
+
+@every_row(reference("single_meniscus"))
+def test_single_menisci_of_the_catalogue(row):
+    radius, gamma, gap = row["R_m"], row["gamma_N_per_m"], row["gap_D_m"]
+    angles = math.radians(row["theta_deg"]), math.radians(row["theta2_deg"])
+    drop = DropletMeniscus(radius, gamma, angles[0], row["immersion_d_m"], angles[1])
+    assert drop.at_gap([0.0, gap]).force == pytest.approx(
+        [row["F_caseA_two_angles_N"], row["F_caseB_two_angles_N"]], rel=1e-12
+    )
+    film = FilmMeniscus(radius, gamma, angles[0], height=4.0 * gap)
+    touching = row["F_caseC_N"]
+    assert film.at_gap([0.0, gap, 5.0 * gap]).force == pytest.approx([touching, 0.75 * touching, 0.0], rel=1e-12)
+
+
+def test_menisci_of_vapour_in_the_catalogue():
+    vapour = VapourMeniscus(surface_tension=0.07275, molar_volume=1.8048e-5)
+    answer = vapour.at_humidity([0.2, 0.5])
+    for share, radius, deficit, film in zip(
+        [0.2, 0.5], answer.kelvin_radius, answer.deficit, answer.water_film, strict=True
+    ):
+        assert radius == meniscus.kelvin_radius(share, 0.07275, 1.8048e-5)
+        assert deficit == pytest.approx(meniscus.laplace_pressure(0.07275, radius, 1.0))
+        assert film == meniscus.adsorbed_water_film(share)
+    with refused(InputError, "relative humidity", "1"):
+        vapour.at_humidity(1.0)
+    with refused(InputError, "contact angles"):
+        DropletMeniscus(1e-6, 0.07, 3.0, 1e-9, 1.0)
 
 
 @every_row(reference("single_meniscus"))

@@ -89,6 +89,7 @@ from .subsurface.loads import (
 )
 from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
 from .wet.meniscus import MeniscusGrowth
+from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, KineticMeniscus, StatisticalMeniscus, WetSummits
 
 __all__ = [
@@ -109,11 +110,13 @@ __all__ = [
     "CylinderInHole",
     "CylinderYield",
     "DiscreteSummits",
+    "DropletMeniscus",
     "EffectiveHardness",
     "ElasticPlasticSummits",
     "EllipticPunch",
     "Evaluation",
     "ExponentialHeights",
+    "FilmMeniscus",
     "FittedGreenwoodWilliamson",
     "Flamant",
     "FlatPunch",
@@ -174,6 +177,7 @@ __all__ = [
     "Strip",
     "TriangularHeights",
     "UniformHeights",
+    "VapourMeniscus",
     "Wedge",
     "Westergaard",
     "WetSummits",

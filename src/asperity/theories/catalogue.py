@@ -50,6 +50,7 @@ from .statistics.nayak import NayakSummits
 from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress
 from .subsurface.loads import Boussinesq, Cerruti, Flamant, Strip
 from .subsurface.sliding_yield import CylinderYield, SphereYield
+from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
 
 FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
@@ -118,7 +119,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         ),
         "Statistics of surfaces": (NayakSummits, SampledPeaks),
         "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
-        "Menisci": (WetSummits, GrowingMenisci),
+        "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
     }
 )
 """Theories by what they are about."""

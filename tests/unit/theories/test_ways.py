@@ -98,6 +98,9 @@ EXAMPLES = {
     "oliver-pharr": {"load": 1e-3, "depth": 1e-7, "stiffness": 4e4},
     "statistical-meniscus": {**SUMMITS, **FILM, "skewness": 0.3, "kurtosis": 3.5},
     "kinetic-meniscus": {**SUMMITS, **FILM, "viscosity": 0.1, "hamaker_constant": 5e-20},
+    "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},
+    "film-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "height": 5e-9},
+    "vapour-meniscus": {"surface_tension": 0.072, "molar_volume": 1.8e-5},
 }
 """Numbers for every theory of the catalogue; a new theory is one more entry."""
 
@@ -108,6 +111,8 @@ RANGES = {
     "approach": (1e-11, 1e-9),
     "interference": (1e-11, 1e-8),
     "contact_radius": (1e-9, 1e-7),
+    "gap": (0.0, 1e-8),
+    "humidity": (0.05, 0.95),
     "tangential": (0.0, 2e-7),
     "depth": (1e-9, 1e-6),
     "friction": (0.0, 0.6),
