@@ -92,3 +92,8 @@ def test_faces_must_fit_together():
     with refused(InputError, "depth of an indentation"):
         StackHardness((one,), (1.0,)).at(-1.0)
     assert math.isclose(float(StackHardness((one,), (1.0,)).at(0.0)), 3.0)
+
+
+def test_no_depths_have_no_hardness_and_no_work():
+    law = stack([(3.0, 1.0, 1e-3)])
+    assert law.at(np.zeros(0)).shape == law.work(np.zeros((0, 2))[:, 0]).shape == (0,)

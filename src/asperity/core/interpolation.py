@@ -46,8 +46,7 @@ def _through_chebyshev() -> RealArray:
     powers = np.zeros((TERMS, TERMS))
     for k in range(TERMS):
         powers[k, : k + 1] = np.polynomial.chebyshev.cheb2poly(np.eye(TERMS)[k])[: k + 1]
-    matrix: RealArray = np.polynomial.chebyshev.chebvander(_CHEBYSHEV, TERMS - 1) * weights @ powers
-    return matrix
+    return np.polynomial.chebyshev.chebvander(_CHEBYSHEV, TERMS - 1) * weights @ powers
 
 
 _CHEBYSHEV = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
@@ -65,15 +64,13 @@ class Panels:
     @cached_property
     def breaks(self) -> RealArray:
         """Ends of the panels, (count + 1,)."""
-        ends: RealArray = self.start * np.exp(self.width * np.arange(self.count + 1))
-        return ends
+        return np.asarray(self.start * np.exp(self.width * np.arange(self.count + 1)))
 
     @property
     def points(self) -> RealArray:
         """Points at which functions to be fitted must be known, (count · TERMS,)."""
         low, high = self.breaks[:-1, None], self.breaks[1:, None]
-        points: RealArray = (0.5 * (low + high) + 0.5 * (high - low) * _CHEBYSHEV).ravel()
-        return points
+        return (0.5 * (low + high) + 0.5 * (high - low) * _CHEBYSHEV).ravel()
 
     def fitted(self, values: RealArray) -> RealArray:
         """Coefficients (count, m, TERMS) of the powers of t of m functions with ``values`` (m, count · TERMS) at ``points``."""
@@ -152,8 +149,7 @@ class LogTable:
 
 def log_grid(start: float, count: int) -> RealArray:
     """Nodes start·exp(i·STEP), i = 0…count-1."""
-    grid: RealArray = start * np.exp(STEP * np.arange(count))
-    return grid
+    return np.asarray(start * np.exp(STEP * np.arange(count)))
 
 
 def covering_grid(low: float, high: float) -> RealArray:

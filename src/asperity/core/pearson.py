@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from . import require
 from .arrays import RealArray
 from .errors import InputError
-from .quadrature import LogDensity, partial_moment
+from .quadrature import LogDensity, gauss, partial_moment
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
@@ -335,8 +335,7 @@ class _TypeIV:
 
     def cdf(self, x: RealArray, /) -> RealArray:
         """Probability below ``x``."""
-        values: RealArray = self._below(np.arcsinh(x)) / self._sums[-1]
-        return values
+        return np.asarray(self._below(np.arcsinh(x)) / self._sums[-1])
 
     def sf(self, x: RealArray, /) -> RealArray:
         """Probability above ``x``."""
@@ -359,8 +358,7 @@ class _TypeIV:
         a = math.sqrt(self.c0 / self.c2 - shift**2)
         turn = np.arctan2(2.0 * a * self.c2 * x, 2.0 * self.c0 + self.c1 * x)
         power = np.log1p(x * (self.c1 + self.c2 * x) / self.c0) / (2.0 * self.c2)
-        values: RealArray = -power - (self.c1 - shift) / (self.c2 * a) * turn
-        return values
+        return np.asarray(-power - (self.c1 - shift) / (self.c2 * a) * turn)
 
     @cached_property
     def _mirrored(self) -> _TypeIV:
@@ -377,22 +375,18 @@ class _TypeIV:
 
     def _integral(self, start: RealArray, end: RealArray) -> RealArray:
         """∫ f(x)/f(0) dx over t from ``start`` to ``end``, within one panel."""
-        points, weights = np.polynomial.legendre.leggauss(_ORDER)
-        middle, half = 0.5 * (start + end), 0.5 * (end - start)
-        values: RealArray = half * (self._weight(middle[..., None] + half[..., None] * points) @ weights)
-        return values
+        points, weights = gauss(np.stack(np.broadcast_arrays(start, end), axis=-1), _ORDER)
+        return np.asarray((self._weight(points) * weights).sum(axis=-1))
 
     def _weight(self, t: RealArray) -> RealArray:
         """f(x)/f(0) dx/dt."""
-        values: RealArray = np.exp(self.relative(np.sinh(t)) + np.logaddexp(t, -t) - math.log(2.0))
-        return values
+        return np.asarray(np.exp(self.relative(np.sinh(t)) + np.logaddexp(t, -t) - math.log(2.0)))
 
     def _below(self, t: RealArray) -> RealArray:
         """∫ f(x)/f(0) dx below ``t``."""
         t = np.clip(t, -_REACH, _REACH)
         panel = np.clip(((t + _REACH) / _PANEL).astype(np.intp), 0, self._edges.size - 2)
-        values: RealArray = self._sums[panel] + self._integral(self._edges[panel], t)
-        return values
+        return self._sums[panel] + self._integral(self._edges[panel], t)
 
     def _in_lower_half(self, probability: RealArray) -> RealArray:
         """The x below which values have a ``probability`` (n,) of at most a half: Newton's method for its logarithm."""

@@ -25,7 +25,7 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
     x, w = _rule(nodes)
     low, high = breaks[..., :-1, None], breaks[..., 1:, None]
     half = 0.5 * (high - low)
-    shape = (*breaks.shape[:-1], -1)
+    shape = (*breaks.shape[:-1], (breaks.shape[-1] - 1) * nodes)
     return (low + half * (x + 1.0)).reshape(shape), (half * w).reshape(shape)
 
 
@@ -79,5 +79,4 @@ def _piece(
     used = (y > 0.0) & (y < _FARTHEST) & (from_high > 0.0)
     y, from_low, from_high = (np.where(used, values, 1.0) for values in (y, from_low, from_high))
     logs = order * np.log((start - level[:, None]) + y) + log_density(start + y, from_low, from_high) + log_slope
-    values: RealArray = _STEP * np.sum(np.exp(np.where(used, logs, -np.inf)), axis=1)
-    return values
+    return np.asarray(_STEP * np.sum(np.exp(np.where(used, logs, -np.inf)), axis=1))

@@ -189,13 +189,11 @@ class SplitTransform:
 
     def lines(self, fields: int, count: int, dtype: Any) -> ComplexArray:
         """Uninitialised array for ``count`` lines of ``fields`` to be made in, (fields, count, nx and a few)."""
-        array: ComplexArray = _apart((fields, count, self.shape[0]), dtype)
-        return array
+        return np.asarray(_apart((fields, count, self.shape[0]), dtype))
 
     def between(self, fields: int, dtype: Any) -> ComplexArray:
         """Uninitialised array for ``fields`` between the steps, (fields, nx, ny // 2 + 1 and a few)."""
-        array: ComplexArray = _apart((fields, self.shape[0], self.shape[1] // 2 + 1), dtype)
-        return array
+        return np.asarray(_apart((fields, self.shape[0], self.shape[1] // 2 + 1), dtype))
 
     def lines_back(self, made: ComplexArray, span: tuple[int, int], out: ComplexArray) -> None:
         """Step one: put the lines ``span`` (first, last + 1) of a spectrum, the first ones ``made``, between the steps."""

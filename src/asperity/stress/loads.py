@@ -209,5 +209,4 @@ def _covered(ends: Vector, grid: Grid, axis: int, *, wraps: bool) -> RealArray:
     shifts = turns * (last - first) if wraps else np.zeros(1)
     lows, highs = low + shifts[:, None], high + shifts[:, None]
     covered = np.minimum(highs, edges + step) - np.maximum(lows, edges)
-    parts: RealArray = np.clip(covered, 0.0, None).sum(axis=0) / step
-    return parts
+    return np.asarray(np.clip(covered, 0.0, None).sum(axis=0) / step)

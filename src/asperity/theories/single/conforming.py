@@ -99,8 +99,7 @@ class CylinderInHole(Theory):
         square = (a[..., None] * np.sin(t)) ** 2
         s1, s2 = np.sqrt(self.inner**2 - square), np.sqrt(self.outer**2 - square)
         integral = np.sum(weight * np.sin(t) ** 2 / (s1 * s2 * (s1 + s2)), axis=-1)
-        load: RealArray = self.E_star * (self.outer - self.inner) * (self.outer + self.inner) * a**2 * integral
-        return load
+        return np.asarray(self.E_star * (self.outer - self.inner) * (self.outer + self.inner) * a**2 * integral)
 
     def _pressure(self, x: RealArray, a: RealArray) -> RealArray:
         from scipy.special import ellipe
@@ -109,8 +108,7 @@ class CylinderInHole(Theory):
         v, weight = gauss(np.stack([0.0 * end, end], axis=-1), _NODES)
         m1, m2 = ((x[..., None] ** 2 + v**2) / R**2 for R in (self.inner, self.outer))
         rise = ellipe(m1) / (1.0 - m1) / self.inner - ellipe(m2) / (1.0 - m2) / self.outer  # P'(t)/E*t
-        profile: RealArray = self.E_star / np.pi * np.sum(weight * rise, axis=-1)
-        return profile
+        return np.asarray(self.E_star / np.pi * np.sum(weight * rise, axis=-1))
 
 
 @dataclass(frozen=True)
@@ -207,8 +205,7 @@ class PinInHole(Theory):
 
     def angle(self, load: ArrayLike) -> RealArray:
         """Half-angle ε of the contact in rad under ``load`` in N/m, >= 0, of any shape."""
-        width: RealArray = 2.0 * np.arctan(self._width(checked(load, "load per length (N/m)")))
-        return width
+        return 2.0 * np.arctan(self._width(checked(load, "load per length (N/m)")))
 
     def pressure(self, angle: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at the ``angle`` θ in rad (any shape) from the line of the force under ``load`` in N/m, > 0."""
@@ -232,5 +229,4 @@ def _persson(y: RealArray, b: RealArray) -> RealArray:
     root, far = np.sqrt(b**2 - y**2), np.sqrt(1.0 + b**2)
     # ln((far + root)/(far - root)) = 2 artanh(root/far)
     logarithm = 2.0 * np.arctanh(root / far) / (2.0 * np.pi * b**2 * (1.0 + b**2))
-    profile: RealArray = 2.0 * root / (np.pi * far * (1.0 + y**2)) + logarithm
-    return profile
+    return np.asarray(2.0 * root / (np.pi * far * (1.0 + y**2)) + logarithm)

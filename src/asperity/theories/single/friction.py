@@ -91,8 +91,7 @@ class SlidingCylinder(Theory):
         a, gamma = float(self.at_load(require.positive(load, "load per length (N/m)")).radius), self.exponent
         place = np.asarray(x, dtype=float) - 2.0 * gamma * a
         front, back = np.maximum(a - place, 0.0), np.maximum(a + place, 0.0)
-        profile: RealArray = self._scale * back ** (0.5 + gamma) * front ** (0.5 - gamma)
-        return profile
+        return self._scale * back ** (0.5 + gamma) * front ** (0.5 - gamma)
 
     @property
     def _scale(self) -> float:
@@ -138,8 +137,7 @@ class SlidingPunch(Theory):
         front, back = np.where(outside, 1.0, a - place), np.where(outside, 1.0, a + place)
         with np.errstate(divide="ignore"):
             shape = back ** (gamma - 0.5) * front ** (-gamma - 0.5)
-        profile: RealArray = np.where(outside, 0.0, P * math.cos(math.pi * gamma) / math.pi * shape)
-        return profile
+        return np.where(outside, 0.0, P * math.cos(math.pi * gamma) / math.pi * shape)
 
 
 # Indentation without slip (Mossakovskii 1954, 1963; Spence 1968). A point of the surface is held from the moment at
@@ -201,8 +199,7 @@ class StickingPunch(Theory):
         a, kappa = self.radius, oscillation(self.beta)
         x, angle, scale = self._inverse(r, load)
         terms = np.cos(kappa * angle) + 2.0 * kappa * a * np.sin(kappa * angle) / x
-        profile: RealArray = np.sum(scale * terms, axis=-1)
-        return profile
+        return np.asarray(np.sum(scale * terms, axis=-1))
 
     def traction(self, r: ArrayLike, load: float) -> RealArray:
         """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0 and a); as ``pressure``.
@@ -212,8 +209,7 @@ class StickingPunch(Theory):
         a, kappa = self.radius, oscillation(self.beta)
         x, angle, scale = self._inverse(r, load)
         terms = (a / x) ** 2 * np.sin(kappa * angle) / x - 2.0 * kappa * a * np.cos(kappa * angle) / x**2
-        profile: RealArray = np.abs(np.asarray(r, dtype=float)) * np.sum(scale * terms, axis=-1)
-        return profile
+        return np.asarray(np.abs(np.asarray(r, dtype=float)) * np.sum(scale * terms, axis=-1))
 
     def _inverse(self, r: ArrayLike, load: float) -> tuple[RealArray, RealArray, RealArray]:
         """x = sqrt(r² + (a² - r²) s²) at the nodes of s = tanh t, L there, and the weights times 2A/π sqrt(a² - r²)."""
