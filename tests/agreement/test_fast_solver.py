@@ -159,8 +159,9 @@ def complaints(name: str, elastic_qp: ContactQP) -> Iterator[str]:
 
     With a cap no step is free; without one both kinds of steps are tried.
     """
-    for number, qp in enumerate(capped(elastic_qp, reference(elastic_qp).state.pressure)):
-        exact = reference(qp)
+    without = reference(elastic_qp)
+    for number, qp in enumerate(capped(elastic_qp, without.state.pressure)):
+        exact = reference(qp) if number else without
         tolerance = max(
             1e-10, 0.1 * ROUNDING * magnitude(qp, exact.state.pressure)
         )  # far beyond full contact: rounding

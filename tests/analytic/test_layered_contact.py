@@ -4,6 +4,8 @@ Sphere: O'Sullivan & King (1988); cylinder: Cole & Sayles (1992). Errors are tho
 of second order in pixel over contact radius inside, growing like the curvature of the pressure towards the edge.
 """
 
+import functools
+
 import numpy as np
 import pytest
 from indenter_cases import WIDTH, cylinder, cylinder_peak, pressure_at, sphere, sphere_peak
@@ -24,9 +26,22 @@ def second_order(pixels):
     return 0.25 * (WIDTH / pixels) ** 2
 
 
+def constants(row):
+    return tuple(row[name] for name in CONSTANTS)
+
+
+RADII = {constants(row): row["a_over_a0"] for row in SUMMARY}
+
+
+@functools.cache
+def under_the_sphere(case, radius):
+    """Contact of the bodies of a ``case`` on pixels over the ``radius``, solved once for both tables."""
+    return sphere(dict(zip(CONSTANTS, case, strict=True)), radius, SPHERE_PIXELS)
+
+
 @every_row(SUMMARY, label=name)
 def test_sphere(row):
-    result = sphere(row, row["a_over_a0"], SPHERE_PIXELS)
+    result = under_the_sphere(constants(row), row["a_over_a0"])
     middle = SPHERE_PIXELS // 2
     tight, peak = second_order(SPHERE_PIXELS), sphere_peak(row)
     assert result.pressure[middle, middle] / peak == pytest.approx(row["p_center_over_p0"], rel=tight)
@@ -37,12 +52,14 @@ def test_sphere(row):
     assert radius == pytest.approx(row["a_over_a0"], rel=0.25 * WIDTH / SPHERE_PIXELS)
 
 
-@pytest.mark.parametrize("case", sorted({tuple(row[k] for k in CONSTANTS) for row in PRESSURE}), ids=str)
+@pytest.mark.parametrize("case", sorted({constants(row) for row in PRESSURE}), ids=str)
 def test_pressure_under_the_sphere(case):
     """Truncation error of second order times the curvature (1 - r²/a²)^(-3/2) of the pressure; at the edge a pixel."""
-    rows = [row for row in PRESSURE if tuple(row[k] for k in CONSTANTS) == case]
+    rows = [row for row in PRESSURE if constants(row) == case]
     away = max(rows, key=lambda row: row["r_over_a"])
-    result = sphere(rows[0], away["r_over_a0"] / away["r_over_a"], SPHERE_PIXELS)
+    radius = away["r_over_a0"] / away["r_over_a"]
+    assert RADII.get(case, radius) == pytest.approx(radius, rel=1e-9)
+    result = under_the_sphere(case, RADII.get(case, radius))
     for row in rows:
         found = pressure_at(result, row["r_over_a0"]) / sphere_peak(row)
         curvature = (1.0 - row["r_over_a"] ** 2) ** -1.5

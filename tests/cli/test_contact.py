@@ -8,10 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
+from study_cases import InProcess
 
 import asperity as asp
 from asperity.io.results import load
 from asperity.run.document import load_document
+
+pytestmark = pytest.mark.usefixtures("undrawn")
 
 
 def test_prints_problem_result_and_status(run: Runner, matrix: Path) -> None:
@@ -229,7 +232,10 @@ control = { force = "1 kN" }
     assert "force                                                    1 kN" in result.stdout
 
 
-def test_many_files_are_one_study_with_a_row_for_each(run: Runner, matrix: Path, tmp_path: Path) -> None:
+def test_many_files_are_one_study_with_a_row_for_each(
+    run: Runner, matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asperity.studies.local.LocalProcesses", lambda *_: InProcess())
     other, broken, out = tmp_path / "other.txt", tmp_path / "broken.txt", tmp_path / "all"
     np.savetxt(other, 2.0 * np.loadtxt(matrix))
     broken.write_text("no heights", encoding="utf-8")

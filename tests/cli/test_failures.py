@@ -15,6 +15,8 @@ from cli.conftest import Runner
 from asperity import ConvergenceError
 from asperity.cli.main import INTERNAL_ERROR, INTERRUPTED, diagnosis
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 def test_debug_shows_the_traceback(run: Runner, tmp_path: Path) -> None:
     quiet = run("info", tmp_path / "none.txt")

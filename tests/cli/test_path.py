@@ -6,11 +6,13 @@ import csv
 from pathlib import Path
 
 import numpy as np
+import pytest
 from cli.conftest import SCALE, Runner
 
 import asperity as asp
 from asperity.run.document import load_document
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 COATED = ("--body", "E=100GPa,nu=0.3,H=9GPa:2nm/E=100GPa,nu=0.3,H=0.1GPa")
 PATH = ("--path", "30MPa,0,40MPa,0", "--path-steps", "3")
 

@@ -15,6 +15,8 @@ from asperity.cli.options import preparation_options, step_names, steps
 from asperity.io.results import load
 from asperity.run.document import load_document
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 def given(**options: object) -> Given:
     offered = {option.word: option.path for option in preparation_options()}

@@ -10,6 +10,8 @@ from cli.conftest import BODY, LOAD, SCALE, Runner
 from asperity.io.results import load
 from asperity.plots import PLOTS
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 @pytest.fixture
 def result_file(run: Runner, matrix: Path, tmp_path: Path) -> Path:

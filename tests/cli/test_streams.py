@@ -27,7 +27,7 @@ def shell(line: str, **variables: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_a_reader_that_leaves_is_no_failure() -> None:
-    done = shell(f"({PROGRAM} demo; echo code=$? >&2) | true")
+    done = shell(f"({PROGRAM} materials; echo code=$? >&2) | true")
     assert done.stderr == "code=0\n"
 
 
@@ -49,6 +49,6 @@ def test_other_operating_system_errors_stay_unforeseen() -> None:
 
 
 def test_output_in_ascii_shows_codes_of_letters() -> None:
-    done = shell(f"{PROGRAM} demo", PYTHONIOENCODING="ascii")
+    done = shell(f"{PROGRAM} materials", PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "10 \\xb5m" in done.stdout
+    assert "\\u03bd" in done.stdout

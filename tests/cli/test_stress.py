@@ -15,6 +15,7 @@ from asperity.core.units import show
 from asperity.io.results import load, open_tree
 from asperity.run.document import load_document
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 COATED = ("--body", "E=200GPa,nu=0.25,H=20GPa,name=film:100nm/E=100GPa,nu=0.3,Y=1GPa,name=base")
 
 

@@ -14,6 +14,7 @@ from asperity.io.results import document_in, load, open_tree, save
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, load_document
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=base"
 
 

@@ -14,6 +14,7 @@ from contact_cases import wetted
 import asperity as asp
 from asperity.run.document import load_document
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 NM = 1e-9
 DLC = ("--body", "DLC", "--pressure", "2MPa")
 WATER = ("--liquid", "water", "--humidity", "80%", "--contact-angle", "60deg,60deg")

@@ -22,7 +22,7 @@ from asperity.run.document import load_document, loads
 from asperity.studies.documents import study_from_table
 from asperity.studies.plan import make_plan
 
-pytestmark = pytest.mark.usefixtures("unrendered")
+pytestmark = pytest.mark.usefixtures("undrawn")
 
 ROOT = Path(__file__).parents[2]
 GUIDES = sorted((ROOT / "docs").rglob("*.md"))

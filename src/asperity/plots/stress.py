@@ -328,9 +328,9 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
 
     picture = png(draw, map_size(grid))
     caption = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
-    caption += BESIDE if enlarged[0] else ""
+    caption += BESIDE if any(enlarged) else ""
     title = f"Von Mises stress at {depth}{side}"
-    return Figure(f"stress_plane_{number}", title, caption, picture, enlarged[0])
+    return Figure(f"stress_plane_{number}", title, caption, picture, any(enlarged))
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:

@@ -163,9 +163,16 @@ def test_gap_histogram_covers_the_open_area(plastic: asp.ContactResult, ax: Axes
 
 
 def test_every_figure_of_every_contact_is_drawn(result: asp.ContactResult) -> None:
+    """Rendered where the shape asks for something special; for other shapes all that rendering computes before."""
+    grid = result.problem.grid
     for plot in plots.PLOTS:
-        picture = plots.render(plot, result)
-        assert picture.startswith(b"\x89PNG")
+        if 1 in grid.shape or min(grid.shape) == 4:
+            assert plots.render(plot, result).startswith(b"\x89PNG")
+        else:
+            figure = Figure()
+            FigureCanvasAgg(figure)
+            plot.draw(result, figure.add_subplot())
+            figure.draw_without_rendering()
 
 
 def test_the_largest_contact_is_enlarged_beside_its_map(ax: Axes) -> None:

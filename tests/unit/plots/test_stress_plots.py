@@ -34,16 +34,19 @@ def ax() -> Axes:
 DEPTHS = asp.depths_through(BODY, 200e-9, per_region=5)
 
 
+@pytest.fixture(scope="module", params=[asp.Section(y="max"), asp.Section(x="max")], ids=["along x", "along y"])
+def section(request, contact) -> asp.StressField:
+    return asp.stress(contact, DEPTHS, on=request.param, friction=0.3)
+
+
 @pytest.mark.parametrize("quantity", plots.stress.QUANTITIES)
-@pytest.mark.parametrize("on", [asp.Section(y="max"), asp.Section(x="max")], ids=["along x", "along y"])
-def test_every_quantity_of_a_section(contact, ax, on, quantity):
-    field = asp.stress(contact, DEPTHS, on=on, friction=0.3)
-    assert plots.plot_stress_section(field, ax, quantity) is ax
-    ax.figure.canvas.draw()
+def test_every_quantity_of_a_section(section, ax, quantity):
+    assert plots.plot_stress_section(section, ax, quantity) is ax
+    ax.figure.draw_without_rendering()
     bottom, top = ax.get_ylim()
     assert bottom == pytest.approx(200.0)
     assert top == 0.0
-    axis = field.dims[1]
+    axis = section.dims[1]
     assert ax.get_xlabel().startswith(f"{axis} (")
     assert ax.get_ylabel() == "depth (nm)"
     (interface,) = [line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_ydata()) == 2]
@@ -52,7 +55,7 @@ def test_every_quantity_of_a_section(contact, ax, on, quantity):
     assert bar.get_ylabel().startswith(plots.stress.QUANTITIES[quantity].label)
     assert {text.get_text() for text in ax.texts} == {"DLC", "Al-Mg"}
     low, high = bar.get_ylim()
-    values = getattr(field, quantity)
+    values = getattr(section, quantity)
     if quantity not in plots.stress.MAGNITUDES:
         assert low == pytest.approx(-high)
     else:

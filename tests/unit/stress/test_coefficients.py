@@ -1,5 +1,7 @@
 """Point and patch responses of layered bodies in real space: every row of the tables, lattices, and free convolution."""
 
+import functools
+
 import numpy as np
 import pytest
 from elastic_fields import expected, found, label
@@ -16,18 +18,31 @@ from asperity.stress.regions import planes
 from asperity.stress.tractions import ShearTraction, Sliding, Tractions
 from asperity.theories.subsurface.loads import boussinesq, cerruti
 
-PATCHES, POINTS = reference("layered_patch_fields"), reference("layered_point_fields")
+PATCHES, POINTS = (
+    sorted(reference(name), key=lambda row: (row["config"], row["region"], row["z"], row["load"]))
+    for name in ("layered_patch_fields", "layered_point_fields")
+)
 LAYERED = asp.Layered(
     [asp.Layer(asp.Elastic(400.0, 0.2), 0.5), asp.Layer(asp.Elastic(50.0, 0.45), 3.0)], asp.Elastic(200.0, 0.3)
 )
 
 
+TERMS = {
+    "pressure": coefficients.STRESS_UNDER_PRESSURE | coefficients.DISPLACEMENT_UNDER_PRESSURE,
+    "shear": coefficients.STRESS_UNDER_SHEAR | coefficients.DISPLACEMENT_UNDER_SHEAR,
+}
+
+
+@functools.lru_cache(maxsize=8)
+def kernels_of(body, plane, traction):
+    names = {name for line in TERMS[traction].values() for name, _, _ in line}
+    return PlaneCoefficients(body.reduced, plane, asp.Grid((1, 1), (1.0, 1.0))).kernels(names)
+
+
 def point_response(body, plane, load):
     """Function of (x, y): all fields of a point force, less those of a homogeneous body in the outermost region."""
-    under_pressure = coefficients.STRESS_UNDER_PRESSURE | coefficients.DISPLACEMENT_UNDER_PRESSURE
-    terms = under_pressure if load == "z" else coefficients.STRESS_UNDER_SHEAR | coefficients.DISPLACEMENT_UNDER_SHEAR
-    names = {name for line in terms.values() for name, _, _ in line}
-    kernels = PlaneCoefficients(body.reduced, plane, asp.Grid((1, 1), (1.0, 1.0))).kernels(names)
+    traction = "pressure" if load == "z" else "shear"
+    terms, kernels = TERMS[traction], kernels_of(body, plane, traction)
 
     def fields(x, y):
         x, y = np.broadcast_arrays(x, y)
@@ -94,12 +109,17 @@ test_some_patches_on_layered_bodies = every_row(PATCHES[::7], label=label)(patch
 test_patches_on_layered_bodies = pytest.mark.slow(every_row(PATCHES, label=label)(patch_is_that_of_the_table))
 
 
+@functools.lru_cache(maxsize=8)
+def under_the_pixel(body, plane, grid):
+    return PlaneCoefficients(body.reduced, plane, grid)
+
+
 @every_row([row for row in PATCHES if row["x"] == row["y"] == 0.0], label=label)
 def test_coefficients_under_the_loaded_pixel(row):
     """The stated error is 1e-8 of the largest coefficient, which is this one. Worst found: 2e-14."""
     body = body_of(row)
     plane = plane_of(row, body, row["z"])
-    ready = PlaneCoefficients(body.reduced, plane, asp.Grid((1, 1), (2 * row["a"], 2 * row["b"])))
+    ready = under_the_pixel(body, plane, asp.Grid((1, 1), (2 * row["a"], 2 * row["b"])))
     fields = ElasticFields(ready.displacement(row["load"]), ready.stress(row["load"])).map(lambda f: f[0, 0])
     np.testing.assert_allclose(found(fields), expected(row), atol=1e-13, rtol=0)
 

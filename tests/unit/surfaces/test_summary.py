@@ -35,6 +35,11 @@ def with_holes() -> asp.Surface:
     return asp.levelled(asp.Surface(heights, surface.dx, surface.dy))
 
 
+@pytest.fixture(scope="module")
+def found_with_holes(with_holes) -> asp.Characterisation:
+    return asp.characterise(with_holes)
+
+
 def test_every_quantity_is_there_with_unit_and_source(periodic):
     values = periodic.values()
     assert [quantity for quantity, _ in values] == list(r.QUANTITIES)
@@ -91,8 +96,8 @@ def test_two_slopes_are_found():
     assert found.crossover_wavelength == pytest.approx(50e-9, rel=5.0 * found.crossover_error)
 
 
-def test_holes_are_left_out_and_filled_for_spectra_alone(with_holes):
-    found = asp.characterise(with_holes)
+def test_holes_are_left_out_and_filled_for_spectra_alone(with_holes, found_with_holes):
+    found = found_with_holes
     assert any("Only for the spectra" in remark and "40 points" in remark for remark in found.remarks)
     assert found.heights.Sq == asp.rms_height(with_holes)
     filled = asp.characterise(asp.filled(with_holes))
@@ -107,11 +112,11 @@ def test_holes_are_left_out_and_filled_for_spectra_alone(with_holes):
     assert without.spatial.Sal == found.spatial.Sal
 
 
-def test_a_surface_that_was_not_levelled_is_told(with_holes):
+def test_a_surface_that_was_not_levelled_is_told(with_holes, found_with_holes):
     x, y = with_holes.grid.coordinates()
     tilted = asp.Surface(with_holes.heights + 0.01 * x - 0.02 * y, with_holes.dx, with_holes.dy)
     assert any("level the surface first" in remark for remark in asp.characterise(tilted).remarks)
-    assert not any("level the surface first" in remark for remark in asp.characterise(with_holes).remarks)
+    assert not any("level the surface first" in remark for remark in found_with_holes.remarks)
 
 
 @pytest.mark.parametrize("shape", [(200, 1), (1, 200)])
@@ -154,10 +159,10 @@ def test_rows_without_a_valid_point():
     assert math.isfinite(found.moments.spectral.m2)
 
 
-def test_single_precision_heights():
-    surface = asp.generate.gaussian(GRID, SPECTRUM, seed=3)
+def test_single_precision_heights(periodic):
+    surface = periodic.surface
     single = asp.Surface(surface.heights.astype(np.float32), surface.dx, surface.dy, periodic=True)
-    double = {quantity.name: value for quantity, value in asp.characterise(surface).values()}
+    double = {quantity.name: value for quantity, value in periodic.values()}
     for quantity, value in asp.characterise(single).values():
         if quantity.name.startswith(("heights", "functional", "hybrid", "spatial.S")):
             assert value == pytest.approx(double[quantity.name], rel=1e-4, abs=1e-6), quantity.name
@@ -183,9 +188,9 @@ def test_direction_of_oblique_waves(angle):
     assert math.degrees(found.spatial.lay) == pytest.approx((angle + 90.0) % 180.0, abs=1.0)
 
 
-def test_a_tip_limits_the_fitted_spectrum():
-    surface = asp.generate.gaussian(GRID, SPECTRUM, seed=3)
-    free, blunt = asp.characterise(surface), asp.characterise(surface, tip_radius=20e-9)
+def test_a_tip_limits_the_fitted_spectrum(periodic):
+    surface, free = periodic.surface, periodic
+    blunt = asp.characterise(surface, tip_radius=20e-9)
     assert math.isnan(free.sampling.tip_cutoff)
     assert blunt.sampling.tip_cutoff > 2.0 * surface.dx
     assert blunt.spectra.fit.last <= 2.0 * math.pi / blunt.sampling.tip_cutoff * (1.0 + 1e-9)

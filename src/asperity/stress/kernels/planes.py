@@ -362,7 +362,8 @@ def _shear_bound(used, J2, r, out):  # type: ignore[no-untyped-def]
 def _block(components, first, used, copied):  # type: ignore[no-untyped-def]
     """The components of a block in double precision, whatever the fields are."""
     for component in range(6):
-        copied[component, :used] = components[component][first : first + used]
+        for k in range(used):  # a slice assigned brings the compilation of its error message: a second
+            copied[component, k] = components[component][first + k]
     return copied[0], copied[1], copied[2], copied[3], copied[4], copied[5]
 
 
