@@ -1,13 +1,16 @@
-"""Pages of validation on wet contacts, on fewer surfaces, films and humidities: all their claims hold, and they are the scripts'."""
+"""Pages of validation on the review of Bhushan (1998), on fewer surfaces, points, films and humidities: all their claims hold, and they are the scripts'."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
 
+import bhushan_dry
 import bhushan_film
 import bhushan_heights
 import bhushan_humidity
+import bhushan_sphere
+import bhushan_statistics
 import bhushan_summits
 import numpy as np
 import pytest
@@ -15,12 +18,15 @@ from bhushan import shown
 
 FOLDER = Path(bhushan_film.__file__).parent
 RUNS = {
+    "bhushan_sphere": lambda: bhushan_sphere.compare(points=97, count=1),
+    "bhushan_statistics": lambda: bhushan_statistics.compare((10e3,)),
+    "bhushan_dry": lambda: bhushan_dry.compare(count=6, pixels=128, stressed=2),
     "bhushan_summits": bhushan_summits.compare,
     "bhushan_film": lambda: bhushan_film.compare(2, (1e-9, 2e-9), (0.5e-9, 1e-9, 2e-9)),
     "bhushan_humidity": lambda: bhushan_humidity.compare(3, (0.5, 0.8, 0.9, 0.95)),
     "bhushan_heights": lambda: bhushan_heights.compare(6, loads=(bhushan_heights.LOAD,)),
 }
-LONG = {"bhushan_heights"}
+LONG = {"bhushan_heights", "bhushan_sphere"}
 
 
 @cache
