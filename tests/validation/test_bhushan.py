@@ -20,7 +20,7 @@ FOLDER = Path(bhushan_film.__file__).parent
 RUNS = {
     "bhushan_sphere": lambda: bhushan_sphere.compare(points=97, count=1),
     "bhushan_statistics": lambda: bhushan_statistics.compare((10e3,)),
-    "bhushan_dry": lambda: bhushan_dry.compare(count=6, pixels=128, stressed=2),
+    "bhushan_dry": lambda: bhushan_dry.compare(count=6, stressed=2),
     "bhushan_summits": bhushan_summits.compare,
     "bhushan_film": lambda: bhushan_film.compare(2, (1e-9, 2e-9), (0.5e-9, 1e-9, 2e-9)),
     "bhushan_humidity": lambda: bhushan_humidity.compare(3, (0.5, 0.8, 0.9, 0.95)),
