@@ -55,7 +55,7 @@ class Seen:
     """Stresses over p₀ under one contact: on the axis at ``DEPTHS`` (of the layer at the interface), and largest ones.
 
     ``xx``, ``zz``, ``xz`` (depths,) on the axis; ``root`` largest √J2 and ``root_by_depth`` that of every plane;
-    ``shear`` largest |τₓz| on the interface; ``tension`` largest σₓ on the surface, at ``place`` over the contact radius; ``peak`` largest pressure.
+    ``shear`` largest shear τₓz on the interface; ``tension`` largest σₓ on the surface, at ``place`` over the contact radius; ``peak`` largest pressure.
     """
 
     xx: np.ndarray
@@ -165,7 +165,7 @@ def _layers(smooth: dict[tuple[float, float], Seen]) -> Table:
         "at x/a",
         "σₓ at z = h",
         "σ_z at z = h",
-        "max |τₓz| at z = h",
+        "max τₓz at z = h",
     )
     return Table(
         "Layer, figs 4 to 7; stresses over p₀, at the interface those of the layer below the middle:", head, tuple(rows)
@@ -227,7 +227,7 @@ def _claims(
             )
         ),
         Claim(
-            "largest |τₓz| on the interface, compliant layer over homogeneous, µ = 0.25",
+            "largest shear τₓz on the interface, compliant layer over homogeneous, µ = 0.25",
             by_ratio["shear"][0] / by_ratio["shear"][1],
             0.0,
             1.0,
@@ -238,8 +238,8 @@ def _claims(
             for name, text in (("root", "√J₂"), ("tension", "the tension on the surface"))
         ),
         Claim("fig. 6: place of the largest tension over the contact radius, µ = 0.25", plain.place, -1.1, -0.9),
-        Claim("fig. 5: |σₓ|/p₀ at 1.3 a₀, homogeneous", abs(float(plain.xx[deep])), 0.0, 0.02),
-        Claim("fig. 5: |σ_z|/p₀ at 3 a₀, homogeneous", abs(float(plain.zz[-1])), 0.08),
+        Claim("fig. 5: size of σₓ/p₀ at 1.3 a₀, homogeneous", abs(float(plain.xx[deep])), 0.0, 0.02),
+        Claim("fig. 5: size of σ_z/p₀ at 3 a₀, homogeneous", abs(float(plain.zz[-1])), 0.08),
         Claim("rough sphere: smallest largest pressure over p₀", min(one.peak for one in rough), 1.5),
         Claim(
             "rough sphere: smallest largest √J₂ over that of the smooth sphere",
