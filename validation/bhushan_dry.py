@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from bhushan import BODY, PIXEL, column, shown
-from page import Claim, Page, Table, within_scatter, write_page
+from page import Claim, Page, Published, Table, within_scatter, write_page
 
 import asperity as asp
 
@@ -109,7 +109,19 @@ def compare(count: int = 24, pixels: int = PIXELS, stressed: int = 3) -> Page:
     )
     claims = _claims(loads, rough, by_ratio, sampled, stresses, scale)
     about = ABOUT.format(count=count, pixels=pixels)
-    return Page("Nominally flat surfaces on a flat: points, pressures, stresses", about, parts, claims)
+    published = tuple(
+        Published(source, what, f"{theirs}", float(ours.mean() / scale), spread=float(ours.std(ddof=1) / scale))
+        for source, what, theirs, ours in (
+            ("Bhushan 1998, fig. 26", "contact spots, 32.8 kPa", PUBLISHED_SPOTS, column(loads[NOMINAL], "spots")),
+            (
+                "Bhushan 1998, fig. 31",
+                "contact points, rough surface, 32.8 MPa",
+                PUBLISHED_POINTS,
+                column(rough, "points"),
+            ),
+        )
+    )
+    return Page("Nominally flat surfaces on a flat: points, pressures, stresses", about, parts, claims, published)
 
 
 def _sampled(full: asp.Surface, step: int) -> asp.Surface:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 
 import asperity as asp
 from asperity.theories.subsurface.sliding_yield import YieldOnset, sphere_yield_onset
@@ -117,10 +117,14 @@ def compare(points: int = 193, count: int = 4) -> Page:
         smooth |= {(ratio, friction): seen(result, friction) for friction in FRICTIONS}
     rough = [seen(contact(1.0, points, ROUGHNESS, seed), FRICTIONS[1]) for seed in range(count)]
     onsets = {friction: sphere_yield_onset(POISSON, friction) for friction in (0.0, 0.25)}
-    parts = (_printed(onsets), _layers(smooth), _axis(smooth), _rough(smooth[1.0, FRICTIONS[1]], rough), WORDS)
+    parts = (_layers(smooth), _axis(smooth), _rough(smooth[1.0, FRICTIONS[1]], rough), WORDS)
     about = ABOUT.format(points=points)
     return Page(
-        "A single asperity, smooth and rough, with friction and a layer", about, parts, _claims(onsets, smooth, rough)
+        "A single asperity, smooth and rough, with friction and a layer",
+        about,
+        parts,
+        _claims(onsets, smooth, rough),
+        _published(onsets),
     )
 
 
@@ -133,14 +137,14 @@ def surface_yield_from() -> float:
     return high
 
 
-def _printed(onsets: dict[float, YieldOnset]) -> Table:
-    rows = (
-        ("p₀/k at first yield, µ = 0 (fig. 8)", "2.8", f"{onsets[0.0].peak_over_k:.3f}"),
-        ("pₘ/Y at first yield, µ = 0 (eq. 5a)", "1.07", f"{2.0 / 3.0 * onsets[0.0].peak_over_Y:.3f}"),
-        ("µ beyond which yield begins on the surface", "about 0.3", f"{surface_yield_from():.3f}"),
-        ("largest √J₂/p₀, µ = 0.25 (fig. 23)", "0.37", f"{onsets[0.25].root_J2:.4f}"),
+def _published(onsets: dict[float, YieldOnset]) -> tuple[Published, ...]:
+    review = "Bhushan 1998"
+    return (
+        Published(f"{review}, fig. 8", "p₀/k at first yield, µ = 0", "2.8", onsets[0.0].peak_over_k),
+        Published(f"{review}, eq. 5a", "pₘ/Y at first yield, µ = 0", "1.07", 2.0 / 3.0 * onsets[0.0].peak_over_Y),
+        Published(f"{review}, text", "µ beyond which yield begins on the surface, about", "0.3", surface_yield_from()),
+        Published(f"{review}, fig. 23", "largest √J₂/p₀ of the smooth sphere, µ = 0.25", "0.37", onsets[0.25].root_J2),
     )
-    return Table("Homogeneous body, ν = 0.3, closed forms:", ("", "theirs", "ours"), rows)
 
 
 def _layers(smooth: dict[tuple[float, float], Seen]) -> Table:

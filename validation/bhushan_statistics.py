@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 
 from asperity.theories import GaussianHeights, KotwalBhushan
 from asperity.theories.wet.summits import StatisticalMeniscus
@@ -79,7 +79,13 @@ def compare(pressures: Sequence[float] = PRESSURES) -> Page:
         WORDS,
     )
     about = ABOUT.format(low=FITTED[0], high=FITTED[1])
-    return Page("Statistical contact: fits, areas, skewed summits", about, parts, _claims(curves, fits, skewed))
+    return Page(
+        "Statistical contact: fits, areas, skewed summits",
+        about,
+        parts,
+        _claims(curves, fits, skewed),
+        _published(curves, fits),
+    )
 
 
 def _integrals() -> dict[str, np.ndarray]:
@@ -137,6 +143,26 @@ def _exact_at(curves: dict[str, np.ndarray], law: Law) -> float:
     values = curves[law.name] / curves["P"] ** law.order
     order = np.argsort(values)
     return float(np.exp(np.interp(law.linear, values[order], np.log(curves["P"])[order])))
+
+
+def _published(curves: dict[str, np.ndarray], fits: dict[str, tuple[float, float]]) -> tuple[Published, ...]:
+    """Printed coefficients beside those of our fits; the interval of the fits is chosen freely."""
+    source, free = "Bhushan 1998, table 1", "fitted on an interval of ours"
+    inside = (FITTED[0] <= curves["P"]) & (FITTED[1] >= curves["P"])
+    P, D = curves["P"][inside], curves["D"][inside]
+    power, logarithm = np.polyfit(np.log(np.log10(0.57 / P)), np.log(D), 1)
+    laws = [
+        Published(source, f"{what} of {law.name}", f"{theirs:.2f}", ours, 0.2, reason=free)
+        for law in LAWS
+        for what, theirs, ours in zip(("factor", "power"), (law.factor, law.power), fits[law.name], strict=True)
+    ]
+    return (
+        *laws,
+        Published(source, "factor of the separation D", "1.40", math.exp(logarithm), 0.2, reason=free),
+        Published(source, "power of the separation D", "0.65", float(power), 0.2, reason=free),
+        Published(source, "Pₐ at D = 0", "0.57", float(curves["P"][0])),
+        Published(source, "n/(η Aₐ) at D = 0", "0.5", float(curves[LAWS[2].name][0])),
+    )
 
 
 def _published_separation(P: np.ndarray | float) -> np.ndarray:
