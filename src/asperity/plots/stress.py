@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -60,6 +61,9 @@ DECADES = 2.0
 
 SIGNED_MAP, UNSIGNED_MAP = "RdBu_r", "viridis"
 """Colour maps of stresses of either sign (white at zero, red in tension) and of magnitudes."""
+
+LETTER = 0.08
+"""Width of a letter of a label in inches, about."""
 
 LABEL_ROOM = 0.09
 """Height of the name of a region over that of the axes: the least thickness in which it stands, and the least distance."""
@@ -117,9 +121,9 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
         ax.set_aspect(length.factor**-1 * depth_unit.factor, adjustable="box")
     place = ax.inset_axes((1.03 + beside / size_of(ax)[0], 0.0, 0.035, 1.0))
     bar = ax.figure.colorbar(contours, cax=place, format=_two_digits if log else "%g")
-    bar.set_label(f"{kind.label} ({in_unit.symbol})")
+    height = size_of(ax)[1] if exaggerated else size_of(ax)[0] * float(field.depth[-1]) / across
+    bar.set_label("\n".join(wrap(f"{kind.label} ({in_unit.symbol})", max(12, int(height / LETTER)))))
     if kind.name not in MAGNITUDES:
-        height = size_of(ax)[1] if exaggerated else size_of(ax)[0] * float(field.depth[-1]) / across
         every = math.ceil(0.15 * levels.size / height)  # inches for a number
         bar.set_ticks(levels[::-1][::every].tolist())
         bar.minorticks_off()
