@@ -62,8 +62,7 @@ from .stress.tractions import LoadedBody, ShearTraction, Sliding, Tractions
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .studies.compare import compare
-from .studies.comparison import Comparison
-from .studies.comparison_files import export_comparison_csv, save_comparison
+from .studies.comparison import Comparison, export_comparison_csv, save_comparison
 from .surfaces import generate, roughness
 from .surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from .surfaces.characterise.slopes import rms_slope

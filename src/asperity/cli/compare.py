@@ -28,8 +28,7 @@ from ..run.build import Case, build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, relocated, save_document
 from ..studies.compare import LOADS, MOST_CONTACTS
 from ..studies.compare import compare as compare_theories
-from ..studies.comparison import Comparison
-from ..studies.comparison_files import export_comparison_csv, save_comparison
+from ..studies.comparison import Comparison, export_comparison_csv, save_comparison
 from .contact import YES, Force, asked_table, output_folder
 from .declared import Given, Option, offers, sorted_out
 from .main import NOT_CONVERGED, OK

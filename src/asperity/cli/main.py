@@ -28,7 +28,7 @@ INTERRUPTED = 130
 COMMANDS: Mapping[str, str] = MappingProxyType(
     {
         **dict.fromkeys(("contact", "demo"), "contact"),
-        "stress": "stress",
+        "stress": "results",
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
         "info": "info",

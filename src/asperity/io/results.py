@@ -28,8 +28,7 @@ from ..core.status import Outcome, Status
 from ..core.text import require_file
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
-from .description import describe, rebuild
-from .provenance import provenance, software, surface_provenance
+from .description import describe, provenance, rebuild, software, surface_provenance
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
 from .words import ALL_SCALARS, CERTIFICATE, FIELDS

@@ -20,8 +20,7 @@ from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ..solids.elastic import Elastic
 from ..stress.field import StressField
 from ..stress.regions import Plane, Region
-from .description import describe, rebuild
-from .provenance import software
+from .description import describe, rebuild, software
 from .tree import Node, coordinate, write_tree
 
 SIDES = ("surface", "inside", "above", "below")

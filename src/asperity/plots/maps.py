@@ -245,6 +245,7 @@ def _ends(there: BoolArray, wraps: bool) -> tuple[int, int]:
 def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
     """Draw the pixels of the map on ``ax`` within ``window`` once more, beside it, and a rectangle where they are."""
     from matplotlib.patches import Rectangle
+    from matplotlib.patheffects import withStroke
 
     image: Any = ax.images[0]
     width, height = size_of(ax)
@@ -267,7 +268,8 @@ def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
     beside.locator_params(nbins=4)
     beside.set(xlabel=ax.get_xlabel(), ylabel=ax.get_ylabel())
     beside.set_title(title, loc="left")
-    ax.add_patch(Rectangle((x, y), nx, ny, fill=False, edgecolor="black", linewidth=0.6))
+    outline = [withStroke(linewidth=1.6, foreground="white")]  # seen on dark and on light maps
+    ax.add_patch(Rectangle((x, y), nx, ny, fill=False, edgecolor="black", linewidth=0.6, path_effects=outline))
     return beside
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.units import percent, show
-from ..io.provenance import software, surface_provenance
+from ..io.description import software, surface_provenance
 from ..io.words import Rows, body_text, modulus_label, surface_rows
 from ..parts.part import Table
 from ..plots.comparison import comparison_figures

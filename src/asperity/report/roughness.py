@@ -8,7 +8,7 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.units import percent, show
-from ..io.provenance import software, surface_provenance
+from ..io.description import software, surface_provenance
 from ..io.words import surface_rows
 from ..parts.part import Table
 from ..plots.picture import drawn

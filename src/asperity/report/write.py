@@ -10,7 +10,7 @@ from ..contact.advice import doubts
 from ..contact.result import ContactResult
 from ..core.errors import InputError
 from ..core.status import Advice
-from ..io.provenance import provenance
+from ..io.description import provenance
 from ..io.words import (
     Rows,
     body_rows,

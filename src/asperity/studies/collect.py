@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.result import Certificate
-from ..io.provenance import software
+from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
 from .axes import Axis, Coordinate

@@ -3,31 +3,33 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..contact.advice import advise, review
 from ..contact.boundary import Periodic
-from ..contact.problem import ContactProblem
+from ..contact.problem import ContactProblem, MeanPressure
+from ..contact.result import ContactResult
 from ..contact.roughness import roughness_of
+from ..contact.solve import default_solver, steps
 from ..contact.solvers.protocol import Solver
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import Engine
-from ..core.errors import AsperityError, InputError
-from ..core.status import Progress
+from ..core.errors import AsperityError, InputError, NoSolutionError
+from ..core.status import Advice, Progress
 from ..solids.elastic import Rigid
 from ..solids.layers import Body
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction, SurfaceTheory
 from ..theories.statistics.roughness import Roughness
-from .comparison import Comparison, TheoryCurve
-from .comparison_numerical import solved
-from .comparison_theories import LeftOut, chosen_theories, family, known_of_bodies
-from .comparison_validity import check, remarks
+from .comparison import Comparison, NumericalCurve, TheoryCurve
+from .comparison_theories import LeftOut, check, chosen_theories, family, known_of_bodies, remarks
 
 MOST_CONTACTS = 1000
 """Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of them, eight times that
@@ -220,3 +222,63 @@ def _filled(found: Prediction, loads: RealArray) -> Prediction:
         name: np.concatenate([getattr(found, name), beyond]) for name in (quantity.name for quantity in QUANTITIES)
     }
     return Prediction(**values | {"pressure": loads})
+
+
+# The boundary-element solution: one load path, of which a few numbers a load are kept.
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """The ``curve``, the ``findings`` at the lowest and highest load, the mean radius in m of the spots at the highest."""
+
+    curve: NumericalCurve
+    findings: tuple[Advice, ...]
+    mean_radius: float
+
+
+def solved(
+    problem: ContactProblem,
+    pressures: RealArray,
+    *,
+    solver: Solver | None = None,
+    progress: Progress | None = None,
+    engine: Engine | None = None,
+) -> Solved:
+    """Solution of ``problem`` at rising ``pressures`` (n,) in Pa, each from the interface the last one left.
+
+    Loads that do not converge, or that the law cannot bear, are NaN and noted.
+    """
+    method = solver or default_solver(problem)
+    columns = np.full((4, pressures.size), np.nan)
+    faults: list[str] = []
+    findings: dict[str, Advice] = {}
+    last: ContactResult | None = None
+    started = time.perf_counter()
+    controls = map(MeanPressure, pressures)
+    path = steps(problem, controls, solver=method, progress=progress, engine=engine, on_failure="return")
+    try:
+        for number, result in enumerate(path):
+            if not result.converged:
+                faults.append(f"At {pressures[number]:.4g} Pa: {result.status.message}")
+                continue
+            columns[:, number], last = _numbers(result), result
+            findings |= _checks(result) if number in (0, pressures.size - 1) else {}
+    except NoSolutionError as error:
+        faults.append(str(error))
+    seconds, keys = time.perf_counter() - started, problem.citation_keys if last is None else last.citation_keys
+    radius = math.sqrt(last.mean_spot_area / math.pi) if last is not None and last.n_spots else math.nan
+    pixels, area, spots, gap = columns
+    curve = NumericalCurve(pixels, area, spots, gap, seconds, method.name, tuple(faults), keys)
+    return Solved(curve, tuple(findings.values()), radius)
+
+
+def _numbers(result: ContactResult) -> tuple[float, ...]:
+    """Area by pixels and corrected, spots per nominal area in 1/m², mean gap in m."""
+    nominal = math.prod(result.problem.grid.size)
+    return result.area_fraction, result.area_fraction_corrected, result.n_spots / nominal, result.mean_gap
+
+
+def _checks(result: ContactResult) -> dict[str, Advice]:
+    """Findings before and after the solve by their criterion."""
+    found = (*advise(result.problem, result.control), *review(result))
+    return {item.criterion: item for item in found}

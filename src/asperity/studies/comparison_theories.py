@@ -1,6 +1,4 @@
-"""The theories of a comparison: which of the catalogue can be made for a surface and its bodies, and why the others
-cannot.
-"""
+"""The theories of a comparison, made of what is known of surface and bodies, and where they leave their validity."""
 
 from __future__ import annotations
 
@@ -10,13 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact.laws import LayeredHardness
+from ..contact.boundary import Periodic
+from ..contact.laws import HardWall, LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
-from ..core.errors import InputError
+from ..core.arrays import BoolArray, RealArray
+from ..core.errors import AsperityError, InputError
 from ..core.parameters import parameters
-from ..solids.layers import weaker_strength
-from ..theories.protocol import SurfaceTheory
+from ..core.units import show
+from ..solids.layers import Layered, weaker_strength
+from ..theories.protocol import Limit, Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness
 
 YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
@@ -135,3 +136,103 @@ def _unused(name: str, taken: Mapping[str, object]) -> str:
     """``name``, with a number behind it if it is taken."""
     number = 1 + sum(other == name or other.startswith(f"{name} ") for other in taken)
     return name if number == 1 else f"{name} {number}"
+
+
+# Where the theories leave their validity, with the numbers.
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """Where the limits of a theory hold that concern a quantity, (n,) each, and one sentence for each that is left somewhere."""
+
+    valid_for: Mapping[str, BoolArray]
+    notes: tuple[str, ...]
+
+
+def check(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -> Checked:
+    """Limits of ``theory`` along its ``prediction``, those on what was measured included."""
+    names = {"area_fraction": "area_fraction", "contact_density": "contact_density"}
+    names["gap"] = "mean_gap" if np.isfinite(prediction.mean_gap).any() else "separation"
+    try:
+        own = isinstance(theory, Theory)
+        limits = theory.validity(prediction, roughness) if own else theory.validity(prediction)  # type: ignore[call-arg]
+    except AsperityError as error:  # a theory that has to solve again for its limits
+        nowhere = np.zeros(len(prediction), dtype=bool)
+        return Checked(dict.fromkeys(names, nowhere), (f"Its limits could not be checked: {error}",))
+    valid = {name: np.ones(len(prediction), dtype=bool) for name in names}
+    for limit in limits:
+        for name, quantity in names.items():
+            if limit.concerns(quantity):
+                valid[name] &= limit.holds
+    return Checked(valid, tuple(_sentence(limit, prediction.pressure) for limit in limits if not limit.holds.all()))
+
+
+def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
+    """What bodies, law and boundary mean for the comparison.
+
+    ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is not known.
+    """
+    found = [*_of_layers(problem, largest_spot), *_of_law(problem, theories)]
+    adhesive = [name for name, theory in theories.items() if family(theory) == "adhesive"]
+    if adhesive:
+        found.append(f"The numerical solution has no adhesion; in {_listed(adhesive)} it adds to the area.")
+    if not isinstance(problem.boundary, Periodic):
+        found.append(
+            f"The boundary is {problem.boundary.name}: the contact is that of a patch whose borders carry more than "
+            "its middle; theories assume an unbounded surface. Compare with a periodic boundary."
+        )
+    elif "interacting-crests" in theories:
+        found.append(
+            "The separation of interacting-crests includes the sinking of the whole patch under its load, which a periodic "
+            "contact does not have: it is no mean gap and is not compared as one."
+        )
+    return tuple(found)
+
+
+def _of_layers(problem: ContactProblem, spot: float) -> list[str]:
+    coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
+    if not coated:
+        return []
+    thin = min(body.reduced.layers[0].thickness for body in coated)
+    size = f" (at the highest load their mean radius is {show(spot, 'm', 3)})" if math.isfinite(spot) else ""
+    return [
+        "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous half-spaces and takes "
+        f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
+        f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
+    ]
+
+
+def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list[str]:
+    plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
+    if isinstance(problem.law, HardWall):
+        if not plastic:
+            return []
+        return [
+            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
+        ]
+    known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
+    return [
+        f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories have no such limit."
+    ]
+
+
+def _listed(names: list[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _sentence(limit: Limit, pressures: RealArray) -> str:
+    outside = ~limit.holds
+    value = limit.value[outside]
+    finite = value[np.isfinite(value)]
+    end = limit.high if math.isfinite(limit.high) else limit.low  # from which excess is measured
+    worst = float(finite[np.argmax(np.abs(finite - end))]) if finite.size else math.nan
+    if outside.all():
+        where = "at every load"
+    elif outside[-1] and outside[: int(np.argmax(outside))].sum() == 0 and outside[int(np.argmax(outside)) :].all():
+        where = f"from {show(float(pressures[int(np.argmax(outside))]), 'Pa', 3)} on"
+    elif outside[0] and outside[: int(np.argmin(outside))].all() and not outside[int(np.argmin(outside)) :].any():
+        where = f"below {show(float(pressures[int(np.argmin(outside))]), 'Pa', 3)}"
+    else:
+        where = f"at {int(outside.sum())} of {outside.size} loads"
+    return f"{limit.criterion} {worst:.3g}, not {limit.bounds}, {where}: {limit.message} [{limit.citation}]"

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from ..io.provenance import software
+from ..io.description import software
 from ..run.build import Case, build
 from ..run.document import checked
 from ..run.execute import Warm, execute

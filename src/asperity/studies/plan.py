@@ -14,7 +14,7 @@ from ..core.arrays import content_digest
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.status import is_large, require_memory, room_text
-from ..io.provenance import software
+from ..io.description import software
 from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
 from ..run.build import stated_points

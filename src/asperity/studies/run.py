@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..io.provenance import software
+from ..io.description import software
 from .executors import Executor, Lost, Task
 from .monte_carlo import Stop
 from .places import plain

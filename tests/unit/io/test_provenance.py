@@ -11,7 +11,7 @@ import numpy as np
 import asperity as asp
 from asperity.contact.result import Certificate, ContactResult
 from asperity.core.arrays import array_digest
-from asperity.io.provenance import provenance
+from asperity.io.description import provenance
 from asperity.io.words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 
