@@ -178,6 +178,9 @@ def _spectrum(shortest: float) -> asp.generate.SelfAffine:
     )
 
 
+SAMPLES = {"seed": 1, "samples": 3, "random": [{"path": "surface.seed", "distribution": "seed"}]}
+
+
 def _asked(name: str, *, radius: float, E_star: float, **values: float) -> object:
     return asp.theories.evaluate(asp.theories.theory(name)(E_star, radius), **values)
 
@@ -324,6 +327,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
     ),
     "a theory to compare by another name": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories=["gw"]),
     "a name for a list": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories="persson"),
+    "a matrix with a unit of lengths": lambda: asp.read("rough.txt", lateral_unit="um", height_unit="nm"),
     "points in no order": lambda: _read("points.txt", "0 0 1\n1 0.1 1\n2.7 0.4 1\n3 1.3 2\n", size=(1.0, 1.0)),
     "points on the same node": lambda: _read("points.txt", 2 * "0 0 1\n0 1 1\n1 0 1\n1 1 1\n", size=(1.0, 1.0)),
     "points of unknown unit": lambda: _read("points.txt", "0 0 1\n0 1 1\n1 0 1\n1 1 1\n"),
@@ -342,13 +346,22 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "an axis of another unit": lambda: plan(axes=[_axis("control.force", ["1 m"])]),
     "an axis of negative forces": lambda: plan(axes=[_axis("control.force", ["-1 N"])]),
     "an axis by half": lambda: plan(axes=[{"path": "body.layers.0.thickness", "first": "1 nm"}]),
+    "an axis of no values": lambda: plan(axes=[_axis("surface.seed", [])]),
+    "a stop without a width": lambda: plan(monte_carlo=SAMPLES | {"stop": {"quantity": "max_pressure"}}),
+    "no random scalars": lambda: plan(monte_carlo=SAMPLES | {"random": []}),
+    "half a range": lambda: plan(sensitivity={"parameters": [{"path": "control.mean_pressure", "low": "1 MPa"}]}),
+    "two kinds of study": lambda: plan(monte_carlo=SAMPLES, sensitivity={"parameters": ["control.mean_pressure"]}),
+    "no quantities": lambda: plan(axes=[_axis("surface.seed", [1])], quantities=[]),
+    "a critical thickness of the base": lambda: plan(
+        critical_thickness={"layer": "body.base", "values": ["1 nm", "2 nm"]}
+    ),
     "an axis of unknown path": lambda: plan(axes=[_axis("surface.seeds", [1])]),
     "an unknown quantity": lambda: plan(axes=[_axis("surface.seed", [1])], quantities=["area"]),
     "a quantity without its table": lambda: plan(axes=[_axis("surface.seed", [1])], quantities=["max_von_mises"]),
     "levels that fall": lambda: plan(convergence={"of": "grid", "levels": [64, 32, 16]}),
     "two levels": lambda: plan(convergence={"of": "grid", "levels": [16, 32]}),
     "a number that is no seed": lambda: plan(
-        monte_carlo={"seed": 1, "samples": 3, "random": [{"path": "control.mean_pressure", "distribution": "seed"}]}
+        monte_carlo=SAMPLES | {"random": [{"path": "control.mean_pressure", "distribution": "seed"}]}
     ),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]

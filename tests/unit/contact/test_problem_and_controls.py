@@ -130,6 +130,13 @@ def test_prepared_operator_is_reused_and_checked():
         asp.prepare_operator(problem.compliance, problem.grid, "periodic")
 
 
+def test_an_approach_above_the_dented_surface_has_no_solution():
+    soft = asp.ContactProblem(rough((16, 16)), elastic(1.0), law=asp.Hardness(0.3))
+    dented = asp.solve(soft, asp.MeanPressure(0.1)).state
+    with refused(asp.NoSolutionError, "approach", "1e-09 m"):
+        asp.solve(soft, asp.Approach(1e-9), state=dented)
+
+
 def test_a_position_that_no_load_reaches_is_flagged():
     """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over small values."""
     sphere = asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3)

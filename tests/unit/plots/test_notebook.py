@@ -90,6 +90,15 @@ def test_surfaces_and_fields_draw_on_given_axes(result, field):
     assert ax.get_ylabel().startswith("depth")
 
 
+def test_load_paths_and_profiles_draw_on_given_axes(result):
+    path = asp.solve(result.problem, asp.History([asp.MeanPressure(5e7), asp.MeanPressure(1e8)]))
+    profile = asp.stress(result, asp.depths_through(result.problem.body, 2e-7), on=asp.DepthProfile())
+    for thing in (path, profile):
+        ax = Figure().add_subplot()
+        assert thing.plot(ax=ax) is ax
+        assert ax.has_data()
+
+
 def test_without_axes_a_figure_of_pyplot_is_made(result):
     matplotlib.use("Agg")
     from matplotlib import pyplot
