@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -144,8 +145,10 @@ def _command(kind: type[Described]) -> Any:
         if not chosen.get("json"):
             print_files(written)
 
-    first = inspect.cleandoc(kind.__doc__ or "").partition("\n")[0]
-    run.__doc__ = "\n\n".join([f"{kind.title}. {first}".replace("``", ""), *_details(kind)])
+    # the docstring up to its sections; formulas, which are indented, keep their lines
+    text = re.split(r"\n\n[A-Z]\w+\n---", inspect.cleandoc(kind.__doc__ or ""))[0]
+    blocks = [re.sub(r"\n(?!    )", " ", block) for block in f"{kind.title}. {text}".replace("``", "").split("\n\n")]
+    run.__doc__ = "\n\n".join([*blocks, *_details(kind)])
     return built(run, kind.name, _options(kind))
 
 
