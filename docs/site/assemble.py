@@ -75,6 +75,11 @@ def examples() -> Texts:
     return found
 
 
+def gallery() -> str:
+    """The first page of the gallery, which the gallery makes itself where there are examples."""
+    return "gallery/index.rst" if examples() else "gallery/index.md"
+
+
 def pages() -> Texts:
     """Every page of the site, its path and text, links between pages included; the gallery makes its own."""
     known = homes()
@@ -103,6 +108,7 @@ def linked(text: str, path: str, known: dict[str, str]) -> str:
             aim.removeprefix("docs/") if aim.removeprefix("docs/") in MADE or _is_picture(aim) else None
         )
         if home is not None:
+            home = gallery() if home == "gallery/index.md" else home
             return f"{'!' if found[0].startswith('!') else ''}[{words}]({os.path.relpath(home, page.parent)}{place})"
         if not (ROOT / aim).exists():
             raise ValueError(f"{path} links to {target}, which does not exist")

@@ -92,6 +92,7 @@ if any(examples.glob("*/*.py")):
         "ignore_pattern": r"(__init__|conftest)\.py$",
         "abort_on_example_error": True,
         "download_all_examples": False,
+        "capture_repr": (),
         "show_memory": False,
         "show_signature": False,
         "remove_config_comments": True,

@@ -26,7 +26,7 @@ def pages() -> dict[str, str]:
     """Every page of the site; a link that leads nowhere in the repository is an error already here."""
     found = assemble.pages()
     if assemble.examples():
-        found["gallery/index.md"] = assemble.examples()["GALLERY_HEADER.rst"]  # the gallery makes its own page
+        found[assemble.gallery()] = assemble.examples()["GALLERY_HEADER.rst"]  # the gallery makes its own page
     return found
 
 
@@ -48,8 +48,8 @@ def meant(entry: str, names: set[str]) -> set[str]:
 
 
 def test_contents_reach_every_page_and_name_no_other(pages):
-    names = {page.removesuffix(".md") for page in pages}
-    listed = {page.removesuffix(".md"): entries(page, text) for page, text in pages.items()}
+    listed = {page.rpartition(".")[0]: entries(page, text) for page, text in pages.items()}
+    names = set(listed)
     assert [f"{page}: {entry}" for page in listed for entry in listed[page] if not meant(entry, names)] == []
     reached: set[str] = set()
     front = {"index"}
