@@ -26,7 +26,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "execute": "independent keyword-only choices of the callers, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",
         "Prepared.__init__": "the choices of solve, for all steps of a history",
-        "solve": "independent keyword-only choices of the user, each with a default",
         "compare": "independent keyword-only choices of the user, each with a default",
         "stress": "independent keyword-only choices of the user, each with a default",
         "stress_planes": "independent keyword-only choices of the user, each with a default",

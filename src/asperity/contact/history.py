@@ -262,6 +262,8 @@ class EnergyBalance:
 
 
 def _balance(history: HistoryResult) -> EnergyBalance:
+    from scipy.integrate import cumulative_trapezoid
+
     force, approach, elastic = history.force, history.approach, history.elastic_energy
     plastic, pull = np.cumsum(history.plastic_work), history.force - history.external_force
     shear = _shear_works(history)
@@ -270,18 +272,13 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         virgin = history.steps[0].problem.profile()
         dented = virgin if start is None else virgin - start.permanent_indentation
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
-        work, pulled = (np.cumsum(_trapezia(np.concatenate([[0.0], f]), approach)) for f in (force, pull))
+        work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
         shear = np.cumsum(shear)
     else:
-        work, pulled = (np.concatenate([[0.0], np.cumsum(_trapezia(f, approach))]) for f in (force, pull))
+        work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
         elastic, plastic = elastic - elastic[0], plastic - plastic[0]
         shear = np.cumsum(shear) - shear[0]
     return EnergyBalance(work, pulled, elastic, plastic, shear)
-
-
-def _trapezia(force: RealArray, approach: RealArray) -> RealArray:
-    pieces: RealArray = 0.5 * (force[1:] + force[:-1]) * np.diff(approach)
-    return pieces
 
 
 def _shear_works(history: HistoryResult) -> RealArray:

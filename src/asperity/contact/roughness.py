@@ -8,8 +8,8 @@ from ..core import require
 from ..core.errors import InputError
 from ..surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
 from ..surfaces.characterise.heights import deviations, height_parameters
-from ..surfaces.characterise.moments import difference_moments, spectral_moments
-from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, radial_spectrum
+from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
+from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
 from ..surfaces.prepare.level import filled
 from ..surfaces.surface import Surface
@@ -43,13 +43,20 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
     require.one_of(moments, MOMENTS, "source of the moments")
     spectrum = power_spectrum(filled(surface) if surface.n_missing else surface)
     from_spectrum = moments == "spectrum" or (moments == "auto" and surface.periodic)
-    m0, m2, m4, tensor = _from_spectrum(spectrum) if from_spectrum else _from_differences(surface)
+    found: SpectralMoments | DifferenceMoments
+    if from_spectrum:
+        found = of = spectral_moments(spectrum)
+        tensor = MomentTensor(of.m20, of.m11, of.m02, of.m40, of.m31, of.m22, of.m13, of.m04)
+    else:
+        found = near = difference_moments(surface)
+        slopes = near.slope_tensor
+        tensor = MomentTensor(slopes.xx, slopes.xy, slopes.yy, m40=near.m4_x, m04=near.m4_y)
     radial = radial_spectrum(spectrum)
     shape = height_parameters(surface)
     return Roughness(
-        m0,
-        m2,
-        m4,
+        found.m0,
+        found.m2,
+        found.m4,
         area=math.prod(surface.size),
         moments=tensor,
         spectrum=Spectrum(radial.q, radial.psd),
@@ -60,18 +67,6 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         fractal=_fractal(surface),
         correlation_length=_correlation_length(surface),
     )
-
-
-def _from_spectrum(spectrum: PowerSpectrum) -> tuple[float, float, float, MomentTensor]:
-    found = spectral_moments(spectrum)
-    tensor = MomentTensor(found.m20, found.m11, found.m02, found.m40, found.m31, found.m22, found.m13, found.m04)
-    return found.m0, found.m2, found.m4, tensor
-
-
-def _from_differences(surface: Surface) -> tuple[float, float, float, MomentTensor]:
-    found = difference_moments(surface)
-    slopes = found.slope_tensor
-    return found.m0, found.m2, found.m4, MomentTensor(slopes.xx, slopes.xy, slopes.yy, m40=found.m4_x, m04=found.m4_y)
 
 
 def _summit_list(surface: Surface, neighbours: int) -> SummitList | None:

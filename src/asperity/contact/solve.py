@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal, overload
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 import numpy as np
 
@@ -39,36 +39,25 @@ class Keep:
     stiffness: bool = True
 
 
-@overload
-def solve(
-    problem: ContactProblem,
-    control: Control,
-    *,
-    solver: Solver | None = None,
-    state: InterfaceState | None = None,
-    keep: Keep | None = None,
-    operator: Operator | None = None,
-    progress: Progress | None = None,
-    engine: Engine | None = None,
-    rounds: Rounds = Rounds(),
-    on_failure: Literal["raise", "return"] = "raise",
-) -> ContactResult: ...
+class _Options(TypedDict, total=False):
+    """Keywords of ``solve``."""
+
+    solver: Solver | None
+    state: InterfaceState | None
+    keep: Keep | None
+    operator: Operator | None
+    progress: Progress | None
+    engine: Engine | None
+    rounds: Rounds
+    on_failure: Literal["raise", "return"]
 
 
 @overload
-def solve(
-    problem: ContactProblem,
-    control: History,
-    *,
-    solver: Solver | None = None,
-    state: InterfaceState | None = None,
-    keep: Keep | None = None,
-    operator: Operator | None = None,
-    progress: Progress | None = None,
-    engine: Engine | None = None,
-    rounds: Rounds = Rounds(),
-    on_failure: Literal["raise", "return"] = "raise",
-) -> HistoryResult: ...
+def solve(problem: ContactProblem, control: Control, **options: Unpack[_Options]) -> ContactResult: ...
+
+
+@overload
+def solve(problem: ContactProblem, control: History, **options: Unpack[_Options]) -> HistoryResult: ...
 
 
 def solve(
@@ -236,6 +225,7 @@ class Prepared:
         certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
         status = doubted(settled.status, certificate)
         shown = replace(contact, solution=replace(contact.solution, status=status))
+        papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
         result = assemble(
             problem,
             shown,
@@ -244,7 +234,7 @@ class Prepared:
             lift=lift if lift is not None and lift.any() else None,
             stiffness=self.keep.stiffness,
             certificate=certificate,
-            citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *_citations(found.values())})),
+            citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *papers})),
         )
         return replace(result, couplings=found)
 
@@ -286,10 +276,6 @@ def doubted(status: Status, certificate: Certificate) -> Status:
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
     return Status(Outcome.STAGNATED, message, "Use a smaller tolerance, and numbers that are not extreme.")
-
-
-def _citations(found: Iterable[Any]) -> set[str]:
-    return {key for outcome in found for key in getattr(outcome, "citation_keys", ())}
 
 
 def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:

@@ -69,24 +69,25 @@ def _ducc_transforms() -> Any:
 def fast_length(minimum: int) -> int:
     """Smallest transform length of at least ``minimum`` without prime factors above 11."""
     length = require.integer(minimum, 1, "transform length")
-    while _largest_factor_left(length) > 1:
+    while True:
+        left = length
+        for prime in (2, 3, 5, 7, 11):
+            while left % prime == 0:
+                left //= prime
+        if left == 1:
+            return length
         length += 1
-    return length
 
 
-def _largest_factor_left(number: int) -> int:
-    for prime in (2, 3, 5, 7, 11):
-        while number % prime == 0:
-            number //= prime
-    return number
-
-
-def line_transform(field: RealArray, axis: int, threads: int = 1) -> ComplexArray:
-    """Unnormalised real transform of every line of ``field`` along ``axis``, whose length becomes n // 2 + 1."""
+def line_transform(field: RealArray, axis: int, threads: int = 1, out: ComplexArray | None = None) -> ComplexArray:
+    """Unnormalised real transform of every line of ``field`` along ``axis``, whose length becomes n // 2 + 1, into ``out``."""
     ducc = _ducc_transforms()
-    spectrum: ComplexArray
-    spectrum = np.fft.rfft(field, axis=axis) if ducc is None else ducc.r2c(field, axes=(axis,), nthreads=threads)
-    return spectrum
+    lines: ComplexArray
+    if ducc is None:
+        lines = np.fft.rfft(field, axis=axis, out=cast(Any, out))
+    else:
+        lines = ducc.r2c(field, axes=(axis,), out=out, nthreads=threads)
+    return lines
 
 
 def complex_lines(
@@ -234,10 +235,6 @@ class PaddedTransform:
     padded: tuple[int, int]
     threads: int = 1
 
-    @cached_property
-    def _ducc(self) -> Any:
-        return _ducc_transforms()
-
     @property
     def spectrum_shape(self) -> tuple[int, int]:
         """Shape of the half spectrum."""
@@ -249,26 +246,14 @@ class PaddedTransform:
         rows = np.zeros((nx, self.padded[1]), field.dtype)
         rows[:, :ny] = field
         out[nx:] = 0.0
-        if self._ducc is None:
-            out[:nx] = np.fft.rfft(rows, axis=1)
-            np.fft.fft(out, axis=0, out=cast(Any, out))
-            return out
-        self._ducc.r2c(rows, axes=(1,), out=out[:nx], nthreads=self.threads)
-        self._ducc.c2c(out, axes=(0,), out=out, nthreads=self.threads)
-        return out
+        line_transform(rows, 1, self.threads, out[:nx])
+        return complex_lines(out, 0, threads=self.threads, out=out)
 
     def backward(self, spectrum: ComplexArray, out: RealArray) -> RealArray:
         """First (nx, ny) points of the normalised inverse transform of ``spectrum``, which is overwritten."""
         nx, ny = self.shape
-        if self._ducc is None:
-            np.fft.ifft(spectrum, axis=0, out=cast(Any, spectrum))
-            out[...] = np.fft.irfft(spectrum[:nx], n=self.padded[1], axis=1)[:, :ny]
-            return out
-        self._ducc.c2c(spectrum, axes=(0,), forward=False, inorm=2, out=spectrum, nthreads=self.threads)
-        rows = self._ducc.c2r(
-            spectrum[:nx], axes=(1,), lastsize=self.padded[1], forward=False, inorm=2, nthreads=self.threads
-        )
-        out[...] = rows[:, :ny]
+        complex_lines(spectrum, 0, backward=True, threads=self.threads, out=spectrum)
+        out[...] = real_lines(spectrum[:nx], self.padded[1], self.threads)[:, :ny]
         return out
 
 

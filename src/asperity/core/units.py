@@ -184,7 +184,7 @@ def show(value: float, unit: str, digits: int = 4) -> str:
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
     quantity = _registry().Quantity(value, unit)
-    compact = quantity if value == 0.0 else _COMPACT.get(unit, _compact)(quantity)
+    compact = quantity if value == 0.0 else _compact(quantity, unit)
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
 
 
@@ -206,31 +206,20 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{100.0 * share:.{digits}g} %"
 
 
-def _compact(quantity: Any) -> Any:
+_LARGEST_FIRST = {
+    "m**2": (("m**2", "mm**2", "um**2", "nm**2"), 0.01),
+    "m**3": (("m**3", "mm**3", "um**3", "nm**3"), 1e-3),
+    "m**4": (("m**4", "mm**4", "um**4", "nm**4"), 0.01),
+}
+"""For powers of a length, whose prefixes are factors of a million and more apart: the largest unit in which a value is at least
+the number given serves, else the last one."""
+
+
+def _compact(quantity: Any, unit: str) -> Any:
     """Quantity with a prefix; what is smaller than the prefixes in use, as rounding is, as a power of ten."""
-    return quantity if abs(quantity.magnitude) < _SMALLEST else quantity.to_compact()
-
-
-def _compact_area(quantity: Any) -> Any:
-    """Area in the largest unit in which it is at least 0.01; squared prefixes are a factor of a million apart."""
-    return _in_largest(quantity, ("m**2", "mm**2", "um**2"), "nm**2")
-
-
-def _compact_volume(quantity: Any) -> Any:
-    """Volume in the largest unit in which it is at least 0.001; cubed prefixes are a factor of a thousand million apart."""
-    return _in_largest(quantity, ("m**3", "mm**3", "um**3"), "nm**3", 1e-3)
-
-
-def _compact_spectrum(quantity: Any) -> Any:
-    """Power spectrum C in the largest unit in which it is at least 0.01."""
-    return _in_largest(quantity, ("m**4", "mm**4", "um**4"), "nm**4")
-
-
-def _in_largest(quantity: Any, units: tuple[str, ...], smallest: str, least: float = 0.01) -> Any:
-    for unit in units:
-        if abs(quantity.to(unit).magnitude) >= least:
-            return quantity.to(unit)
-    return quantity.to(smallest)
-
-
-_COMPACT = {"m**2": _compact_area, "m**3": _compact_volume, "m**4": _compact_spectrum}
+    if unit not in _LARGEST_FIRST:
+        return quantity if abs(quantity.magnitude) < _SMALLEST else quantity.to_compact()
+    prefixed, least = _LARGEST_FIRST[unit]
+    return next(
+        (found for found in map(quantity.to, prefixed[:-1]) if abs(found.magnitude) >= least), quantity.to(prefixed[-1])
+    )

@@ -202,7 +202,10 @@ class _Iteration:
         self.posed, self.solver, self.rounds = posed, solver, rounds
         self.couplings = {coupling.name: coupling for coupling in couplings}
         self.exchanges = {name: c.begin(posed, memories.get(name, {})) for name, c in self.couplings.items()}
-        if posed.external_force is None and not _by_offset(posed):
+        by_offset = (
+            isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode
+        )  # as the solver can hold it
+        if posed.external_force is None and not by_offset:
             alone = not any(coupling.feedback for coupling in couplings)
             caps = [coupling.share(self.exchanges[name]).cap for name, coupling in self.couplings.items()]
             elastic = all(isinstance(cap, float) and cap == np.inf for cap in caps)
@@ -494,11 +497,6 @@ class _Told:
         self._before, self._latest, self._worst = self._before + self._latest, 0, worst
         if not self._lone:
             self._progress.update(self._before, min(worst * self._tolerance, 1.0), self._tolerance)
-
-
-def _by_offset(posed: Posed) -> bool:
-    """Whether the position prescribed is the offset itself, which the normal solver can hold."""
-    return isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode
 
 
 def _to(solver: Solver, tolerance: float) -> Solver:

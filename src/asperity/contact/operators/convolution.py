@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, CpuEngine, Engine
@@ -128,17 +127,42 @@ def prepare_operator(
     raise InputError(f"boundary of an operator must be Periodic(), Free() or FreeLine(), but is {boundary!r}.")
 
 
-def displacement(operator: Operator, pressure: RealArray) -> RealArray:
-    """New array (nx, ny) of the displacement (m) that ``operator`` gives under ``pressure`` (Pa), in double precision."""
-    engine = operator.engine
-    field, out = engine.array(pressure, "float64"), engine.zeros(operator.grid.shape, "float64")
-    return engine.numpy(operator.convolution("float64").apply(field, out))
+class _Prepared:
+    """What periodic and free operators share: transforms and their buffers, prepared at first use and kept."""
+
+    grid: Grid
+    engine: Engine
+    padded: tuple[int, int]
+    kernel: RealArray
+
+    @cached_property
+    def _convolutions(self) -> dict[tuple[str, float], Convolution]:
+        return {}
+
+    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
+        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
+        if (dtype, scale) not in self._convolutions:
+            kernel, shape = self.kernel if scale == 1.0 else self.kernel / scale, self.grid.shape
+            if self.padded == shape:
+                made = self.engine.convolution(kernel, shape, dtype)
+            else:
+                made = self.engine.padded_convolution(kernel, shape, self.padded, dtype)
+            self._convolutions[dtype, scale] = made
+        return self._convolutions[dtype, scale]
+
+    def apply(self, pressure: RealArray) -> RealArray:
+        """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa in double precision, a new array.
+
+        It is relative to its mean where the mean mode is zero; on a free grid zero at infinity (strips: at the datum).
+        """
+        field, out = self.engine.array(pressure, "float64"), self.engine.zeros(self.grid.shape, "float64")
+        return self.engine.numpy(self.convolution("float64").apply(field, out))
 
 
 # Periodic contact: multiplication by the compliance in Fourier space.
 
 
-class PeriodicOperator:
+class PeriodicOperator(_Prepared):
     """u(q) = c(q) p(q) on a periodic grid (Stanley & Kato 1997), spectral discretisation.
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
@@ -164,20 +188,8 @@ class PeriodicOperator:
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
         self.kernel = spectral_kernel(compliance, grid) if kernel is None else kernel
-        self._prepared: dict[tuple[str, float], Convolution] = {}
+        self.padded = grid.shape
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
-
-    @property
-    def padded(self) -> tuple[int, int]:
-        """Shape of the grid of the kernel: no padding."""
-        return self.grid.shape
-
-    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
-        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
-        if (dtype, scale) not in self._prepared:
-            kernel = self.kernel if scale == 1.0 else self.kernel / scale
-            self._prepared[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
-        return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the compliance over ``scale``: the application ``fast`` itself."""
@@ -193,15 +205,11 @@ class PeriodicOperator:
         kernel = self.kernel[of_wave, : columns // 2 + 1]
         return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel, octaves=self.octaves)
 
-    def apply(self, pressure: RealArray) -> RealArray:
-        """Displacement (m), relative to its mean where the mean mode is zero, under ``pressure`` (Pa)."""
-        return displacement(self, pressure)
-
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa, built from the response to one loaded point."""
         point = np.zeros(self.grid.shape)
         point[0, 0] = 1.0
-        return circulant_matrix(self.apply(point))
+        return convolution_matrix(self.apply(point), periodic=True)
 
 
 def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
@@ -221,7 +229,7 @@ def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
 # Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.
 
 
-class FreeOperator:
+class FreeOperator(_Prepared):
     """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no periodicity error.
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
@@ -248,22 +256,14 @@ class FreeOperator:
         self.boundary: Free | FreeLine = boundary
         self.engine: Engine = engine or CpuEngine()
         self._influence = boundary.influence(compliance, grid)
-        self._prepared: dict[tuple[str, float], Convolution] = {}
         self._preconditioners: dict[tuple[str, float], Convolution] = {}
         self.padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.pairs_per_application = 0.75 * self.padded[0] * self.padded[1] / grid.n_points  # pruned along y
 
     @cached_property
-    def kernel(self) -> RealArray:
+    def kernel(self) -> RealArray:  # type: ignore[override]
         """Transform of the influence coefficients (m/Pa) on the padded grid."""
         return RealTransform(self.padded).forward(wrapped(self._influence, self.padded)).real.copy()
-
-    def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
-        """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
-        if (dtype, scale) not in self._prepared:
-            kernel = self.kernel if scale == 1.0 else self.kernel / scale
-            self._prepared[dtype, scale] = self.engine.padded_convolution(kernel, self.grid.shape, self.padded, dtype)
-        return self._prepared[dtype, scale]
 
     def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
         """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
@@ -278,13 +278,9 @@ class FreeOperator:
         grid = coarse_grid(self.grid)
         return FreeOperator(self.compliance, grid, self.boundary, engine=self.engine, octaves=self.octaves)
 
-    def apply(self, pressure: RealArray) -> RealArray:
-        """Displacement (m) under ``pressure`` (Pa), zero at infinity (strips: at the datum)."""
-        return displacement(self, pressure)
-
     def matrix(self) -> RealArray:
         """Dense matrix in m/Pa."""
-        return toeplitz_matrix(self._influence)
+        return convolution_matrix(self._influence, periodic=False)
 
 
 # Coarser grids and the fields on them, for first guesses.
@@ -315,43 +311,23 @@ LARGEST_DENSE = 4096
 """Largest number of points for a dense matrix (134 MB); its factorisations take seconds."""
 
 
-def _offsets(n: int) -> NDArray[np.int_]:
-    return np.arange(n)[:, None] - np.arange(n)[None, :]
+def convolution_matrix(kernel: RealArray, *, periodic: bool) -> RealArray:
+    """Matrix (n, n) of the convolution with ``kernel`` (nx, ny): the response to a unit load at node (0, 0).
 
-
-def circulant_matrix(response: RealArray) -> RealArray:
-    """Matrix (n, n) of the periodic convolution with ``response`` (nx, ny) to a unit load at node (0, 0).
+    If ``periodic`` it wraps around; else it is that at non-negative offsets, and even.
 
     Raises
     ------
     InputError
         If the grid has more than ``LARGEST_DENSE`` points.
     """
-    nx, ny = _small(response)
-    i, j = _offsets(nx) % nx, _offsets(ny) % ny
-    matrix: RealArray = response[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
-    return matrix
-
-
-def toeplitz_matrix(influence: RealArray) -> RealArray:
-    """Matrix (n, n) of the free convolution with even ``influence`` (nx, ny) at non-negative offsets.
-
-    Raises
-    ------
-    InputError
-        If the grid has more than ``LARGEST_DENSE`` points.
-    """
-    nx, ny = _small(influence)
-    i, j = np.abs(_offsets(nx)), np.abs(_offsets(ny))
-    matrix: RealArray = influence[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
-    return matrix
-
-
-def _small(kernel: RealArray) -> tuple[int, int]:
     nx, ny = kernel.shape
     if nx * ny > LARGEST_DENSE:
         raise InputError(
             f"grid of a dense method must have at most {LARGEST_DENSE} points, but has {nx} x {ny} = {nx * ny}. "
             "Use ConjugateGradient() on larger grids."
         )
-    return nx, ny
+    offsets = (np.arange(n)[:, None] - np.arange(n)[None, :] for n in (nx, ny))
+    i, j = (offset % n if periodic else np.abs(offset) for offset, n in zip(offsets, (nx, ny), strict=True))
+    matrix: RealArray = kernel[i[:, None, :, None], j[None, :, None, :]].reshape(nx * ny, nx * ny)
+    return matrix

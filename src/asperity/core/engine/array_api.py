@@ -101,11 +101,11 @@ def compat() -> Any:
     return import_module("array_api_compat")
 
 
-# Free set of the array-API engine: a mask; vectors are arrays that are zero outside it.
+# Free set of the array-API engine: a mask; vectors are arrays that are zero outside it. Methods without docstring: see ``protocol``.
 
 
 @dataclass(frozen=True, eq=False)
-class ArrayFreeSet:
+class _ArrayFreeSet:
     """Free set ``inside``; ``start`` is its residual."""
 
     library: Library
@@ -115,14 +115,12 @@ class ArrayFreeSet:
     entering: int
 
     def residual(self, *, centred: bool) -> Any:
-        """Residual vector."""
         if not (centred and self.size):
             return self.start
         mean = self.library.numbers([self._sum(self.start)])[0] / self.size
         return self.library.select(self.inside, self.start - mean)
 
     def zeros(self) -> Any:
-        """Vector of zeros."""
         return self.library.xp.zeros_like(self.start)
 
     def copy(self, vector: Any) -> Any:
@@ -130,12 +128,10 @@ class ArrayFreeSet:
         return vector
 
     def gather(self, values: Any) -> tuple[Any, float]:
-        """``values`` on the set and their sum."""
         vector = self.library.select(self.inside, values)
         return vector, self.library.numbers([self._sum(vector)])[0]
 
     def gather_products(self, field: Any, a: Any, b: Any, out: Any) -> Products:
-        """Vector of ``field``."""
         return self.products(self.library.select(self.inside, field), a, b)
 
     def products(self, vector: Any, a: Any, b: Any) -> Products:
@@ -144,32 +140,26 @@ class ArrayFreeSet:
         return Products(vector, *self.library.numbers(sums))
 
     def scatter(self, values: Any, field: Any) -> None:
-        """field = values."""
         field[...] = values
 
     def scatter_add(self, values: Any, factor: float, field: Any) -> None:
-        """field += factor values."""
         field[...] = field + float(factor) * values
 
     def scatter_change(self, old: Any, values: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """field = values - old."""
         change = self.library.xp.astype(self.library.select(self.inside, values - old), field.dtype)
         field[...] = change
         return change, self.library.numbers([self._sum(change * r)])[0]
 
     def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """(z - mean) + ratio t, also set in the field."""
         t = self.library.select(self.inside, (z - float(mean)) + float(ratio) * t)
         field[...] = t
         return t, self.library.numbers([self._sum(t * r)])[0]
 
     def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
-        """d + length t and r - length (kt - mean)."""
         r = self.library.select(self.inside, r - float(length) * (kt - float(mean)))
         return d + float(length) * t, r
 
     def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
-        """p += scale d."""
         library = self.library
         self._put(p + float(scale) * library.xp.astype(d, p.dtype), p)
         tensions = library.select(self.inside & (p < 0.0), -p)
@@ -184,7 +174,6 @@ class ArrayFreeSet:
         return self.library.xp.astype(change, self.start.dtype)
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
-        """p += scale d, clipped."""
         library = self.library
         moved = p + float(scale) * library.xp.astype(d, p.dtype)
         value = library.select(moved > 0.0, moved)
@@ -195,7 +184,6 @@ class ArrayFreeSet:
         return Clipped(self._load(p, cap), int(library.numbers([library.count(clipped)])[0]))
 
     def rescale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
-        """factor p + shift below the cap, clipped."""
         moved = float(factor) * p + float(shift)
         if cap is not None:
             most = bound(self.library, cap, p)
@@ -205,7 +193,6 @@ class ArrayFreeSet:
         return self._load(p, cap)
 
     def interpolate(self, old: Any, share: float, values: Any) -> None:
-        """values = old + share (values - old)."""
         self._put(old + float(share) * (values - old), values)
 
     def _put(self, vector: Any, values: Any) -> None:
@@ -225,7 +212,7 @@ class ArrayFreeSet:
 # Nested cells of the array-API engine: whole arrays per level (see ``cell_kernels`` for the algorithm).
 
 
-class ArrayCells:
+class _ArrayCells:
     """Inverse of nested cells on a free set; see ``cell_kernels`` for the coarse correction."""
 
     def __init__(
@@ -245,7 +232,7 @@ class ArrayCells:
 
     def factorise(self, free: FreeSet) -> None:
         """g and T of all cells for the points of ``free``."""
-        assert isinstance(free, ArrayFreeSet)
+        assert isinstance(free, _ArrayFreeSet)
         xp = self._library.xp
         unit = xp.astype(free.inside, getattr(xp, self._dtype))
         self._factors = tuple(
@@ -254,14 +241,12 @@ class ArrayCells:
         )
 
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
-        """Inverse times ``r``."""
-        assert isinstance(free, ArrayFreeSet)
+        assert isinstance(free, _ArrayFreeSet)
         z = r - self._library.select(free.inside, self._mean_deflection(self._factors, r))
         return free.products(z, r, other)
 
     def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any, factor: float) -> Any:
-        """r - factor times the deflection of nested cells."""
-        assert isinstance(free, ArrayFreeSet)
+        assert isinstance(free, _ArrayFreeSet)
         ones: tuple[tuple[list[Any], list[Any]], ...]
         ones = tuple(([1.0] * len(hierarchy.merges), []) for hierarchy in self._hierarchies)
         return r - float(factor) * self._library.select(free.inside, self._mean_deflection(ones, change))
@@ -369,7 +354,7 @@ def _spread(xp: Any, values: Any, merge: Merge, shape: tuple[int, int]) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class ArraySurvey:
+class _ArraySurvey:
     """One iterate seen as a whole."""
 
     library: Library
@@ -380,13 +365,12 @@ class ArraySurvey:
     cap: Any
 
     @classmethod
-    def of(cls, library: Library, p: Any, u: Any, h: Any, cap: Any) -> ArraySurvey:
+    def of(cls, library: Library, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:
         """Survey of an iterate."""
         return cls(library, _totals(library, p, u, h, cap), p, u, h, cap)
 
     @cached_property
     def squares(self) -> RealArray:
-        """Number of points strictly between the bounds, their sum of r and of r², in each square."""
         r, movable = self.u - self.h, self._movable
         sums = [
             self._in_squares(self.library.xp.astype(movable, r.dtype)),
@@ -404,8 +388,7 @@ class ArraySurvey:
     def _movable(self) -> Any:
         return (self.p > 0.0) & ~self._capped
 
-    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> ArrayFreeSet:
-        """Free set by the ``levels`` of the squares."""
+    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> _ArrayFreeSet:
         library, xp, (nx, ny) = self.library, self.library.xp, self.p.shape
         on_device = (library.array(levels[..., bound_of], "float64") for bound_of in (0, 1))
         low, high = (
@@ -417,7 +400,7 @@ class ArraySurvey:
         start = (float(level) - r) * (1.0 / float(scale))
         start = library.select(inside, xp.astype(start, getattr(xp, dtype)))
         size, arrived = library.numbers([library.count(inside), library.count(entering)])
-        return ArrayFreeSet(library, inside, start, int(size), int(arrived))
+        return _ArrayFreeSet(library, inside, start, int(size), int(arrived))
 
     def _in_squares(self, values: Any) -> RealArray:
         """Sums over squares of SQUARE_SIDE points a side."""
@@ -505,7 +488,7 @@ class ArrayEngine:
         product = None
         if coarse is not None:
             product = _Convolution(self._library, coarse.kernel, coarse.cells, coarse.padded, dtype)
-        return ArrayCells(self._library, hierarchies, coarse, product, dtype)
+        return _ArrayCells(self._library, hierarchies, coarse, product, dtype)
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
@@ -520,11 +503,11 @@ class ArrayEngine:
         raised = p + float(stiffness) * (fine - base)
         return self.numpy(self._library.select((p > 0.0) & (raised > 0.0), raised))
 
-    def survey(self, p: Any, u: Any, h: Any, cap: Any) -> ArraySurvey:
+    def survey(self, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:
         """Survey of an iterate."""
         double = self._library.xp.float64
         p, u, h = (self._library.xp.astype(values, double, copy=False) for values in (p, u, h))
-        return ArraySurvey.of(self._library, p, u, h, cap)
+        return _ArraySurvey.of(self._library, p, u, h, cap)
 
     def violation(self, p: Any, u: Any, h: Any, cap: Any, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
@@ -567,11 +550,9 @@ class _Convolution:
         return self._library.array(1.0 / kernel, str(kernel.dtype))
 
     def apply(self, field: Any, out: Any) -> Any:
-        """Convolve ``field`` into ``out``."""
         return self._multiply(field, self._kernel, out)
 
     def solve(self, field: Any, out: Any) -> Any:
-        """Divide by the kernel in Fourier space, the mean mode by twice its largest entry."""
         return self._multiply(field, self._inverse, out)
 
     def _multiply(self, field: Any, factor: Any, out: Any) -> Any:

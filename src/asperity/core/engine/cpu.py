@@ -78,7 +78,7 @@ class Blocks:
         return partial
 
 
-# Free set of the CPU engine: indices of its points, vectors as compressed arrays.
+# Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without docstring: see ``protocol``.
 
 
 ROW_PAD = 16
@@ -88,7 +88,7 @@ _NO_CAP = np.full(1, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
-class CpuFreeSet:
+class _CpuFreeSet:
     """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual."""
 
     blocks: Blocks
@@ -99,7 +99,6 @@ class CpuFreeSet:
 
     @property
     def size(self) -> int:
-        """Number of points."""
         return int(self.index.size)
 
     @cached_property
@@ -116,41 +115,33 @@ class CpuFreeSet:
         return self.index if field.flags.c_contiguous else self._index_in_padded_rows
 
     def residual(self, *, centred: bool) -> RealArray:
-        """Residual vector."""
         if centred and self.size:
             self.start[...] -= self.start.mean(dtype=np.float64)
         return self.start
 
     def zeros(self) -> RealArray:
-        """Vector of zeros."""
         return np.zeros_like(self.start)
 
     def copy(self, vector: RealArray) -> RealArray:
-        """Copy of ``vector``."""
         return vector.copy()
 
     def gather(self, values: RealArray) -> tuple[RealArray, float]:
-        """Vector of ``values`` and its sum."""
         out = np.empty(self.size, values.dtype)
         return out, self._sums("gather", 1, self.index, values.ravel(), out)[0]
 
     def gather_products(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
-        """Vector of ``field`` in ``out``."""
         total, first, second = self._sums("gather_products", 3, self.place(field), memory(field), a, b, out)
         return Products(out, total, first, second)
 
     def scatter(self, values: RealArray, field: RealArray) -> None:
-        """field = values."""
         self._run("scatter", self.place(field), values, memory(field))
 
     def scatter_add(self, values: RealArray, factor: float, field: RealArray) -> None:
-        """field += factor values."""
         self._run("scatter_add", self.place(field), values, values.dtype.type(factor), memory(field))
 
     def scatter_change(
         self, old: RealArray, values: RealArray, r: RealArray, field: RealArray
     ) -> tuple[RealArray, float]:
-        """field = values - old."""
         change = np.empty_like(r)
         arguments = (self.index, self.place(field), old, values.ravel(), r, change, memory(field))
         return change, self._sums("scatter_change", 1, *arguments)[0]
@@ -158,7 +149,6 @@ class CpuFreeSet:
     def update_direction(
         self, z: RealArray, mean: float, ratio: float, t: RealArray, r: RealArray, field: RealArray
     ) -> tuple[RealArray, float]:
-        """t = (z - mean) + ratio t in place, and field = t."""
         kind = t.dtype.type
         arguments = (self.place(field), z, kind(mean), kind(ratio), t, r, memory(field))
         return t, self._sums("update_direction", 1, *arguments)[0]
@@ -166,13 +156,11 @@ class CpuFreeSet:
     def update_solution(
         self, length: float, t: RealArray, kt: RealArray, mean: float, d: RealArray, r: RealArray
     ) -> tuple[RealArray, RealArray]:
-        """d += length t and r -= length (kt - mean) in place."""
         kind = t.dtype.type
         self._run("update_solution", kind(length), t, kt, kind(mean), d, r)
         return d, r
 
     def add_unclipped(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
-        """p += scale d."""
         tensile, tension = self._sums("add_unclipped", 2, self.index, p.ravel(), d, scale)
         return int(tensile), tension
 
@@ -182,17 +170,14 @@ class CpuFreeSet:
         return self.start
 
     def add_clipped(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> Clipped:
-        """p += scale d, clipped."""
         total, movable, below, number = self._sums("add_clipped", 4, self.index, p.ravel(), d, scale, bound(cap))
         return Clipped(Load(total, movable, int(below)), int(number))
 
     def rescale(self, p: RealArray, factor: float, shift: float, cap: RealArray | None) -> Load:
-        """p = factor p + shift below the cap, clipped."""
         total, movable, below = self._sums("rescale", 3, self.index, p.ravel(), factor, shift, bound(cap))
         return Load(total, movable, int(below))
 
     def interpolate(self, old: RealArray, share: float, values: RealArray) -> None:
-        """values = old + share (values - old)."""
         self._run("interpolate", self.index, old, share, values.ravel())
 
     def _run(self, kernel: str, *arguments: Any) -> None:
@@ -217,7 +202,7 @@ def bound(cap: RealArray | None) -> RealArray:
 # Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
 
 
-class CpuCells:
+class _CpuCells:
     """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
 
     def __init__(
@@ -236,7 +221,6 @@ class CpuCells:
         self._sweep("factorise", free, self._nothing)
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        """Inverse times ``r``."""
         self._sweep("cell_deflections", free, r)
         return self.at_points(free, r, other, out)
 
@@ -251,7 +235,7 @@ class CpuCells:
 
     def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """``r`` less the deflections of the finest cells that lie in s."""
-        assert isinstance(free, CpuFreeSet)
+        assert isinstance(free, _CpuFreeSet)
         sums = np.zeros((self._shape[0], 3))
         arguments = (self.levels, self._shape, free.rows, free.index, r, other, self.s, out, sums)
         subtract = self._blocks.cell_kernels.subtract_deflections
@@ -260,7 +244,7 @@ class CpuCells:
         return Products(out, total, first, second)
 
     def _sweep(self, kernel: str, free: FreeSet, values: RealArray) -> None:
-        assert isinstance(free, CpuFreeSet)
+        assert isinstance(free, _CpuFreeSet)
         arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, self.g, self.s)
         call = getattr(self._blocks.cell_kernels, kernel)
         self._blocks.share(call, len(self.levels), *arguments, serial=self.g.size < SERIAL_BELOW)
@@ -289,11 +273,11 @@ def merged(n: int, pairs: bool, offset: int) -> int:
 # Nested cells of the CPU engine with a coarse correction by convolution.
 
 
-class CpuCorrectedCells:
+class _CpuCorrectedCells:
     """Inverse of nested cells with coarse correction (see ``cell_kernels``), a hierarchy and a product per thread."""
 
     def __init__(
-        self, blocks: Blocks, cells: CpuCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
+        self, blocks: Blocks, cells: _CpuCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
     ) -> None:
         self._blocks = blocks
         self._cells = cells
@@ -309,8 +293,7 @@ class CpuCorrectedCells:
             kernels.copy_level(levels[self._depth], self._cells.s, fields[kernels.UNIT])
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        """Inverse times ``r``, nearly."""
-        assert isinstance(free, CpuFreeSet)
+        assert isinstance(free, _CpuFreeSet)
         self._blocks.share(self._deflect, len(self._products), free, r, serial=self._cells.g.size < SERIAL_BELOW)
         return self._cells.at_points(free, r, other, out)
 
@@ -320,7 +303,7 @@ class CpuCorrectedCells:
         """r - factor times the deflection of nested cells without coarse correction, which is near enough."""
         return self._cells.predicted_residual(free, r, loaded, change, factor)
 
-    def _deflect(self, span: tuple[int, int], free: CpuFreeSet, r: RealArray) -> None:
+    def _deflect(self, span: tuple[int, int], free: _CpuFreeSet, r: RealArray) -> None:
         """Deflections of the finest cells of the hierarchies of the span."""
         kernels: Any = self._blocks.cell_kernels
         cells = self._cells
@@ -389,7 +372,7 @@ class CpuEngine:
         dtype: str,
     ) -> Cells:
         """Nested cells. Two hierarchies are swept side by side, so their transforms share the threads."""
-        cells = CpuCells(self.blocks, shape, hierarchies, dtype)
+        cells = _CpuCells(self.blocks, shape, hierarchies, dtype)
         if coarse is None:
             return cells
         threads = max(1, self.threads // len(hierarchies))
@@ -397,7 +380,7 @@ class CpuEngine:
         transform = RealTransform(parts[0], threads) if parts[0] == parts[1] else PaddedTransform(*parts, threads)
         serial = Blocks(1)
         products = tuple(_Convolution(serial, transform, coarse.kernel, dtype) for _ in hierarchies)
-        return CpuCorrectedCells(self.blocks, cells, coarse, products, dtype)
+        return _CpuCorrectedCells(self.blocks, cells, coarse, products, dtype)
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
@@ -409,7 +392,7 @@ class CpuEngine:
         self.blocks.share(self.blocks.kernels.prolong_pressure, len(out), *arguments, serial=out.size < SERIAL_BELOW)
         return out
 
-    def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> CpuSurvey:
+    def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> _CpuSurvey:
         """Survey of an iterate."""
         nx, ny = p.shape
         flat = p.ravel(), u.ravel(), _read_only(h)
@@ -428,7 +411,7 @@ class CpuEngine:
             pressure, deflected, work, weight, weighted = (float(v) for v in s[:, :5].sum(axis=0))
             bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
             totals = Totals(pressure, deflected, work, weight, weighted, *bounds)
-        return CpuSurvey(totals, self.blocks, (nx, ny), *flat, cap, squares)
+        return _CpuSurvey(totals, self.blocks, (nx, ny), *flat, cap, squares)
 
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
@@ -443,12 +426,12 @@ class CpuEngine:
 
     def clear_field(self, free: FreeSet, field: RealArray) -> None:
         """field = 0 on the set."""
-        assert isinstance(free, CpuFreeSet)
+        assert isinstance(free, _CpuFreeSet)
         self.blocks.run(self.blocks.kernels.clear_field, free.size, free.place(field), memory(field))
 
 
 @dataclass(frozen=True, eq=False)
-class CpuSurvey:
+class _CpuSurvey:
     """Sums over an iterate of flat fields."""
 
     totals: Totals
@@ -460,8 +443,7 @@ class CpuSurvey:
     cap: RealArray | None
     squares: RealArray
 
-    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> CpuFreeSet:
-        """Free set by the ``levels`` of the squares."""
+    def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> _CpuFreeSet:
         kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
         mask = np.zeros(-(-size // 8) * 8, np.uint8)
         counts = np.zeros((len(levels), 2), dtype=np.int64)
@@ -477,7 +459,7 @@ class CpuSurvey:
         residual = np.empty(index.size, dtype=dtype)
         words = SQUARE_SIDE // 8 * row  # of eight points of the mask, in a band of squares
         self._share(kernels.fill_free, self.u, self.h, level, scale, words, mask, starts, index, residual)
-        return CpuFreeSet(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
+        return _CpuFreeSet(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:
         self.blocks.share(kernel, len(self.squares), *arguments, serial=self.p.size < SERIAL_BELOW)
@@ -496,13 +478,11 @@ class _Convolution:
         self._spectrum = np.empty(transform.spectrum_shape, np.complex128 if dtype == "float64" else np.complex64)
 
     def apply(self, field: RealArray, out: RealArray) -> RealArray:
-        """Convolve ``field`` into ``out``."""
         spectrum = self._transform.forward(field, self._spectrum)
         self._blocks.run(self._blocks.kernels.scale_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         return self._transform.backward(spectrum, out)
 
     def solve(self, field: RealArray, out: RealArray) -> RealArray:
-        """Divide by the kernel in Fourier space, the mean mode by twice its largest entry."""
         spectrum = self._transform.forward(field, self._spectrum)
         mean = spectrum[0, 0]
         self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)

@@ -10,7 +10,6 @@ elastic, 256², every iterate within its bounds. The constants as they are take 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, NamedTuple, Protocol, Self
 
@@ -125,19 +124,12 @@ def local_means(squares: RealArray, level: float = 0.0) -> RealArray:
     count = squares[..., 0]
     total = squares[..., 1] - level * count
     if count.size > 1:
-        wider = local_means(_in_fours(squares), level).repeat(2, axis=0).repeat(2, axis=1)
+        nx, ny, kinds = squares.shape
+        even = np.pad(squares, ((0, nx % 2), (0, ny % 2), (0, 0)))
+        fours = even.reshape(-(-nx // 2), 2, -(-ny // 2), 2, kinds).sum(axis=(1, 3))
+        wider = local_means(fours, level).repeat(2, axis=0).repeat(2, axis=1)
         total += _PRIOR * wider[: count.shape[0], : count.shape[1]]
     return np.asarray(total / (count + _PRIOR))
-
-
-def _in_fours(squares: RealArray) -> RealArray:
-    """Sums over 2 x 2 squares; those beyond an odd end are zero."""
-    nx, ny, kinds = squares.shape
-    if nx % 2 or ny % 2:
-        even = np.zeros((nx + nx % 2, ny + ny % 2, kinds))
-        even[:nx, :ny] = squares
-        squares = even
-    return np.asarray(squares[::2, ::2] + squares[1::2, ::2] + squares[::2, 1::2] + squares[1::2, 1::2])
 
 
 # (2) How accurately a linear system is solved.
@@ -407,7 +399,11 @@ class ActiveSet:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
         system = LinearSystem(work.scaled, free, work.load_prescribed)
-        found = conjugate_gradients(system, r, stopping, pending=pending, on_step=_updating_deflection(work))
+
+        def add(length: float) -> None:
+            work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
+
+        found = conjugate_gradients(system, r, stopping, pending=pending, on_step=add)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
@@ -453,7 +449,11 @@ class ActiveSet:
         error = _relative_error(work, memory.survey.totals)
         if memory.tension:
             error += memory.tension / memory.survey.totals.pressure
-        memory = _counted(memory, error)
+        if memory.unsuccessful is not None and error < memory.lowest:
+            memory = replace(memory, lowest=error, unsuccessful=0)
+        elif memory.unsuccessful is not None:  # after some in a row steps are clipped
+            failed = memory.unsuccessful + 1 if memory.unsuccessful < _MOST_UNSUCCESSFUL else None
+            memory = replace(memory, unsuccessful=failed)
         due = error <= self.tolerance or spent.iterations >= self.max_iterations
         due = due or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
@@ -487,21 +487,6 @@ def _compute_from_scratch(memory: _Memory) -> None:
         clear_tension(work, memory.tensile, memory.survey.totals.pressure)
     memory.tensile = None
     work.exact.apply(work.pressure, work.deflection)
-
-
-def _updating_deflection(work: Workspace) -> Callable[[float], None]:
-    """Adds the deflection by every step of a correction to that of the iterate."""
-    scaled, factor = work.scaled, work.qp.height_scale
-    return lambda length: work.engine.add(scaled.response, length * factor, work.deflection)
-
-
-def _counted(memory: _Memory, error: float) -> _Memory:
-    """``memory`` with the lowest error; steps are clipped after some in a row that have not made it smaller."""
-    if memory.unsuccessful is None:
-        return memory
-    if error < memory.lowest:
-        return replace(memory, lowest=error, unsuccessful=0)
-    return replace(memory, unsuccessful=memory.unsuccessful + 1 if memory.unsuccessful < _MOST_UNSUCCESSFUL else None)
 
 
 # (0) First guesses from coarser grids.
