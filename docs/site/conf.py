@@ -99,5 +99,6 @@ if any(examples.glob("*/*.py")):
         "reset_modules": ("matplotlib",),
         "plot_gallery": True,
         "min_reported_time": 10,
+        "write_computation_times": False,  # its page would load scripts from the network
         "copyfile_regex": r".*\.toml",
     }
