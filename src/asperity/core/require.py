@@ -26,6 +26,8 @@ def finite(value: float, what: str, fix: str = "") -> float:
         number = float(value)
     except (TypeError, ValueError):
         raise InputError(_sentence(what, "a number", value, fix)) from None
+    except OverflowError:
+        raise InputError(f"{what} must be a finite number, but has more than 308 digits.{fix and ' '}{fix}") from None
     if not math.isfinite(number):
         raise InputError(_sentence(what, "a finite number", value, fix))
     return number

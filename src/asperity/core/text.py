@@ -10,8 +10,8 @@ from .errors import FileFormatError
 LARGEST = 4 * 2**20
 """Bytes of a document or materials file; the largest of this package have a few thousand."""
 
-_HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
-"""Categories of characters that move the cursor, hide or turn text, or cannot be written."""
+_HIDDEN = ("Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp")
+"""Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot be written."""
 
 
 def printable(text: str, *, keep: str = "") -> str:

@@ -135,7 +135,9 @@ def coordinate(place: Place, value: Any) -> Coordinate:
     found = value if place.quantity is None else place.content(value, Path())
     if isinstance(found, list):
         return float(found[0]) if found[0] == found[1] else str(value)
-    return float(found) if isinstance(found, int | float) and not isinstance(found, bool) else str(found)
+    if isinstance(found, int) and not isinstance(found, bool):
+        return require.finite(found, f"value of {place.path}")
+    return found if isinstance(found, float) else str(found)
 
 
 def numeric_edit(place: Place, number: float) -> Edit:

@@ -17,7 +17,7 @@ from refusals import refused
 from study_cases import PROBLEM, plan
 
 import asperity as asp
-from asperity.core import units
+from asperity.core import require, units
 from asperity.core.errors import AsperityError, FileFormatError, InputError, OutputError, UnitError
 from asperity.core.text import LARGEST, printable, read_text
 from asperity.run.build import build
@@ -37,12 +37,23 @@ def test_only_units_reach_the_library_of_units() -> None:
 
 def test_control_characters_are_shown() -> None:
     assert printable("a\x1b[31m\n\u202eb", keep="\n") == "a\\x1b[31m\n\\u202eb"
+    unassigned, private = "\U000e11b3", "\ue000"
+    assert printable(f"{unassigned}{private} µ") == "\\U000e11b3\\ue000 µ"
     surface = asp.Surface(np.eye(4), 1.0, origin=Origin(source="scan\x1b]0;owned\x07.txt"))
     body = asp.Layered([asp.Layer(asp.Elastic(1e9, 0.3, name="a\x1b[2J"), 1e-9)], asp.Elastic(1e9, 0.3))
     page = asp.solve(asp.ContactProblem(surface, body), asp.MeanPressure(1e6))._repr_html_()
     for shown in (repr(surface), repr(body), page):
         assert "\x1b" not in shown
         assert "\x07" not in shown
+
+
+def test_integers_beyond_every_float() -> None:
+    huge = 10**400
+    for number in (huge, -huge):
+        with refused(InputError, "Poisson's ratio", "308"):
+            require.within(number, -1.0, 0.5, "Poisson's ratio")
+    with refused(InputError, "value of surface.seed", "308"):
+        plan(axes=[{"path": "surface.seed", "values": [1, huge]}])
 
 
 @pytest.mark.parametrize("form", ["toml", "json"])
