@@ -52,7 +52,8 @@ def test_every_quantity_of_a_section(section, ax, quantity):
     (interface,) = [line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_ydata()) == 2]
     assert interface.get_ydata()[0] == pytest.approx(50.0)
     (bar,) = ax.child_axes
-    assert bar.get_ylabel().startswith(plots.stress.QUANTITIES[quantity].label)
+    words = bar.get_ylabel().split()  # long labels are broken in lines
+    assert words[:-1] == plots.stress.QUANTITIES[quantity].label.split()
     assert {text.get_text() for text in ax.texts} == {"DLC", "Al-Mg"}
     low, high = bar.get_ylim()
     values = getattr(section, quantity)

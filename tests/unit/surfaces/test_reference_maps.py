@@ -11,7 +11,7 @@ from reference_data import FOLDER, Row, every_row, reference
 
 from asperity.surfaces.characterise import correlation as autocorrelation
 from asperity.surfaces.characterise import correlation as structure
-from asperity.surfaces.characterise import material_ratio, moments, slopes, spectrum
+from asperity.surfaces.characterise import heights, moments, slopes, spectrum
 from asperity.surfaces.characterise.heights import mean_height, rms_height
 from asperity.surfaces.characterise.summits import summit_statistics, summits
 from asperity.surfaces.characterise.texture import texture_lengths
@@ -85,13 +85,13 @@ def summit(surface: Surface, quantity: str, row: Row) -> float:
 
 
 def abbott(surface: Surface, quantity: str, row: Row) -> float:
-    curve = material_ratio.material_ratio_curve(surface)
+    curve = heights.material_ratio_curve(surface)
     if quantity.startswith("Smc_"):
         return float(curve.height(float(quantity[4:]) / 100.0))
     if quantity.startswith("Smr_at_c="):
         return float(curve.ratio(float(quantity[9:])))
     if quantity == "secant_start_pct":
-        return 100.0 * material_ratio.core(curve).start
+        return 100.0 * heights.core(curve).start
     name, _, line = quantity.partition("_secant") if quantity.endswith("_secant") else (quantity, "", None)
     if name == "Sdc_10_80" or row["map"] == "T1":  # too few points for a core
         return {
@@ -102,7 +102,7 @@ def abbott(surface: Surface, quantity: str, row: Row) -> float:
             "Vvc": lambda: curve.void_volume(0.1) - curve.void_volume(0.8),
             "Vvv": lambda: curve.void_volume(0.8),
         }[name]()
-    found = material_ratio.functional_parameters(curve, "least squares" if line is None else "secant")
+    found = heights.functional_parameters(curve, "least squares" if line is None else "secant")
     return getattr(found, name) * (100.0 if row["unit"] == "%" else 1.0)
 
 
