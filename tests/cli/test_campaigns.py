@@ -29,8 +29,15 @@ def written(folder: Path, **tables) -> Path:
 
 
 def started(path: Path, workers: int) -> subprocess.Popen[str]:
-    """The program on the study at ``path`` as a process of its own, in a group of its own as in a terminal."""
-    command = [sys.executable, "-m", "asperity", "run", str(path), "--workers", str(workers)]
+    """The program on the study at ``path`` as a process of its own, in a group of its own as in a terminal.
+
+    A shell starts what runs in the background with SIGINT ignored, and children inherit that: the handler is set first.
+    """
+    program = (
+        "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "runpy.run_module('asperity', run_name='__main__', alter_sys=True)"
+    )
+    command = [sys.executable, "-c", program, "run", str(path), "--workers", str(workers)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     return subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True
