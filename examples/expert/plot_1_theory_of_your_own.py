@@ -11,7 +11,6 @@ import numpy as np
 from scipy.special import erf
 
 import asperity as asp
-from asperity.plots.comparison import plot_comparison_kappa
 from asperity.theories.protocol import Limit, prediction
 
 # %%
@@ -48,7 +47,7 @@ body = asp.material("silicon")
 mine = Rule(asp.roughness_of(surface), asp.contact_modulus(body), kappa=2.2)
 found = asp.compare(surface, body, np.geomspace(200e6, 10e9, 6), theories=[mine, "persson", "bush-gibson-thomas"])
 
-plot_comparison_kappa(found.dataset, plt.subplots(figsize=(8, 4.5), layout="constrained")[1])
+found.plot("kappa")
 for curve in found.curves:
     print(f"{curve.name}:", *(f"{100 * value:+.0f} %" for value in found.deviation(curve.name)), "off in area")
 plt.show()

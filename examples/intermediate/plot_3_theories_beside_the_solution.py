@@ -10,7 +10,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.plots.comparison import plot_comparison_area, plot_comparison_kappa
 
 # %%
 # A self-affine surface, five loads. Names of theories may be left out: then all are tried.
@@ -25,8 +24,8 @@ found = asp.compare(surface, asp.material("silicon"), np.geomspace(100e6, 3e9, 5
 # Left the areas, right the slope κ = (A/A₀) E* h'/p, with h' the rms gradient. At light load Bush, Gibson and Thomas have
 # √(2π) = 2.51, Persson √(8/π) = 1.60; the solution lies between. Pale parts are outside a theory's own limits.
 figure, axes = plt.subplots(1, 2, figsize=(13, 4.5), layout="constrained")
-plot_comparison_area(found.dataset, axes[0])
-plot_comparison_kappa(found.dataset, axes[1])
+found.plot("area", axes[0])
+found.plot("kappa", axes[1])
 
 kappa = found.kappa(found.numerical.area_fraction_corrected)
 print("κ of the solution:", *(f"{value:.2f}" for value in kappa))

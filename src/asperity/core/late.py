@@ -50,7 +50,7 @@ def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
 
 
 class Shown:
-    """Base of surfaces, bodies, problems, results and stress fields: how they show themselves on a screen and in a notebook.
+    """Base of surfaces, bodies, problems and all results: how they show themselves on a screen and in a notebook.
 
     Words and pictures are made by the layers ``io`` and ``plots``, which the classes of lower layers may not import. The package
     itself stands above all layers, and when it is imported it gives with ``supply`` where these functions are found.
@@ -68,7 +68,7 @@ class Shown:
 
 
 class Drawn(Shown):
-    """What notebooks show with a picture: surfaces, results and stress fields."""
+    """What notebooks show with a picture: surfaces and their roughness, results, stress fields and comparisons."""
 
     def _repr_html_(self) -> str:
         return str(self._find("card")(self))
@@ -81,6 +81,8 @@ class Drawn(Shown):
         kind
             What to draw, the most telling figure by default. Surfaces: ``heights`` or ``view``. Results: the names of their
             figures, such as ``pressure``, ``contact``, ``gap``, ``section`` or ``menisci``. Stress fields: a stress, such as ``von_mises``.
+            Roughness: ``distribution``, ``spectrum`` and the other figures of its report. Comparisons: ``area``, ``kappa``,
+            ``local_slope``, ``gap`` or ``deviation``.
         ax
             Axes of matplotlib.
         options

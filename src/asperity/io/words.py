@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
-from typing import TypeAlias
+from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from ..contact.advice import doubts
+from ..contact.couplings.menisci import Menisci
 from ..contact.history import HistoryResult
 from ..contact.laws import LayeredHardness
 from ..contact.problem import ContactProblem
@@ -22,7 +23,9 @@ from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..stress.field import DERIVED, StressField
+from ..stress.yielding import YieldReport
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
+from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 
 LINE = 100
@@ -372,6 +375,18 @@ def field_rows(field: StressField) -> Rows:
     return rows
 
 
+@runtime_checkable
+class Worded(Protocol):
+    """What a higher layer defines, such as a comparison, and tells of itself."""
+
+    def in_words(self) -> tuple[str, Rows]:
+        """Heading and main numbers."""
+
+
+ROUGHNESS = ("heights.Sq", "hybrid.Sdq", "heights.Ssk", "heights.Sku", "moments.difference.alpha")
+"""Numbers of a characterisation that are shown first."""
+
+
 def heading_and_rows(thing: object) -> tuple[str, Rows]:
     """Heading of a ``thing`` and its main numbers.
 
@@ -407,6 +422,11 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         return "Load history", [*rows, ("mean pressure where it turns", loads), *headline_rows(thing.last)]
     if isinstance(thing, StressField):
         return "Stress field", field_rows(thing)
+    if isinstance(thing, Characterisation):
+        numbers = [(q.symbol, show(value, q.unit, 3)) for q, value in thing.values() if q.name in ROUGHNESS]
+        return f"Characterisation of {surface_text(thing.surface)}", numbers
+    if isinstance(thing, Worded):
+        return thing.in_words()
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
 
 
@@ -415,12 +435,29 @@ def _doubt_rows(*results: ContactResult) -> Rows:
 
 
 def text(thing: object) -> str:
-    """The ``repr`` of a ``thing``: one line of a layered body, at most a screen of anything else."""
-    if isinstance(thing, Layered):
-        return printable(f"<Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}>")
+    """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
+    if not isinstance(thing, Surface | ContactProblem | ContactResult | HistoryResult | StressField):
+        return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
     return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(text)}" for label, text in rows)])
+
+
+def _line(thing: object) -> str:
+    if isinstance(thing, Elastic):
+        return f"Elastic {body_text(thing)}"
+    if isinstance(thing, Layered):
+        return f"Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}"
+    if isinstance(thing, Menisci):
+        pull, share = show(thing.meniscus_force, "N"), f"{thing.relative_meniscus_force:.3g}"
+        return f"Menisci: {thing.n_menisci}, meniscus force {pull}, {share} of the external force"
+    if isinstance(thing, YieldReport):
+        worst = thing.first or max(thing.regions, key=lambda part: part.peak.value)
+        stress = f"{thing.criterion.name} {show(worst.peak.value, 'Pa')}"
+        limit = f"of {show(worst.limit.value, 'Pa')}, load factor {worst.load_factor:.3g}"
+        return f"YieldReport: {stress} {limit if thing.first else 'of unknown strength'}, {worst.place}"
+    heading, rows = heading_and_rows(thing)
+    return f"{heading}: {', '.join(' '.join(row) for row in rows)}"
 
 
 def _cut(text: str) -> str:

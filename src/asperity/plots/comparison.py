@@ -23,6 +23,7 @@ from .picture import (
     SKY,
     VERMILLION,
     Figure,
+    Plot,
     apart,
     literal,
     png,
@@ -48,32 +49,6 @@ LABEL_ROOM = 0.042
 
 SIZE = (CURVE_SIZE[0], 4.2)
 """Width and height in inches of a comparison, which has room for the names of all theories beside their curves."""
-
-TEXTS = {
-    "area": (
-        "Area against pressure",
-        "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected for the pixels "
-        "(small points: pixels counted). Curves are grey where a theory is beyond its limits.",
-    ),
-    "kappa": (
-        "Slope of the area",
-        "κ = (A/A₀) E* h'/p, with the rms gradient h', is constant where the area is proportional to the load. "
-        "Limits at vanishing load: √(2π) of Bush, Gibson and Thomas, √(8/π) of Persson. The axis ends at 5.",
-    ),
-    "local_slope": (
-        "Local slope of the area",
-        "d(A/A₀)/d(p/(E* h')) by differences between neighbouring loads.",
-    ),
-    "gap": (
-        "Mean gap against pressure",
-        "Mean gap of the deformed surfaces; the separation of the mean planes for theories that define no gap.",
-    ),
-    "deviation": (
-        "Deviation of the area from the numerical solution",
-        "Area of the theory over that of the boundary elements, less one; the axis ends at 100 %.",
-    ),
-}
-"""Title and caption of each figure by its name."""
 
 STEEPEST = 5.0
 """Slope at which the axes of slopes end: twice the largest limit of an elastic theory."""
@@ -136,17 +111,59 @@ def plot_comparison_deviation(data: xarray.Dataset, ax: Axes) -> Axes:
     return _named(ax, curves)
 
 
+COMPARISON_PLOTS = (
+    Plot(
+        "area",
+        "Area against pressure",
+        "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected for the pixels "
+        "(small points: pixels counted). Curves are grey where a theory is beyond its limits.",
+        plot_comparison_area,
+        "comparison",
+    ),
+    Plot(
+        "kappa",
+        "Slope of the area",
+        "κ = (A/A₀) E* h'/p, with the rms gradient h', is constant where the area is proportional to the load. "
+        "Limits at vanishing load: √(2π) of Bush, Gibson and Thomas, √(8/π) of Persson. The axis ends at 5.",
+        plot_comparison_kappa,
+        "comparison",
+    ),
+    Plot(
+        "local_slope",
+        "Local slope of the area",
+        "d(A/A₀)/d(p/(E* h')) by differences between neighbouring loads.",
+        plot_comparison_slope,
+        "comparison",
+    ),
+    Plot(
+        "gap",
+        "Mean gap against pressure",
+        "Mean gap of the deformed surfaces; the separation of the mean planes for theories that define no gap.",
+        plot_comparison_gap,
+        "comparison",
+    ),
+    Plot(
+        "deviation",
+        "Deviation of the area from the numerical solution",
+        "Area of the theory over that of the boundary elements, less one; the axis ends at 100 %.",
+        plot_comparison_deviation,
+        "comparison",
+    ),
+)
+"""The figures of a comparison in the order of a report; the last one needs the numerical solution."""
+
+
+def comparison_plots(data: xarray.Dataset) -> tuple[Plot, ...]:
+    """Those of the figures that the dataset of a comparison has the values for."""
+    return COMPARISON_PLOTS if "numerical_area_fraction" in data else COMPARISON_PLOTS[:-1]
+
+
 def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
     """The figures of a comparison from its dataset, drawn."""
-    draws = {
-        "area": plot_comparison_area,
-        "kappa": plot_comparison_kappa,
-        "local_slope": plot_comparison_slope,
-        "gap": plot_comparison_gap,
-    }
-    if "numerical_area_fraction" in data:
-        draws["deviation"] = plot_comparison_deviation
-    return tuple(Figure(name, *TEXTS[name], png(partial(draw, data), SIZE), wide=True) for name, draw in draws.items())
+    return tuple(
+        Figure(plot.name, plot.title, plot.caption, png(partial(plot.draw, data), SIZE), wide=True)
+        for plot in comparison_plots(data)
+    )
 
 
 def save_comparison_plots(

@@ -1,10 +1,12 @@
-"""What notebooks show of surfaces, results and stress fields: a card of numbers with a small picture, and figures."""
+"""What notebooks show of surfaces, results, stress fields and comparisons: a card of numbers with a small picture, and figures."""
 
 from __future__ import annotations
 
 import base64
+from collections.abc import Callable, Sequence
+from functools import partial
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
@@ -13,12 +15,15 @@ from ..core.grid import Grid
 from ..core.text import printable
 from ..io.words import heading_and_rows
 from ..stress.field import StressField
+from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
+from .comparison import SIZE as COMPARISON_SIZE
+from .comparison import comparison_plots
 from .contact import MENISCI, PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
-from .picture import CURVE_SIZE, VIEW_SIZE, map_size, png, style
+from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
-from .surface import plot_surface_view
+from .surface import SURFACE_PLOTS, plot_surface_view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,21 +37,21 @@ def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
 
     Raises InputError if the thing has no such figure.
     """
+    chosen = _chosen(thing, kind)
     if ax is not None:
-        return _draw(thing, kind, ax, **options)
+        return chosen.draw(ax, **options)
     from matplotlib import pyplot
 
-    size, projection = _shape(thing, kind)
     with style():
-        figure = pyplot.figure(figsize=size, layout="constrained")  # labels stay inside however it is saved
-        return _draw(thing, kind, figure.add_subplot(projection=projection), **options)
+        figure = pyplot.figure(figsize=chosen.size, layout="constrained")  # labels stay inside however it is saved
+        return chosen.draw(figure.add_subplot(projection=chosen.projection), **options)
 
 
 def card(thing: object) -> str:
     """HTML with the numbers of ``thing`` beside a small picture; needs no other file."""
     heading, rows = heading_and_rows(thing)
-    size, projection = _shape(thing, "")
-    picture = png(lambda ax: _draw(thing, "", ax), size, projection=projection, dpi=SMALL)
+    chosen = _chosen(thing, "")
+    picture = png(chosen.draw, chosen.size, projection=chosen.projection, dpi=SMALL)
     cells = "".join(
         f"<tr><th style='text-align:left;font-weight:normal;color:#55606c'>{escape(printable(label))}</th>"
         f"<td style='text-align:left'>{escape(printable(text))}</td></tr>"
@@ -60,33 +65,53 @@ def card(thing: object) -> str:
     )
 
 
-def _draw(thing: Any, kind: str, ax: Axes, **options: Any) -> Axes:
+class _Chosen(NamedTuple):
+    """A figure: what draws it on axes, its width and height in inches, and the projection of its axes."""
+
+    draw: Callable[..., Axes]
+    size: tuple[float, float]
+    projection: str | None = None
+
+
+_OF_SURFACE = (Plot("heights", "", "", plot_heights, "map"), Plot("view", "", "", plot_surface_view, "view"))
+
+
+def _chosen(thing: Any, kind: str) -> _Chosen:
+    """The figure ``kind`` of ``thing``, the most telling one if it is empty."""
+    if isinstance(thing, StressField):
+        return _of_stress(thing, kind)
+    thing = getattr(thing, "dataset", thing)  # of a comparison
+    what, first, plots = _plots(thing)
+    by_name = {plot.name: plot for plot in plots}
+    plot = by_name[require.one_of(kind or first, by_name, f"figure of {what}")]
+    draw = partial(plot.draw, thing)
+    if plot.kind == "view":
+        return _Chosen(draw, VIEW_SIZE, "3d")
+    if plot.kind == "map":
+        return _Chosen(draw, map_size(getattr(thing, "problem", getattr(thing, "surface", thing)).grid))
+    return _Chosen(draw, COMPARISON_SIZE if plot.kind == "comparison" else CURVE_SIZE)
+
+
+def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
+    """What ``thing`` is called, the name of its most telling figure, and all figures."""
     if isinstance(thing, Surface):
-        draw = {"heights": plot_heights, "view": plot_surface_view}
-        return draw[require.one_of(kind or "heights", draw, "figure of a surface")](thing, ax, **options)
+        return "a surface", "heights", _OF_SURFACE
+    if isinstance(thing, Characterisation):
+        return "a characterisation", "distribution", SURFACE_PLOTS
     if isinstance(thing, ContactResult):
-        draws = {figure.name: figure.draw for figure in (*PLOTS, *PLASTIC_PLOTS, MENISCI)}
-        return draws[require.one_of(kind or "pressure", draws, "figure of a result")](thing, ax, **options)
+        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, MENISCI)
     if isinstance(thing, HistoryResult):
-        loops = {figure.name: figure.draw for figure in PATH_PLOTS}
-        return loops[require.one_of(kind or "load_loop", loops, "figure of a load history")](thing, ax, **options)
-    if thing.dims == ("plane",):
-        return plot_stress_profile(thing, ax, *([(kind,)] if kind else []), **options)
+        return "a load history", "load_loop", PATH_PLOTS
+    return "a comparison", "area", comparison_plots(thing)
+
+
+def _of_stress(field: StressField, kind: str) -> _Chosen:
+    if field.dims == ("plane",):
+        return _Chosen(
+            lambda ax, **options: plot_stress_profile(field, ax, *([(kind,)] if kind else []), **options), CURVE_SIZE
+        )
     wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
-    draw_stress = plot_stress_map if len(thing.dims) == 3 else plot_stress_section
-    return draw_stress(thing, ax, wanted, **options)
-
-
-def _shape(thing: Any, kind: str) -> tuple[tuple[float, float], str | None]:
-    """Width and height in inches of the figure ``kind`` of ``thing``, and the projection of its axes."""
-    if isinstance(thing, Surface):
-        return (VIEW_SIZE, "3d") if kind == "view" else (map_size(thing.grid), None)
-    if isinstance(thing, ContactResult):
-        curves = [figure.name for figure in (*PLOTS, *PLASTIC_PLOTS) if figure.kind != "map"]
-        return (CURVE_SIZE if kind in curves else map_size(thing.problem.grid)), None
-    if isinstance(thing, HistoryResult):
-        return CURVE_SIZE, None
-    assert isinstance(thing, StressField)
-    if len(thing.dims) == 3:
-        return map_size(Grid((thing.x.size, thing.y.size), thing.spacing)), None
-    return (SECTION_SIZE if len(thing.dims) == 2 else CURVE_SIZE), None
+    if len(field.dims) == 3:
+        size = map_size(Grid((field.x.size, field.y.size), field.spacing))
+        return _Chosen(lambda ax, **options: plot_stress_map(field, ax, wanted, **options), size)
+    return _Chosen(lambda ax, **options: plot_stress_section(field, ax, wanted, **options), SECTION_SIZE)

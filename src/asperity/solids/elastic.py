@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..core import require
+from ..core.late import Shown
 
 
 @dataclass(frozen=True)
@@ -24,8 +25,8 @@ INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
 """What to do about a Poisson's ratio that is too large."""
 
 
-@dataclass(frozen=True)
-class Elastic:
+@dataclass(frozen=True, repr=False)
+class Elastic(Shown):
     """Isotropic linear-elastic half-space.
 
     InputError if a value is outside its range, or ``strength`` is no ``Strength``.

@@ -11,6 +11,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
+from ..core.late import Shown
 from .criteria import Criterion, Limit, VonMises
 from .field import Peak, StressField
 from .regions import Region
@@ -51,8 +52,8 @@ class RegionYield:
         return f"interface at {'the lower' if side == 'above' else 'the upper'} side of {self.region.name}"
 
 
-@dataclass(frozen=True, eq=False)
-class YieldReport:
+@dataclass(frozen=True, eq=False, repr=False)
+class YieldReport(Shown):
     """Onset of yield in a stress field, region by region.
 
     The load factor scales the stresses of one contact. A load changes the contact itself unless its area is full or it

@@ -15,7 +15,9 @@ import numpy as np
 
 from ..contact.problem import ContactProblem
 from ..core.arrays import BoolArray, RealArray
+from ..core.late import Drawn
 from ..core.status import Advice
+from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.description import software, surface_provenance
 from ..io.tree import FORMAT_VERSION, node_of, write_tree
@@ -91,8 +93,8 @@ class NumericalCurve:
     citation_keys: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison(Drawn):
     """Theories of rough contact beside the numerical solution, on one surface.
 
     Parameters
@@ -173,6 +175,16 @@ class Comparison:
             scale = self.roughness.rms_height if quantity == "gap" else exact
             apart: RealArray = (found - exact) / scale
         return np.where(np.isfinite(apart), apart, np.nan)
+
+    def in_words(self) -> tuple[str, list[tuple[str, str]]]:
+        """Heading and main numbers."""
+        low, high = (show(float(self.pressures[end]), "Pa", 3) for end in (0, -1))
+        rows = [("loads", f"{self.pressures.size} from {low} to {high}")]
+        if self.numerical is not None:
+            low, high = (percent(float(self.numerical.area_fraction_corrected[end])) for end in (0, -1))
+            rows.append(("area", f"{low} to {high} of the nominal area"))
+        beside = "the numerical solution" if self.numerical is not None else "no numerical solution"
+        return f"Comparison of {len(self.curves)} theories with {beside}", rows
 
     @property
     def dataset(self) -> xarray.Dataset:

@@ -57,6 +57,43 @@ def test_repr_tells_what_matters(result, field):
     assert re.search(r"largest von Mises stress\s+[\d.]+ [MG]Pa in DLC", repr(field))
 
 
+def test_small_things_show_themselves_in_one_line(result, field):
+    assert repr(asp.Elastic(1e9, 0.3)) == "<Elastic E = 1 GPa, ν = 0.3>"
+    assert repr(asp.Elastic(2e11, 0.3, asp.Strength(hardness=5e9), "steel")) == (
+        "<Elastic steel: E = 200 GPa, ν = 0.3, H = 5 GPa>"
+    )
+    film = asp.LiquidFilm.of(asp.liquid("water"), 5e-10)
+    wet = asp.solve(asp.ContactProblem(result.problem.surface, asp.material("DLC"), film=film), asp.MeanPressure(1e8))
+    unknown = asp.stress(asp.LoadedBody(asp.Elastic(1e9, 0.3), _tractions()), [1e-8])
+    for thing in (
+        wet.menisci,
+        asp.first_yield(field),
+        asp.first_yield(unknown),
+        asp.characterise(result.problem.surface),
+    ):
+        shown = repr(thing)
+        assert shown.startswith(f"<{type(thing).__name__}")
+        assert len(shown) <= 200
+        assert "\n" not in shown
+    assert f"load factor {asp.first_yield(field).load_factor:.3g}" in repr(asp.first_yield(field))
+
+
+def _tractions() -> asp.Tractions:
+    grid = asp.Grid((8, 8), (1e-8, 1e-8))
+    return asp.Tractions(grid, np.full(grid.shape, 1e6))
+
+
+def test_roughness_has_figures_and_a_card(result):
+    found = asp.characterise(result.problem.surface)
+    for kind in ("", "material_ratio", "heights"):
+        ax = Figure().add_subplot()
+        assert found.plot(kind, ax) is ax
+        assert ax.has_data()
+    assert "<img" in found._repr_html_()
+    with refused(asp.InputError, "figure of a characterisation", "'sound'"):
+        found.plot("sound", Figure().add_subplot())
+
+
 def test_cards_are_closed_html_with_a_small_picture(result, field):
     for thing in things(result, field):
         html = thing._repr_html_()

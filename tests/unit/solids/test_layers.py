@@ -23,7 +23,7 @@ HARD, SOFT, BASE = elastic(400e9, 0.2), elastic(3e9, 0.4), elastic(200e9, 0.3)
         (lambda: asp.Layer(HARD, "5 nm"), "thickness of a layer (m)", "'5 nm'"),
         (lambda: asp.Layer(HARD, 1.0, "bonded"), "interface of a layer", "'bonded'"),
         (lambda: asp.Layered(asp.Layer(HARD, 1.0), BASE), "layers of a Layered body", "[layer]"),
-        (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body", "Elastic("),
+        (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body", "Elastic E ="),
         (lambda: asp.Layered([], asp.Rigid()), "base of a Layered body", "Rigid"),
         (lambda: asp.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer", "'steel'"),
         (lambda: asp.graded(HARD, SOFT, 0.0), "thickness of a graded layer (m)", "0.0"),

@@ -59,6 +59,19 @@ def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.Comp
     assert any(np.isnan(values).any() for values in outside)  # beyond its limits a theory is grey only
 
 
+def test_a_comparison_draws_itself(compared: asp.Comparison, film: asp.Surface) -> None:
+    for kind in ("", "kappa", "local_slope", "gap", "deviation"):
+        ax = Figure(figsize=SIZE).add_subplot()
+        assert compared.plot(kind, ax) is ax
+        assert "numerical" in [text.get_text() for text in ax.texts] or kind == "deviation"
+    assert repr(compared).startswith("<Comparison of ")
+    assert "\n" not in repr(compared)
+    assert "<img" in compared._repr_html_()
+    alone = asp.compare(film, STEEL, np.array([1e8, 2e8]), theories=["persson"], numerical=False)
+    with refused(asp.InputError, "figure of a comparison", "'deviation'"):  # from what was not solved
+        alone.plot("deviation", Figure().add_subplot())
+
+
 @dataclass(frozen=True)
 class Proportional:
     """A theory made for the test: area of ``factor`` times p/E* to the power ``exponent``, up to ``most`` Pa."""

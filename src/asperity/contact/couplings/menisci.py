@@ -19,6 +19,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
+from ...core.late import Shown
 from ..laws import Coulomb
 from ..wetting import LiquidFilm, Wetting, wetting
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
@@ -37,8 +38,8 @@ _FULL = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Menisci:
+@dataclass(frozen=True, eq=False, repr=False)
+class Menisci(Shown):
     """What a film of liquid does in a contact, all values SI.
 
     Attributes

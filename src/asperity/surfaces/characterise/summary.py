@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from operator import attrgetter
 from typing import Any, ClassVar, TypeVar
 
 from ...core import require
 from ...core.errors import InputError
+from ...core.late import Drawn
 from ...core.quantity import Quantity
 from ...core.units import percent
 from ..prepare.level import filled
@@ -289,8 +290,8 @@ def undefined(kind: type[T], **known: Any) -> T:
 _TILT = 1e-3  # share of the mean square height in a plane above which a map was not levelled
 
 
-@dataclass(frozen=True, eq=False)
-class Characterisation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Characterisation(Drawn):
     """The numbers that describe ``surface``, in SI units, in groups; NaN for what is not defined.
 
     ``heights``, ``spatial``, ``hybrid``, ``functional``: parameters of ISO 25178-2; ``moments``, ``summits``,
@@ -313,8 +314,8 @@ class Characterisation:
     fractal_y: FractalParameters
     spectrum: SpectralParameters
     sampling: Sampling
-    curves: Curves = field(repr=False)
-    spectra: SpectralCurves = field(repr=False)
+    curves: Curves
+    spectra: SpectralCurves
     remarks: tuple[str, ...] = ()
 
     _KEYS: ClassVar[tuple[str, ...]] = (
