@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from bhushan import LOAD, WATER_ANGLE, Interface, column, grid, shown, spectrum
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 
 import asperity as asp
+from asperity.theories.wet.meniscus import kelvin_radius
 
 RMS = 2e-9
 FLOODS = 0.9
@@ -47,9 +49,10 @@ def compare(count: int = 8, humidities: Sequence[float] = HUMIDITIES) -> Page:
     head = ("humidity", "film (nm)", "menisci (nm)", "suction (MPa)", "first pass", "steady")
     table = Table("", head, tuple(rows))
     about = ABOUT.format(rms=1e9 * RMS, load=1e-6 * LOAD, count=count)
-    return Page(
-        "Meniscus force against humidity", about, (table, WORDS), _claims(humidities, np.array(first), np.array(steady))
-    )
+    unit = kelvin_radius(math.exp(-1.0), water.surface_tension, water.molar_volume, water.temperature)
+    printed = Published("Bhushan 1998, eq. 66", "γV/RT of water at 20 °C (nm)", "0.54", 1e9 * unit)
+    claims = _claims(humidities, np.array(first), np.array(steady))
+    return Page("Meniscus force against humidity", about, (table, WORDS), claims, (printed,))
 
 
 def _claims(humidities: Sequence[float], first: np.ndarray, steady: np.ndarray) -> tuple[Claim, ...]:

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 
 import asperity as asp
 from asperity import roughness
@@ -164,6 +164,30 @@ def page(realisations: int = 20) -> Page:
             READING,
         ),
         claims=_claims(moments, found, heights, realisations),
+        published=_published(moments, found),
+    )
+
+
+def _published(moments: tuple[Moments, ...], found: dict[str, np.ndarray]) -> tuple[Published, ...]:
+    """What is printed of the generated surfaces, and of the film where Gaussian surfaces may be expected to share it."""
+    source, film = "review chapter, sec. 3", "the film's; Gaussian surfaces have 0 and 3"
+    cut, whole = moments[0], moments[2]
+
+    def measured(name: str, theirs: str, reason: str = "") -> Published:
+        values = found[name]
+        return Published(source, name, theirs, float(values.mean()), spread=float(values.std(ddof=1)), reason=reason)
+
+    level = 380.0 * RMS**2 / whole.m0
+    return (
+        measured("rms height (nm)", "2.7"),
+        measured("skewness", "−0.08", film),
+        measured("kurtosis", "2.7", film),
+        *(measured(name, REPORTED[name]) for name in ("roll-off (nm)", "change of slope (nm)")),
+        *(measured(name, REPORTED[name]) for name in ("first exponent", "second exponent")),
+        Published(source, "plateau (nm⁴) with which the printed shape has the printed rms height", "380", level),
+        Published("review chapter, sec. 4.2", "Nayak parameter, waves down to 50 nm", "2.2", cut.alpha, 0.05),
+        measured("Nayak parameter, differences", "2.2", "all waves"),
+        measured("Nayak parameter, spectral", "2.2", "all waves"),
     )
 
 

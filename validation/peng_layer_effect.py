@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
-from page import Claim, Page, Table, within_scatter, write_page
+from page import Claim, Page, Published, Table, within_scatter, write_page
 from peng import BASE, CORRELATION_LENGTH, PIXELS, SIDE, Case, Found, coated, contacts, ensemble, grid, surfaces
 
 import asperity as asp
@@ -33,6 +33,7 @@ def compare(count: int = 20, thicknesses: Sequence[float] = THICKNESSES) -> Page
     bare = ensemble(contacts(Case(1.0, LOAD, RMS), shapes))
     tables: list[Table] = []
     claims: list[Claim] = []
+    laws: list[Published] = []
     for ratio in RATIOS:
         case = Case(ratio, LOAD, RMS)
         found = [ensemble(contacts(case, shapes, body=coated(ratio, h * CORRELATION_LENGTH))) for h in thicknesses]
@@ -40,7 +41,19 @@ def compare(count: int = 20, thicknesses: Sequence[float] = THICKNESSES) -> Page
         limit = ensemble(contacts(case, shapes, body=only_layer))
         tables.append(_table(ratio, thicknesses, found, bare))
         claims += _claims(ratio, thicknesses, found, bare, limit)
-    return Page("Effect of the layer on rough contact", ABOUT.format(count=count), (*tables, WORDS), tuple(claims))
+        laws += _published(ratio, _ratios(found[thicknesses.index(2.0)], bare))
+    about = ABOUT.format(count=count)
+    return Page("Effect of the layer on rough contact", about, (*tables, WORDS), tuple(claims), tuple(laws))
+
+
+def _published(ratio: float, found: tuple[np.ndarray, np.ndarray]) -> Iterator[Published]:
+    """The printed law that the area is inversely and the largest pressure directly proportional to E₁/E₂, at h/β* = 2."""
+    source, reason = "Peng 2001, sec. 3.2.6.1", "the printed rows give 0.574 and 1.609 themselves"
+    area, peak = found
+    for what, theirs, ours, why in (("Aᵣ/Aᵣ₀", 1.0 / ratio, area, ""), ("pₘₐₓ/p₀", ratio, peak, reason)):
+        spread = float(ours.std(ddof=1))
+        text = f"{what} by the law, E₁/E₂ = {ratio:g}"
+        yield Published(source, text, f"{theirs:.1f}", float(ours.mean()), spread=spread, reason=why)
 
 
 def _ratios(found: Found, bare: Found) -> tuple[np.ndarray, np.ndarray]:

@@ -19,8 +19,6 @@ UNCOUNTED = {
     "bhushan_film": "the load was chosen freely",
     "peng_head_disk": "the same three printed thicknesses in every row",
     "peng_load": "rows of table 3.1 again",
-    "peng_layer_effect": "ratios of numbers of table 3.1",
-    "peng_scaling": "exponents of rows of table 3.1",
 }
 """Pages whose numbers are listed but not counted, and why."""
 

@@ -16,6 +16,8 @@ import numpy as np
 import pytest
 from bhushan import shown
 
+from asperity.theories.rough.greenwood_williamson import separation_at_plastic_onset
+
 FOLDER = Path(bhushan_film.__file__).parent
 RUNS = {
     "bhushan_sphere": lambda: bhushan_sphere.compare(points=97, count=1),
@@ -55,6 +57,36 @@ def test_page_belongs_to_the_script(name):
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
     assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
     assert {row[-1] for row in rows[1:]} == {"yes"}
+    for one in page.published:
+        assert f"| {' | '.join(one.cells[:3])} |" in written
+
+
+def test_deterministic_numbers_are_those_of_the_page():
+    """Integrals, indices and constants do not depend on the number of surfaces."""
+    written = (FOLDER / "bhushan_statistics.md").read_text(encoding="utf-8")
+    published = page_of("bhushan_statistics").published
+    assert len(published) == 21
+    for one in published:
+        assert f"| {' | '.join(one.cells)} |" in written
+
+
+def test_constants_for_exponential_heights_do_not_depend_on_the_separation():
+    near, far = ([one.ours for one in bhushan_statistics._exponential(D)] for D in (0.2, 4.0))
+    assert near == pytest.approx(far, rel=1e-7)
+    assert near == pytest.approx([1.0 / np.sqrt(np.pi), 1.0 / np.sqrt(np.pi), np.pi], rel=1e-7)
+
+
+def test_index_of_elastic_contact_is_that_whose_onset_is_at_the_mean_summit():
+    """The root that the theory finds in D for given ψ, beside the page's in ψ for given D."""
+    index = next(one.ours for one in bhushan_statistics._plastic() if one.theirs == "0.6")
+    assert separation_at_plastic_onset(index) == pytest.approx(0.0, abs=1e-4)
+
+
+def test_sphere_beyond_first_yield_bears_the_load_that_is_asked():
+    """Mean pressure and contact radius over those at first yield, as found on the page, make 300 times its load."""
+    onset = 1.0752
+    mean, radius = (one.ours for one in list(bhushan_sphere._plastic(onset))[-2:])
+    assert mean / onset * radius**2 == pytest.approx(bhushan_sphere.KRAL_LOAD, rel=2e-3)
 
 
 def test_forces_that_run_away_are_told_and_not_averaged():

@@ -50,6 +50,8 @@ def test_page_belongs_to_the_script(name):
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
     assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
     assert {row[-1] for row in rows[1:]} == {"yes"}
+    for one in page.published:
+        assert f"| {' | '.join(one.cells[:3])} |" in written
 
 
 @pytest.mark.parametrize(

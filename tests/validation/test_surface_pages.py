@@ -48,6 +48,13 @@ def test_what_is_claimed_holds(name):
     assert "| NO |" not in written
     for claim in page.claims:
         assert f"| {claim.text} |" in written
+    for one in page.published:
+        assert f"| {' | '.join(one.cells[:3])} |" in written
+
+
+def test_waves_of_one_length_have_the_least_nayak_parameter():
+    """Between the 3/2 of endlessly many waves of one length and that of a ring 2 % wide and of finitely many, a few per cent."""
+    assert 1.49 < standard_surface.least_alpha(256) < 1.56
 
 
 def test_the_written_figure_10_is_the_scripts():
