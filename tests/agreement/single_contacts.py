@@ -51,6 +51,17 @@ def like_coulomb(_: float) -> float:
     return apart(theory.traction(r, 1e-6, 0.3e-6), 0.3 * theory.normal.pressure(r, 1e-6))
 
 
+def slipping_wave_like_lines(share: float) -> float:
+    """Stick width and loop of a wave at ``share`` of the pressure of full contact, sheared by half the limit of friction."""
+    wave = make("mindlin-wave", E, 1e-9, 1e-6, 0.3)
+    p = share * wave.normal.full_contact_pressure
+    line, Q = make("mindlin-line", E, 1e-12 / (4.0 * np.pi**2 * 1e-9), 0.3), 0.15 * p
+    answer = wave.at_pressure(p, Q)
+    sticking = line.at_load(p * 1e-6, Q * 1e-6).stick_radius
+    loop = line.cycle_dissipation(p * 1e-6, Q * 1e-6)
+    return max(apart(answer.stick_half_width, sticking), apart(1e-6 * answer.dissipation, loop))
+
+
 def first_stiffness(_: float) -> float:
     """Tangential over normal stiffness before any slip: 2(1 - ν)/(2 - ν) for equal bodies of ν = 0.3."""
     shear = E * (1.0 - 0.3)
@@ -145,6 +156,15 @@ SINGLE_CONTACTS = (
         (),
         ROUNDING,
         "no slip yet",
+    ),
+    Agreement(
+        "mindlin-wave",
+        "mindlin-line",
+        "light load: stick zone and loop at half the limit of friction",
+        slipping_wave_like_lines,
+        (1e-2, 1e-4, 1e-6),
+        1e-6,
+        "arcsin departs from its argument by its square over 6, the load over that of full contact over 6",
     ),
     Agreement(
         "maugis-dugdale",

@@ -129,7 +129,7 @@ def test_round_punch_without_slip():
     assert np.abs(without.x[0][inside]).max() > 0.05
 
 
-@every_row(reference("full_stick_power_law"), label=lambda row: f"case{row['case']:g}")
+@every_row(reference("friction/full_stick_power_law"), label=lambda row: f"case{row['case']:g}")
 def test_indenters_without_slip(row):
     if row["n"] == 0:
         assert StickingPunch(1.0, 1.0, row["beta"]).gain == pytest.approx(row["C_flat"], rel=1e-12)

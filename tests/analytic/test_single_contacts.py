@@ -11,6 +11,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
+from asperity.theories.friction.partial_slip import MindlinLine, MindlinPoint, tangential_modulus
 from asperity.theories.single.hertz import HertzEllipse, HertzLine, HertzPoint, axis_ratio
 from asperity.theories.single.indenters import (
     FlatPunch,
@@ -19,7 +20,6 @@ from asperity.theories.single.indenters import (
     PowerLawIndenter,
     SphericalIndenter,
 )
-from asperity.theories.single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
 from asperity.theories.single.waves import AREA_ERROR, CrossedWaves, Westergaard
 
 DIGITS = 1e-13  # the tables carry 16 digits; some hundred roundings in the longest formulas (found: 3e-14)

@@ -3,6 +3,8 @@ from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_pa
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
+from .friction.histories import PartialSlip, SlipMemory, SlipPath
+from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave, tangential_modulus
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
 from .hardness.plasticity import (
     LeastArea,
@@ -52,7 +54,6 @@ from .single.indenters import (
     SphericalIndenter,
     Wedge,
 )
-from .single.mindlin import MindlinLine, MindlinPoint, tangential_modulus
 from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
 from .statistics.heights import (
     AnyHeights,
@@ -152,9 +153,11 @@ __all__ = [
     "MeniscusGrowth",
     "MindlinLine",
     "MindlinPoint",
+    "MindlinWave",
     "NayakSummits",
     "OliverPharr",
     "OnionsArchard",
+    "PartialSlip",
     "PearsonHeights",
     "Persson",
     "PinInHole",
@@ -166,6 +169,8 @@ __all__ = [
     "SinusoidalAsperity",
     "SlidingCylinder",
     "SlidingPunch",
+    "SlipMemory",
+    "SlipPath",
     "SphereInCavity",
     "SphereYield",
     "SphericalIndenter",

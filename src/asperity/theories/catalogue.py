@@ -8,6 +8,7 @@ from types import MappingProxyType
 from ..core.errors import InputError
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
+from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
@@ -44,7 +45,6 @@ from .single.indenters import (
     SphericalIndenter,
     Wedge,
 )
-from .single.mindlin import MindlinLine, MindlinPoint
 from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
 from .statistics.nayak import NayakSummits
 from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress
@@ -93,6 +93,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             SphereInCavity,
             MindlinPoint,
             MindlinLine,
+            MindlinWave,
             SlidingCylinder,
             SlidingPunch,
             StickingIndenter,

@@ -68,6 +68,7 @@ EXAMPLES = {
     "sphere-in-cavity": {"E_star": 1e11, "inner": 1e-6, "outer": 1.1e-6},
     "mindlin": {**BALL, "G_star": 8e10, "friction": 0.3},
     "mindlin-line": {**BALL, "friction": 0.3},
+    "mindlin-wave": {"E_star": 1e11, "amplitude": 1e-9, "wavelength": 1e-6, "friction": 0.3},
     "sliding-cylinder": {**BALL, "beta": 0.25, "friction": 0.5},
     "sliding-punch": {"E_star": 1e11, "half_width": 1e-6, "beta": 0.25, "friction": 0.5},
     "sticking-indenter": {"E_star": 1e11, "coefficient": 0.5e6, "exponent": 2.0, "beta": 0.25},

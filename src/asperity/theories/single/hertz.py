@@ -86,6 +86,13 @@ class HertzPoint(Theory):
         outside = np.maximum(distance, a) * a * np.sqrt((1.0 - sine) * (1.0 + sine))
         return np.asarray(scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside))
 
+    def gap(self, r: ArrayLike, load: float) -> RealArray:
+        """Distance of the deformed surfaces in m at the distance ``r`` in m (any shape) from the axis, zero inside."""
+        answer = self.at_load(require.positive(load, "load (N)"))
+        distance = np.abs(np.asarray(r, dtype=float))
+        opened = self.displacement(distance, load) - answer.approach + distance**2 / (2.0 * self.radius)
+        return np.where(distance > answer.radius, np.maximum(opened, 0.0), 0.0)
+
 
 def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
     """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance ``r`` in m."""
@@ -140,6 +147,20 @@ class HertzLine(Theory):
         """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0."""
         answer = self.at_load(require.positive(load, "load per length (N/m)"))
         return hertz_profile(np.asarray(x, dtype=float), answer)
+
+    def gap(self, x: ArrayLike, load: float) -> RealArray:
+        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from the middle, zero inside.
+
+        (1/2R) [x sqrt(x² - a²) - a² arcosh(x/a)].
+        """
+        a = self.at_load(require.positive(load, "load per length (N/m)")).radius
+        return root_gap(np.abs(np.asarray(x, dtype=float)), a) / (2.0 * self.radius)
+
+
+def root_gap(x: RealArray, a: RealArray) -> RealArray:
+    """2 ∫ sqrt(t² - a²) dt over a < t < ``x``: x sqrt(x² - a²) - a² arcosh(x/a), zero for x < a."""
+    outside = np.maximum(x, a)
+    return np.asarray(outside * np.sqrt((outside - a) * (outside + a)) - a**2 * np.arccosh(outside / a))
 
 
 # Hertz's contact with two different curvatures: an ellipse (Hertz 1882; Johnson 1985, sec. 4.2).

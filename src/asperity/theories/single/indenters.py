@@ -85,6 +85,11 @@ class PowerLawIndenter(Theory):
         P = checked(load, "load (N)")
         return self.at_radius((P * (n + 1.0) / (2.0 * n * self.E_star * kappa * self.coefficient)) ** (1.0 / (n + 1.0)))
 
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at the ``approach`` δ in m, >= 0, of any shape."""
+        delta = checked(approach, "approach (m)")
+        return self.at_radius((delta / (self.approach_factor * self.coefficient)) ** (1.0 / self.exponent))
+
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, >= 0, of any shape."""
         n, a = self.exponent, checked(contact_radius, "contact radius (m)")
@@ -251,6 +256,12 @@ class SphericalIndenter(Theory):
         """The contact under ``load`` in N, >= 0, of any shape."""
         P = checked(load, "load (N)")
         t = bisected(lambda t: self._load(np.tanh(t)) - P, np.zeros_like(P), np.full_like(P, 18.0))
+        return self.at_radius(self.radius * np.tanh(t))
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at the ``approach`` δ in m, >= 0, of any shape."""
+        delta = checked(approach, "approach (m)") / self.radius
+        t = bisected(lambda t: t * np.tanh(t) - delta, np.zeros_like(delta), np.full_like(delta, 18.0))
         return self.at_radius(self.radius * np.tanh(t))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
@@ -423,6 +434,10 @@ class Cone(Theory):
     def indenter(self) -> PowerLawIndenter:
         """The same as a power law."""
         return PowerLawIndenter(self.E_star, self.slope, 1.0)
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at the ``approach`` δ in m, >= 0, of any shape."""
+        return self.indenter.at_approach(approach)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""

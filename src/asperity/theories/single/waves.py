@@ -27,7 +27,7 @@ from ..protocol import (
     prediction,
     small_slope,
 )
-from .hertz import HertzPoint
+from .hertz import HertzPoint, root_gap
 
 Amplitude: TypeAlias = Annotated[Length, "amplitude of the wave"]
 Wavelength: TypeAlias = Annotated[Length, "wavelength λ"]
@@ -105,6 +105,15 @@ class Westergaard(Theory):
             return np.asarray(p + full * np.cos(2.0 * psi))
         open_ = np.maximum(p / full - np.sin(psi) ** 2, 0.0)
         return np.asarray(2.0 * full * np.abs(np.cos(psi)) * np.sqrt(open_))
+
+    def gap(self, x: ArrayLike, mean_pressure: float) -> RealArray:
+        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from a crest, zero in contact.
+
+        2Δ [S sqrt(S² - s²) - s² arcosh(S/s)], S = |sin ψ|, s = sin ψa.
+        """
+        share = min(require.positive(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure, 1.0)
+        sine = np.abs(np.sin(np.pi * np.asarray(x, dtype=float) / self.wavelength))
+        return 2.0 * self.amplitude * root_gap(sine, np.asarray(math.sqrt(share)))
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of the mean planes."""

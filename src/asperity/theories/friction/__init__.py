@@ -1,0 +1,1 @@
+"""Theories of contacts with stick and slip."""
