@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 
-Labels = NDArray[np.int64]
+Labels = NDArray[np.integer[Any]]
 """Number of the island of each pixel, from 1; zero outside all."""
 
 
@@ -51,7 +52,7 @@ def _within(mask: BoolArray, *, diagonal: bool) -> tuple[Labels, int]:
     from scipy.ndimage import label
 
     found, count = label(mask, np.ones((3, 3)) if diagonal else None)
-    return np.asarray(found, dtype=np.int64), int(count)
+    return np.asarray(found), int(count)
 
 
 def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
@@ -117,10 +118,10 @@ def contact_edges(contact: BoolArray, *, wraps: tuple[bool, bool]) -> tuple[int,
 
 
 def _edges(contact: BoolArray, axis: int, *, wraps: bool) -> int:
-    if wraps:
-        return int(np.count_nonzero(contact != np.roll(contact, 1, axis)))
-    beyond = np.zeros_like(contact.take([0], axis))
-    return int(np.count_nonzero(np.diff(np.concatenate([beyond, contact, beyond], axis), axis=axis)))
+    along = contact.T if axis else contact
+    first, last = along[0], along[-1]
+    across = np.count_nonzero(first != last) if wraps else np.count_nonzero(first) + np.count_nonzero(last)
+    return int(np.count_nonzero(along[1:] != along[:-1]) + across)
 
 
 def contact_perimeter(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) -> float:

@@ -10,8 +10,9 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.engine import Engine, Totals
 from ..core.errors import InputError
-from ..core.late import Stored
+from ..core.late import LateNumber, Later, Stored
 from ..core.quantity import Quantity
 from ..core.status import Status, peak_memory
 from ..surfaces.pair import composite
@@ -21,9 +22,10 @@ from .couplings.driver import CouplingCheck
 from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Memory
 from .couplings.sliding import GrossSliding
+from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Control
 from .solvers.active_set.linear_system import normal_stiffness
-from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, duality_gap, least_length, level
+from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, least_length, level_of
 from .state import InterfaceState
 
 LARGEST_DUALITY_GAP = 1e-3
@@ -77,38 +79,30 @@ class Certificate:
     rounds: int = 1
 
 
-def certify(qp: ContactQP, solution: Solution, *, solver: str, tolerance: float, wall_time: float) -> Certificate:
-    """Certificate of ``solution``, which took ``wall_time`` s."""
-    p, deflection = solution.state.pressure, solution.state.deflection
-    r = deflection - qp.profile
-    at = level(qp, p, r)
-    sharpest = best_level(p, r, qp.cap)
-    total = float(p.sum(dtype=np.float64))
-    bound = duality_gap(p, r, qp.cap, sharpest)
-    elastic = 0.5 * _product(p, deflection)
+def certify(
+    qp: ContactQP, solution: Solution, totals: Totals, *, solver: str, tolerance: float, wall_time: float
+) -> Certificate:
+    """Certificate of ``solution``, whose sums are ``totals`` and which took ``wall_time`` s."""
+    state, at, total, elastic = solution.state, level_of(qp, totals), totals.pressure, 0.5 * totals.deflected
+    sharpest = totals.lowest if qp.elastic else best_level(state.pressure, state.deflection - qp.profile, qp.cap)
+    found = qp.violation(state, sharpest)
+    bound = found.above if qp.elastic else found.above + found.below
+    deepest = at - sharpest if qp.elastic else qp.violation(state, at).deepest
     length = max(qp.height_scale, least_length(qp, total, elastic))
-    energy = max(abs(elastic - _product(p, qp.profile + at)), total * least_length(qp, total, 0.0))
-    lowest = (
-        sharpest if qp.elastic else float(r.min(where=p < qp.cap, initial=np.inf))
-    )  # of the points that may not overlap
-    target = qp.constraint.mean_pressure * p.size if isinstance(qp.constraint, FixedMean) else total
+    energy = max(abs(totals.work - at * total - elastic), total * least_length(qp, total, 0.0))
+    target = qp.constraint.mean_pressure * qp.profile.size if isinstance(qp.constraint, FixedMean) else total
     return Certificate(
         duality_gap=bound / energy if energy > 0.0 else 0.0 if bound == 0.0 else np.inf,
         field_error=bound / (total * length) if total > 0.0 else 0.0,
-        penetration=max(at - lowest, 0.0) / length,
+        penetration=max(deepest, 0.0) / length,
         load_imbalance=abs(total - target) / target if target > 0.0 else 0.0,
         tolerance=tolerance,
-        iterations=solution.state.iterations,
-        fft_pairs=solution.state.applications * qp.operator.pairs_per_application + solution.state.extra_pairs,
+        iterations=state.iterations,
+        fft_pairs=state.applications * qp.operator.pairs_per_application + state.extra_pairs,
         wall_time=wall_time,
         peak_memory=peak_memory(),
         solver=solver,
     )
-
-
-def _product(first: RealArray, second: RealArray) -> float:
-    """Sum of the products of two fields in double precision."""
-    return float(np.einsum("ij,ij->", first, second, dtype=np.float64))
 
 
 PLASTIC_FRACTION = 0.02
@@ -198,7 +192,8 @@ class ContactResult(Stored):
     max_permanent_indentation
         Maximum of ``permanent_indentation``, m.
     normal_stiffness
-        d(mean pressure)/d(approach), Pa/m; NaN where not computed; infinite in periodic full contact.
+        d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out (``Keep``); infinite in periodic
+        full contact.
     n_spots, spot_areas, mean_spot_area, contact_perimeter
         Number of contact spots, their areas (m², largest first) and mean, perimeter along pixel edges (m).
     certificate, status
@@ -235,7 +230,6 @@ class ContactResult(Stored):
     indented_area: float
     plastic_volume: float
     max_permanent_indentation: float
-    normal_stiffness: float
     n_spots: int
     spot_areas: RealArray
     mean_spot_area: float
@@ -243,9 +237,14 @@ class ContactResult(Stored):
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
+    normal_stiffness: LateNumber = LateNumber()
     couplings: Mapping[str, Any] = field(default_factory=dict)
     memory: Mapping[str, Memory] = field(default_factory=dict)
     earlier: RealArray | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
+        return {**vars(self), "normal_stiffness": self.normal_stiffness}
 
     @property
     def menisci(self) -> Menisci | None:
@@ -337,12 +336,13 @@ def assemble(
     lift: RealArray | None,
     stiffness: bool,
     certificate: Certificate,
+    outcomes: Mapping[str, Any],
     citations: tuple[str, ...],
 ) -> ContactResult:
     """Fields and scalars of the contact ``found``.
 
-    ``before`` is the interface before this load, ``memories`` what the couplings leave, ``lift`` the elastic displacement
-    (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
+    ``before`` is the interface before this load, ``memories`` what the couplings leave, ``outcomes`` what they found, ``lift`` the
+    elastic displacement (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
     """
     p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
     offset = -found.level
@@ -351,12 +351,15 @@ def assemble(
     np.maximum(gap, 0.0, out=gap)
     displacement = u if lift is None else u + lift
     contact = p > 0.0
-    capped = contact & (p >= found.cap)
+    capped = np.zeros_like(contact) if found.qp.elastic else contact & (p >= found.cap)
     pixels = int(np.count_nonzero(contact))
     area = measure.corrected_area(contact, grid, wraps=wraps)
     spots = measure.contact_spots(contact, wraps=wraps) * grid.pixel_area
-    load = float(p.sum(dtype=np.float64))
-    measured = stiffness and lift is None
+    load, work = found.totals.pressure, found.totals.deflected
+    if lift is not None:
+        work += float(np.multiply(p, lift, dtype=np.float64).sum())
+    engine = found.qp.operator.engine
+    later = Later(lambda result: stiffness_of(result, engine=engine)) if stiffness and lift is None else np.nan
     return ContactResult(
         problem=problem,
         control=found.posed.control,
@@ -374,9 +377,9 @@ def assemble(
         max_pressure=float(p.max()),
         approach=found.posed.top - offset,
         mean_gap=float(gap.mean()),
-        elastic_energy=0.5 * float(np.multiply(p, displacement, dtype=np.float64).sum()) * grid.pixel_area,
+        elastic_energy=0.5 * work * grid.pixel_area,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
-        normal_stiffness=normal_stiffness(found.qp.operator, p, found.cap) if measured else np.nan,
+        normal_stiffness=later,
         n_spots=int(spots.size),
         spot_areas=spots,
         mean_spot_area=float(spots.mean()) if spots.size else 0.0,
@@ -384,10 +387,18 @@ def assemble(
         certificate=certificate,
         status=found.solution.status,
         citation_keys=citations,
+        couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
         **_indentation(problem, before, memories["hardness"]),
     )
+
+
+def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:
+    """Incremental stiffness of ``result`` in Pa/m, from one linear solve by its ``operator``, made on ``engine`` if there is none."""
+    problem = result.problem
+    operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    return normal_stiffness(operator, result.contact & ~result.plastic)
 
 
 def _indentation(problem: ContactProblem, state: InterfaceState | None, memory: Memory) -> dict[str, Any]:

@@ -34,7 +34,7 @@ from .state import InterfaceState
 
 @dataclass(frozen=True)
 class Keep:
-    """What to compute beyond the fields: ``stiffness`` costs about one further solve."""
+    """What a result gives beyond its fields: the ``stiffness``, which costs about half a further solve when it is first read."""
 
     stiffness: bool = True
 
@@ -86,7 +86,7 @@ def solve(
     state
         State of an earlier result: its memory is kept, its pressure is the first guess.
     keep
-        What to compute beyond the fields; by default the stiffness of a single load.
+        What the result gives beyond its fields; by default the stiffness of a single load, computed when it is first read.
     operator
         Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in repeated solves.
     progress
@@ -218,6 +218,7 @@ class Prepared:
         certificate = certify(
             contact.qp,
             contact.solution,
+            contact.totals,
             solver=self.solver.name,
             tolerance=settled.tolerance,
             wall_time=seconds,
@@ -226,7 +227,7 @@ class Prepared:
         status = doubted(settled.status, certificate)
         shown = replace(contact, solution=replace(contact.solution, status=status))
         papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
-        result = assemble(
+        return assemble(
             problem,
             shown,
             before=state,
@@ -234,9 +235,9 @@ class Prepared:
             lift=lift if lift is not None and lift.any() else None,
             stiffness=self.keep.stiffness,
             certificate=certificate,
+            outcomes=found,
             citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *papers})),
         )
-        return replace(result, couplings=found)
 
 
 def default_solver(problem: ContactProblem) -> Solver:

@@ -11,11 +11,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..contact.history import HistoryResult
-from ..contact.laws import cap_at
 from ..contact.operators import Operator, prepare_operator
-from ..contact.result import ContactResult
+from ..contact.result import ContactResult, stiffness_of
 from ..contact.solve import Keep, solve, steps
-from ..contact.solvers.active_set.linear_system import normal_stiffness
 from ..contact.state import InterfaceState
 from ..core.engine import CpuEngine
 from ..core.errors import AsperityError
@@ -292,7 +290,5 @@ class _Solving:
             results = list(deque(stream, maxlen=None if self.lines else 1))
         last = results[-1]
         if self._stiffness and last.sliding is None:
-            cap = cap_at(last.problem.law, last.permanent_indentation)
-            stiffness = normal_stiffness(self.warm.operator, last.pressure, cap)  # type: ignore[arg-type]
-            results[-1] = replace(last, normal_stiffness=stiffness)
+            results[-1] = replace(last, normal_stiffness=stiffness_of(last, operator=self.warm.operator))
         return (HistoryResult(tuple(results)) if self.lines else None), results[-1]

@@ -1,5 +1,8 @@
 """Area, perimeter and spots on patterns one can count by hand."""
 
+import copy
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
@@ -8,6 +11,7 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.contact import measure
+from asperity.contact.solvers.active_set import linear_system
 
 
 def pattern(text):
@@ -95,3 +99,25 @@ def test_stiffness_of_nothing_is_zero_and_can_be_left_out():
     assert plastic.normal_stiffness == 0.0
     left_out = asp.solve(problem, asp.MeanPressure(0.05), keep=asp.Keep(stiffness=False))
     assert np.isnan(left_out.normal_stiffness)
+
+
+@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.2)], ids=["elastic", "capped"])
+def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch):
+    solved: list[int] = []
+    solve = linear_system.conjugate_gradients
+
+    def counting(system, *arguments, **options):
+        solved.append(system.free.size)
+        return solve(system, *arguments, **options)
+
+    problem = asp.ContactProblem(rough((32, 24), 5), elastic(1.0), law=law)
+    monkeypatch.setattr(linear_system, "conjugate_gradients", counting)
+    result = asp.solve(problem, asp.MeanPressure(0.1))
+    assert solved == []
+    moving = result.contact & ~result.plastic
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    wanted = linear_system.normal_stiffness(operator, moving)
+    copied = copy.copy(replace(result, citation_keys=()))
+    for _ in range(2):
+        assert result.normal_stiffness == copied.normal_stiffness == wanted
+    assert solved == 2 * [np.count_nonzero(moving)]  # once here, once by the result, of which the copies take it

@@ -102,8 +102,8 @@ class ConstantHardness(Coupling):
         return Exchange(before, before, note=_Note(before, memory))
 
     def share(self, exchange: Exchange) -> Share:
-        """The limit, and the indentation before the step as a lift."""
-        return Share(lift=exchange.x, cap=self.law.pressure_cap())
+        """The limit, and the indentation before the step, if there is one, as a lift."""
+        return Share(lift=exchange.x if exchange.x.any() else 0.0, cap=self.law.pressure_cap())
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""

@@ -10,10 +10,11 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
+from ...core.engine import Totals
 from ...core.errors import NoSolutionError
 from ..operators.convolution import Operator
 from ..problem import Control, Force, MeanPressure, Unloaded, mean_pressure
-from ..solvers.protocol import ContactQP, Solution, level
+from ..solvers.protocol import ContactQP, Solution, level_of
 
 Memory: TypeAlias = Mapping[str, RealArray]
 """Memory of a coupling from one step to the next, by name; numbers are 0-d arrays."""
@@ -76,7 +77,9 @@ class Contact:
     @cached_property
     def cap(self) -> float | RealArray:
         """Largest pressure (Pa) at the indentation reached: where that was posed, the pressure found."""
-        yields = (np.asarray(self.indentation) > 0.0) & self.touching
+        if not isinstance(self.indentation, np.ndarray):
+            return self.qp.cap
+        yields = (self.indentation > 0.0) & self.touching
         return np.where(yields, self.pressure, self.qp.cap) if yields.any() else self.qp.cap
 
     @property
@@ -85,10 +88,14 @@ class Contact:
         return self.solution.state.pressure
 
     @cached_property
+    def totals(self) -> Totals:
+        """Sums over pressure, deflection and profile."""
+        return self.qp.survey(self.solution.state).totals
+
+    @cached_property
     def level(self) -> float:
         """Level (m) of the contacting plane, see ``solvers.protocol.level``."""
-        state = self.solution.state
-        return level(self.qp, state.pressure, state.deflection - self.qp.profile)
+        return level_of(self.qp, self.totals)
 
     @cached_property
     def overlap(self) -> RealArray:

@@ -1,7 +1,7 @@
 """THE place for new interface physics: what the two surfaces do to each other where they meet."""
 
 from .layered_hardness import LayeredHardness
-from .protocol import Coulomb, Hardness, HardWall, InterfaceLaw, LimitByDepth, cap_at, work_density
+from .protocol import Coulomb, Hardness, HardWall, InterfaceLaw, LimitByDepth, work_density
 
 __all__ = [
     "Coulomb",
@@ -10,6 +10,5 @@ __all__ = [
     "InterfaceLaw",
     "LayeredHardness",
     "LimitByDepth",
-    "cap_at",
     "work_density",
 ]

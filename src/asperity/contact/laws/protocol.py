@@ -134,11 +134,6 @@ class LimitByDepth(InterfaceLaw, Protocol):
         """Work (nx, ny) in J/m² to indent the virgin surface by ``indentation`` (nx, ny) in m."""
 
 
-def cap_at(law: InterfaceLaw, indentation: RealArray) -> float | RealArray:
-    """Largest pressure in Pa that ``law`` allows where the surface is indented by ``indentation`` (nx, ny) in m."""
-    return law.cap_at(indentation) if isinstance(law, LimitByDepth) else law.pressure_cap()
-
-
 def work_density(law: InterfaceLaw, before: RealArray, after: RealArray) -> RealArray:
     """Work (nx, ny) in J/m² to indent the surface from ``before`` to ``after`` (nx, ny) in m: the integral of the limit."""
     added = after - before

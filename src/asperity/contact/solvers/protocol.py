@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol, TypeAlias, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.engine import Engine
+from ...core.engine import Engine, Survey, Totals, Violation
 from ...core.status import NoProgress, Outcome, Progress, Status
 from ..operators import Operator
 
@@ -62,6 +62,20 @@ class ContactQP:
     def elastic(self) -> bool:
         """Whether there is no cap at all."""
         return not isinstance(self.cap, np.ndarray) and self.cap == np.inf
+
+    def survey(self, state: SolverState) -> Survey:
+        """Sums over ``state`` and the profile, in double precision."""
+        return self.operator.engine.survey(*self._arrays(state))
+
+    def violation(self, state: SolverState, level: float) -> Violation:
+        """How far ``state`` is from the contact conditions at the plane ``level`` (m)."""
+        return self.operator.engine.violation(*self._arrays(state), level)
+
+    def _arrays(self, state: SolverState) -> tuple[Any, Any, Any, Any]:
+        """Pressure, deflection, profile and cap on the machine of the operator; no cap is None."""
+        array = self.operator.engine.array
+        cap = None if self.elastic else array(np.asarray(self.cap, dtype=float).reshape(-1), "float64")
+        return (*(array(field, "float64") for field in (state.pressure, state.deflection, self.profile)), cap)
 
     @cached_property
     def largest_compliance(self) -> float:
@@ -243,6 +257,20 @@ def level(qp: ContactQP, pressure: RealArray, r: RealArray) -> float:
     low = r[capped].max() if capped.any() else r.min()
     high = r[~capped].min() if not capped.all() else low
     return float(0.5 * (low + high))
+
+
+def level_of(qp: ContactQP, totals: Totals) -> float:
+    """``level`` from the sums over a state."""
+    return -qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else multiplier(totals)
+
+
+def multiplier(totals: Totals) -> float:
+    """Level (m) in the heights of the ``totals`` where the load is prescribed, as ``level``."""
+    if totals.weight > 0.0:
+        return totals.weighted / totals.weight
+    low = totals.highest_capped if np.isfinite(totals.highest_capped) else totals.lowest
+    high = totals.lowest_open if np.isfinite(totals.lowest_open) else low
+    return 0.5 * (low + high)
 
 
 def energy(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:

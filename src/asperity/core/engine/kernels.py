@@ -17,6 +17,9 @@ BLOCK = 1 << 14
 
 compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
+in_order: Any = njit(nogil=True, cache=True, error_model="numpy")
+"""For differences of differences, which must be rounded one by one: equal residuals are then at no distance from each other."""
+
 
 @compiled
 def scale_spectrum(span, spectrum, factor):  # type: ignore[no-untyped-def]
@@ -116,7 +119,7 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
         sums[band, 7] = lowest_open
 
 
-@compiled
+@in_order
 def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
     """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap; where p < 0 it counts as 0."""
     each = 1 if cap.size > 1 else 0  # one cap for all points, or one for each

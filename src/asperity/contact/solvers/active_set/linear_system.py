@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ....core.arrays import RealArray
+from ....core.arrays import BoolArray, RealArray
 from ....core.engine import Cells, CoarseCompliance, Convolution, Engine, FreeSet, Hierarchy, Merge, Products, Survey
 from ....core.grid import Grid
 from ...operators import Operator, prepare_operator
@@ -546,18 +546,17 @@ def _combined_step(
 _STIFFNESS_STOPPING = Stopping(reduction=1e-4, max_steps=500)
 
 
-def normal_stiffness(operator: Operator, pressure: RealArray, cap: float | RealArray) -> float:
-    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the elastic contact.
+def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
+    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the points ``moving`` (nx, ny).
 
     Infinite for full contact on a periodic half-space, zero without elastic contact points, NaN if the linear solve
-    does not converge. Points at the cap yield and carry no increment (loading). The error is of second order in the
+    does not converge. They are the points of elastic contact: those at the cap yield and carry no increment (loading). The error is of second order in the
     relative residual, which is 1e-4: what remains is the rounding of single precision, below 1e-6.
     """
     engine, shape = operator.engine, operator.grid.shape
     scaled = ScaledOperator.of(operator, "float32", float(operator.kernel.max()) or 1.0)
-    p, flat = engine.array(pressure, "float64"), engine.zeros(shape, "float64")
-    bound = None if np.all(np.isinf(cap)) else engine.array(np.asarray(cap, dtype=float).reshape(-1), "float64")
-    survey = engine.survey(p, flat, flat, bound)  # u = h: no point enters
+    p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
+    survey = engine.survey(p, flat, flat, None)  # u = h: no point enters
     free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 0.0, 1.0, scaled.dtype)
     if free.size == 0:
         return 0.0

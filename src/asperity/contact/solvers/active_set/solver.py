@@ -29,6 +29,7 @@ from ..protocol import (
     Solver,
     SolverState,
     feasible_start,
+    multiplier,
     require_settings,
     run,
     scaled_error,
@@ -45,13 +46,7 @@ _ROUNDING = 4.0 * np.finfo(float).eps
 
 def _plane_level(qp: ContactQP, totals: Totals) -> float:
     """Plane level (the multiplier) in the heights of the workspace, as ``protocol.level``."""
-    if isinstance(qp.constraint, FixedOffset):
-        return 0.0
-    if totals.weight > 0.0:
-        return totals.weighted / totals.weight
-    low = totals.highest_capped if np.isfinite(totals.highest_capped) else totals.lowest
-    high = totals.lowest_open if np.isfinite(totals.lowest_open) else low
-    return 0.5 * (low + high)
+    return 0.0 if isinstance(qp.constraint, FixedOffset) else multiplier(totals)
 
 
 def _relative_error(work: Workspace, totals: Totals) -> float:
