@@ -141,6 +141,27 @@ def corrected_area(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) 
     return max(0.0, pixels - PERIMETER_FACTOR * edges) * grid.pixel_area
 
 
+FACTOR_ERROR = 0.25
+"""Relative error of the perimeter factor. It is exact where pixels are cut at random; measured were 0.1 less on rough surfaces
+and 0.2 less on spheres, since the pixels of a solution are not cut at random: those with little pressure drop out."""
+
+CUT_VARIANCE = 1.0 / 12.0
+"""Variance, in squared pixels, of the area by which one edge misses the true border of a spot, where that lies anywhere in the pixel."""
+
+
+def area_error(contact: BoolArray, grid: Grid, *, wraps: tuple[bool, bool]) -> float:
+    """Error in m² of ``corrected_area``, two standard deviations.
+
+    Two errors add up in squares: that of the factor, proportional to the length of the borders, and that of where the borders
+    cut each of their n pixels, 2 (n/12)^½ pixels. The true area, extrapolated from grids up to 1024², lay within it in at least 82 of
+    84 solutions on rough surfaces of 128² to 512² pixels, whose shortest waves have 4 to 128, and that of Hertz in 79 of 84 spheres
+    of 1.5 to 20 pixels. What pixels do not
+    show at all, roughness below their size, is not in it.
+    """
+    edges = sum(contact_edges(contact, wraps=wraps))
+    return math.hypot(FACTOR_ERROR * PERIMETER_FACTOR * edges, 2.0 * math.sqrt(CUT_VARIANCE * edges)) * grid.pixel_area
+
+
 def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:
     """Number of pixels of every contact spot (pixels joined by edges), largest first."""
     return np.sort(island_sizes(contact, wraps=wraps))[::-1].astype(float)

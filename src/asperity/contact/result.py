@@ -109,11 +109,15 @@ PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
 
 
+AREA_ERROR = Quantity("area_fraction_error", "1", "error of the perimeter-corrected area / nominal area (95 %)")
+"""Follows from the fields of a result, and is not read from files."""
+
 SCALARS = (
     Quantity("mean_pressure", "Pa", "mean (nominal) pressure"),
     Quantity("force", "N", "force"),
     Quantity("area_fraction", "1", "real contact area / nominal area (pixels)"),
     Quantity("area_fraction_corrected", "1", "real contact area / nominal area (perimeter-corrected)"),
+    AREA_ERROR,
     Quantity("contact_area", "m**2", "real contact area (perimeter-corrected)"),
     Quantity("mean_real_pressure", "Pa", "mean real pressure"),
     Quantity("max_pressure", "Pa", "maximum pressure"),
@@ -279,6 +283,12 @@ class ContactResult(Stored):
     def contact(self) -> BoolArray:
         """(nx, ny), True where the bodies touch (pressure > 0)."""
         return self.pressure > 0.0
+
+    @property
+    def area_fraction_error(self) -> float:
+        """Error of ``area_fraction_corrected`` by the size of the pixels, two standard deviations (see ``measure.area_error``)."""
+        grid = self.problem.grid
+        return measure.area_error(self.contact, grid, wraps=self.problem.boundary.wraps) / grid.area
 
     @property
     def indented(self) -> BoolArray:

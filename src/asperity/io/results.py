@@ -18,7 +18,7 @@ from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
 from ..contact.laws import Coulomb
 from ..contact.problem import ContactProblem
-from ..contact.result import WET_SCALARS, Certificate, ContactResult
+from ..contact.result import AREA_ERROR, WET_SCALARS, Certificate, ContactResult
 from ..contact.state import InterfaceState
 from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest
@@ -35,6 +35,8 @@ from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 if TYPE_CHECKING:
     import xarray
+
+_STORED = tuple(item for item in ALL_SCALARS if item is not AREA_ERROR)  # the error follows from the fields
 
 Result: TypeAlias = ContactResult | HistoryResult | StressField
 """What result files hold."""
@@ -307,7 +309,7 @@ def contact_from(node: Node, film: Node | None = None, memory: Node | None = Non
         memory={} if memory is None else {name: _memory(child) for name, child in memory.children.items()},
         earlier=arrays.get(EARLIER.name),
         **_values(arrays, FIELDS),
-        **_values(node, ALL_SCALARS),
+        **_values(node, _STORED),
     )
 
 
@@ -420,7 +422,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
                 for key, item in json.loads(at["memory"]).items()
             },
             earlier=before,
-            **_values(at, (*FIELDS, *ALL_SCALARS)),
+            **_values(at, (*FIELDS, *_STORED)),
         )
         before = result.pressure if result.converged and result.pressure.any() else before
         results.append(result)

@@ -92,7 +92,7 @@ CERTIFICATE = (
 """Entries of a certificate in the order of tables."""
 
 ALL_SCALARS = (*SCALARS, OFFSET)
-"""Every scalar that a result stores."""
+"""Every scalar of a result in files."""
 
 Rows: TypeAlias = list[tuple[str, str]]
 """Label and text of each row of a table."""
@@ -309,13 +309,35 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
 
 def result_rows(result: ContactResult) -> Rows:
     """Every scalar of ``result``."""
-    return [(q.label, value_text(q, getattr(result, q.name))) for q in SCALARS]
+    return [(q.label, scalar_text(q, result)) for q in SCALARS]
+
+
+def scalar_text(quantity: Quantity, result: ContactResult) -> str:
+    """Text of a scalar of ``result``, of the corrected area with its error."""
+    value = getattr(result, quantity.name)
+    if quantity.name == "area_fraction_corrected":
+        return f"{with_error(value, result.area_fraction_error)} ({area_text(result)})"
+    return value_text(quantity, value)
+
+
+def area_text(result: ContactResult) -> str:
+    """Real contact area in percent of the nominal area, with its error."""
+    return f"{with_error(100.0 * result.area_fraction_corrected, 100.0 * result.area_fraction_error)} %"
+
+
+def with_error(value: float, error: float) -> str:
+    """``value`` and its ``error`` with one digit, or two below 3: ``with_error(0.03123, 0.00042)`` → ``"0.0312 ± 0.0004"``."""
+    if not error > 0.0 or not math.isfinite(error):
+        return f"{value:.4g}"
+    place = math.floor(math.log10(error))
+    places = max(0, (error < 2.95 * 10.0**place) - place)
+    return f"{value:.{places}f} ± {error:.{places}f}"
 
 
 def headline_rows(result: ContactResult) -> Rows:
     """The scalars that people look for first; the real contact area in percent of the nominal area."""
-    chosen = {q.name: value_text(q, getattr(result, q.name)) for q in SCALARS}
-    chosen["area_fraction_corrected"] = percent(result.area_fraction_corrected)
+    chosen = {q.name: scalar_text(q, result) for q in SCALARS}
+    chosen["area_fraction_corrected"] = area_text(result)
     return [(label, chosen[name]) for name, label in HEADLINE.items()]
 
 

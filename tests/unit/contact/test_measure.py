@@ -121,3 +121,46 @@ def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch
     for _ in range(2):
         assert result.normal_stiffness == copied.normal_stiffness == wanted
     assert solved == 2 * [np.count_nonzero(moving)]  # once here, once by the result, of which the copies take it
+
+
+@pytest.mark.parametrize("radius", [2.2, 5.3, 11.7])
+def test_area_of_a_sphere_lies_within_its_error(radius):
+    """Hertz' area is exact; the error, of two standard deviations, is far less than the pixels counted too many."""
+    pixel, modulus, off = 1e-7, 1e9, np.random.default_rng(7)
+    x = pixel * np.arange(32)
+    misses = []
+    for at in pixel * (15.0 + off.random((4, 2))):
+        heights = -((x[:, None] - at[0]) ** 2 + (x[None, :] - at[1]) ** 2) / 2e-4
+        problem = asp.ContactProblem(asp.Surface(heights, pixel), asp.Elastic(modulus, 0.0), boundary=asp.Free())
+        found = asp.solve(problem, asp.Force(4.0 / 3e-4 * modulus * (radius * pixel) ** 3))
+        exact = np.pi * radius**2 / x.size**2
+        misses.append((found.area_fraction_corrected - exact) / found.area_fraction_error)
+        assert found.area_fraction_error < found.area_fraction
+    assert np.sqrt(np.mean(np.square(misses))) < 0.5 * np.sqrt(2.7)  # chi squared of 4, at 3 %
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "shortest"), [(1, 4), (3, 16)])
+def test_area_of_a_rough_surface_lies_within_its_error_on_every_grid(seed, shortest):
+    """One surface on 128² to 1024² pixels: each area is that of the finest grid within the errors of both, which fall with the pixel."""
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=32.0, shortest_wavelength=float(shortest)
+    )
+    coarse = asp.generate.gaussian(asp.Grid((128, 128), (1.0, 1.0)), spectrum, seed=seed).heights
+    found = []
+    for n in (128, 256, 512, 1024):
+        padded = np.zeros((n, n), complex)
+        begin = (n - 128) // 2
+        padded[begin : begin + 128, begin : begin + 128] = np.fft.fftshift(np.fft.fft2(coarse))
+        heights = np.fft.ifft2(np.fft.ifftshift(padded)).real * (n / 128) ** 2
+        problem = asp.ContactProblem(asp.Surface(heights, 128 / n, periodic=True), asp.Elastic(1e9, 0.0))
+        found.append(asp.solve(problem, asp.MeanPressure(2e6)))
+    for result in found[:-1]:
+        apart = abs(result.area_fraction_corrected - found[-1].area_fraction_corrected)
+        assert apart < result.area_fraction_error + found[-1].area_fraction_error
+    assert found[0].area_fraction_error > 6.0 * found[-1].area_fraction_error
+
+
+def test_no_border_no_error():
+    full = np.ones((4, 4), dtype=bool)
+    assert measure.area_error(full, asp.Grid((4, 4), (1.0, 1.0)), wraps=(True, True)) == 0.0

@@ -19,7 +19,7 @@ from asperity.contact.solvers import ConjugateGradient
 from asperity.core.arrays import array_digest
 from asperity.core.citations import reference
 from asperity.core.errors import OutputError
-from asperity.io.words import body_rows, body_text, surface_rows, value_text
+from asperity.io.words import body_rows, body_text, scalar_text, surface_rows
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
 from asperity.report.page import prose
@@ -113,7 +113,7 @@ def test_nothing_is_loaded_from_elsewhere(page: Page, html: str) -> None:
 
 def test_every_scalar_is_listed_with_its_unit(page: Page, result: asp.ContactResult) -> None:
     for quantity in SCALARS:
-        shown = value_text(quantity, getattr(result, quantity.name))
+        shown = scalar_text(quantity, result)
         assert f"{quantity.label} {shown}" in page.text
     assert "mean (nominal) pressure 1.25 GPa" in page.text
     assert f"number of contact spots {result.n_spots}" in page.text
