@@ -11,7 +11,12 @@ from page import Claim, Page, Published, Table, write_page
 
 from asperity.theories import GaussianHeights, KotwalBhushan
 from asperity.theories.rough import profile_peaks
-from asperity.theories.rough.greenwood_williamson import NOTICEABLE, plastic_area_share, separation_at_plastic_onset
+from asperity.theories.rough.greenwood_williamson import (
+    NOTICEABLE,
+    FittedLaws,
+    plastic_area_share,
+    separation_at_plastic_onset,
+)
 from asperity.theories.wet.summits import StatisticalMeniscus
 
 FITTED = (1e-6, 0.1)
@@ -230,13 +235,10 @@ def _index_of(share: Callable[[float], float]) -> float:
     return high
 
 
-def _published_separation(P: np.ndarray | float) -> np.ndarray:
-    return np.asarray(1.40 * np.log10(0.57 / np.asarray(P)) ** 0.65)
-
-
 def _separation(curves: dict[str, np.ndarray]) -> Table:
     loads = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-    rows = tuple((f"{P:g}", f"{float(_published_separation(P)):.3f}", f"{_at(curves, 'D', P):.3f}") for P in loads)
+    theirs = FittedLaws().separation(np.array(loads))
+    rows = tuple((f"{P:g}", f"{D:.3f}", f"{_at(curves, 'D', P):.3f}") for P, D in zip(loads, theirs, strict=True))
     return Table("Separation D = 1.40 [log(0.57/Pₐ)]^0.65 of table 1:", ("Pₐ", "theirs", "ours"), rows)
 
 
@@ -289,7 +291,7 @@ def _claims(
     P = curves["P"][inside]
     apart_laws = [np.abs(law.factor * P**law.power / curves[law.name][inside] - 1.0).max() for law in LAWS]
     places = [_exact_at(curves, law) for law in LAWS]
-    apart = np.abs(_published_separation(P) - curves["D"][inside]).max()
+    apart = np.abs(FittedLaws().separation(P) - curves["D"][inside]).max()
     light = {K: skewed[PRESSURES[0], K] for K in KURTOSIS}
     lowest = [SKEWNESS[int(values.argmin())] for K in (3.0, 4.0) for values in (light[K].area, light[K].force[:, 0])]
     zero = SKEWNESS.index(0.0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import bhushan_dry
 import bhushan_film
@@ -15,10 +14,10 @@ import bhushan_summits
 import numpy as np
 import pytest
 from bhushan import shown
+from validation_pages import assert_claims_hold, assert_written_by_script, written_page
 
 from asperity.theories.rough.greenwood_williamson import separation_at_plastic_onset
 
-FOLDER = Path(bhushan_film.__file__).parent
 RUNS = {
     "bhushan_sphere": lambda: bhushan_sphere.compare(points=97, count=1),
     "bhushan_statistics": lambda: bhushan_statistics.compare((10e3,)),
@@ -42,28 +41,17 @@ def names():
 
 @pytest.mark.parametrize("name", names())
 def test_every_claim_holds(name):
-    page = page_of(name)
-    assert page.claims
-    for claim in page.claims:
-        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
+    assert_claims_hold(page_of(name))
 
 
 @pytest.mark.parametrize("name", names())
 def test_page_belongs_to_the_script(name):
-    """Title and claims; numbers are those of more surfaces."""
-    page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")
-    assert written.startswith(f"# {page.title}\n")
-    claims = written[written.index("## Claims and checks") :]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
-    assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
-    assert {row[-1] for row in rows[1:]} == {"yes"}
-    for one in page.published:
-        assert f"| {' | '.join(one.cells[:3])} |" in written
+    assert_written_by_script(page_of(name), name)
 
 
 def test_deterministic_numbers_are_those_of_the_page():
     """Integrals, indices and constants do not depend on the number of surfaces."""
-    written = (FOLDER / "bhushan_statistics.md").read_text(encoding="utf-8")
+    written = written_page("bhushan_statistics")
     published = page_of("bhushan_statistics").published
     assert len(published) == 21
     for one in published:

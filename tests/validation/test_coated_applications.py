@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import peng_head_disk
@@ -12,8 +11,8 @@ import peng_menisci
 import pytest
 from peng import grid, surfaces
 from ready_studies import PIXEL, axis, ready, results, without
+from validation_pages import CLAIMS, assert_claims_hold, assert_written_by_script, written_rows
 
-FOLDER = Path(peng_load.__file__).parent
 RUNS = {
     "peng_head_disk": lambda: peng_head_disk.compare(seeds=1, points=64, count=7),
     "peng_load": lambda: peng_load.compare(
@@ -28,35 +27,22 @@ def page_of(name):
     return RUNS[name]()
 
 
-def tables_of(name):
-    """Rows of all tables of the written page, cells without blanks around them."""
-    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8").splitlines()
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in written if line.startswith("|")]
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RUNS)
 def test_every_claim_holds_and_is_that_of_the_page(name):
-    page = page_of(name)
-    for claim in page.claims:
-        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
-    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8")
-    rows = tables_of(name)
-    assert written.startswith(f"# {page.title}\n")
-    start = rows.index(["claim", "found", "expected", "holds"])
-    assert [row[0] for row in rows[start + 2 :]] == [claim.text for claim in page.claims]
+    assert_claims_hold(page_of(name))
+    assert_written_by_script(page_of(name), name)
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_every_written_claim_holds(name):
-    rows = tables_of(name)
-    claims = rows[rows.index(["claim", "found", "expected", "holds"]) + 2 :]
+    claims = written_rows(name, CLAIMS)[1:]
     assert len(claims) > 10
     assert {row[-1] for row in claims} == {"yes"}
 
 
 def test_published_rows_of_the_load_page():
-    rows = [row for row in tables_of("peng_load") if len(row) == 6 and "±" in row[4]]
+    rows = [row for row in written_rows("peng_load") if len(row) == 6 and "±" in row[4]]
     found = {(row[0], row[1], row[3], row[5]) for row in rows if "±" in row[2] and "±" not in row[3]}
     published = {(f"{r:g}", f"{p:.0e}", f"{a:.4f}", f"{m:.4f}") for r, p, a, m in peng_load._published()}
     assert found == published
@@ -68,7 +54,7 @@ def test_floor_of_the_dry_disk_on_a_small_grid_is_that_of_the_page():
     table = without(ready("head_disk_interface", points=48, seeds=1), "film")
     axis(table, "modulus")["values"] = ["150 GPa", "350 GPa"]
     found = peng_head_disk.Curves(results(table), peng_head_disk.DISK)
-    rows = [row for row in tables_of("peng_head_disk") if row[0] == "largest u_z" and len(row) == 8]
+    rows = [row for row in written_rows("peng_head_disk") if row[0] == "largest u_z" and len(row) == 8]
     for ratio, row in ((0.75, rows[5]), (1.75, rows[6])):
         assert row[1] == f"{ratio:.2f}"
         floor = 1e9 * found.critical("max_displacement", ratio).floor

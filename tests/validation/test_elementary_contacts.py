@@ -1,13 +1,11 @@
 """The page on printed constants of elementary contacts: theirs and ours are near the closed forms, and it is the script's."""
 
-from pathlib import Path
-
 import elementary_contacts
 import pytest
 import summary
+from validation_pages import assert_claims_hold, assert_written_by_script, written_page
 
-PAGE = Path(elementary_contacts.__file__).with_suffix(".md")
-NUMBERS = summary.numbers("elementary_contacts", PAGE.read_text(encoding="utf-8"))
+NUMBERS = summary.numbers("elementary_contacts", written_page("elementary_contacts"))
 
 
 @pytest.mark.parametrize(("number", "exact"), list(zip(NUMBERS, elementary_contacts.EXACT, strict=True)))
@@ -21,12 +19,6 @@ def test_number_of_the_page_is_its_closed_form(number, exact):
 
 @pytest.mark.slow
 def test_every_constant_is_found_on_coarser_grids_and_the_page_is_the_scripts():
-    page, written = elementary_contacts.compare(points=97, strips=1025, waves=32), PAGE.read_text(encoding="utf-8")
-    for claim in page.claims:
-        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
-        assert f"| {claim.text} |" in written
-    assert written.startswith(f"# {page.title}\n")
-    assert "| NO |" not in written
-    for one in page.published:
-        source, what, theirs = one.cells[:3]
-        assert f"| {source} | {what} | {theirs} |" in written
+    page = elementary_contacts.compare(points=97, strips=1025, waves=32)
+    assert_claims_hold(page)
+    assert_written_by_script(page, "elementary_contacts")

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import gold_film_area
 import gold_film_grid
 import numpy as np
 import pytest
 from study_cases import InProcess
+from validation_pages import assert_claims_hold, assert_written_by_script
 
 import asperity as asp
 from asperity.studies.campaign import prepare_study
 from asperity.studies.run import carry_out
 
-FOLDER = Path(gold_film_area.__file__).parent
 RUNS = {
     "gold_film_area": lambda: gold_film_area.page(surfaces=3, films=2, points=128),
     "gold_film_grid": lambda: gold_film_grid.page(finest=256),
@@ -38,21 +37,13 @@ def page_of(name):
 
 @pytest.mark.parametrize("name", RUNS)
 def test_every_claim_holds(name):
-    page = page_of(name)
-    assert len(page.claims) >= 8
-    for claim in page.claims:
-        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
+    assert len(page_of(name).claims) >= 8
+    assert_claims_hold(page_of(name))
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_page_belongs_to_the_script(name):
-    """Title, words and claims; numbers are those of more surfaces and points."""
-    page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")
-    assert written.startswith(f"# {page.title}\n")
-    assert page.about in written
-    assert "| NO |" not in written
-    for claim in page.claims:
-        assert f"| {claim.text} |" in written
+    assert_written_by_script(page_of(name), name)
 
 
 def test_the_area_of_the_page_is_that_of_a_contact_of_its_own(tmp_path):

@@ -2,7 +2,6 @@
 
 import contextlib
 from functools import cache
-from pathlib import Path
 
 import peng_layer_effect
 import peng_pictures
@@ -13,8 +12,8 @@ import pytest
 import rough_cylinder
 import rough_sphere
 from page import Claim, Page, write_page
+from validation_pages import assert_claims_hold, assert_written_by_script, written_rows
 
-FOLDER = Path(peng_table_3_1.__file__).parent
 RUNS = {
     "peng_table_3_1": lambda: peng_table_3_1.compare(20, peng_table_3_1.PUBLISHED[::7], variants=False),
     "peng_layer_effect": lambda: peng_layer_effect.compare(8, (0.001, 0.1, 2.0, 100.0)),
@@ -35,23 +34,12 @@ def page_of(name):
 
 @pytest.mark.parametrize("name", EACH)
 def test_every_claim_holds(name):
-    page = page_of(name)
-    assert page.claims
-    for claim in page.claims:
-        assert claim.holds, f"{claim.text}: {claim.found:g}, expected {claim.expected}"
+    assert_claims_hold(page_of(name))
 
 
 @pytest.mark.parametrize("name", EACH)
 def test_page_belongs_to_the_script(name):
-    """Title and claims; numbers are those of more surfaces and points."""
-    page, written = page_of(name), (FOLDER / f"{name}.md").read_text(encoding="utf-8")
-    assert written.startswith(f"# {page.title}\n")
-    claims = written[written.index("## Claims and checks") :]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in claims.splitlines() if line[:2] == "| "]
-    assert [row[0] for row in rows[1:]] == [claim.text for claim in page.claims]
-    assert {row[-1] for row in rows[1:]} == {"yes"}
-    for one in page.published:
-        assert f"| {' | '.join(one.cells[:3])} |" in written
+    assert_written_by_script(page_of(name), name)
 
 
 @pytest.mark.parametrize(
@@ -100,8 +88,7 @@ def test_every_published_area_is_a_whole_number_of_pixels():
 
 
 def test_written_table_has_every_published_row():
-    written = (FOLDER / "peng_table_3_1.md").read_text(encoding="utf-8").splitlines()
-    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in written if line.startswith("| ")]
-    found = [(row[0], row[1], row[2], row[4], row[7]) for row in lines if len(row) == 10][1:]
+    lines = [row for row in written_rows("peng_table_3_1") if len(row) == 10][1:]
+    found = [(row[0], row[1], row[2], row[4], row[7]) for row in lines]
     expected = [(f"{r:g}", f"{p:g}", f"{s:g}", f"{a:.4f}", f"{m:.4f}") for r, p, s, a, m in peng_table_3_1.PUBLISHED]
     assert found == expected

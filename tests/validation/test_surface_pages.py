@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import re
-from pathlib import Path
 
 import crossed_waves
 import figure_10
@@ -15,6 +14,7 @@ import numpy as np
 import pytest
 import scan_size
 import standard_surface
+from validation_pages import assert_claims_hold, assert_written_by_script, written_page
 
 
 @functools.cache
@@ -22,7 +22,6 @@ def standard_page():
     return standard_surface.page(realisations=8)
 
 
-FOLDER = Path(gold_film.__file__).parent
 RUNS = {
     "gold_film": lambda: gold_film.page(realisations=6),
     "standard_surface": standard_page,
@@ -39,17 +38,8 @@ SLOW = ("figure_10", "gold_film")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in RUNS])
 def test_what_is_claimed_holds(name):
     page = RUNS[name]()
-    for claim in page.claims:
-        assert claim.low <= claim.found <= claim.high, claim.text
-    assert page.agrees
-    written = (FOLDER / f"{name}.md").read_text(encoding="utf-8")
-    assert written.splitlines()[0] == f"# {page.title}"
-    assert page.about in written
-    assert "| NO |" not in written
-    for claim in page.claims:
-        assert f"| {claim.text} |" in written
-    for one in page.published:
-        assert f"| {' | '.join(one.cells[:3])} |" in written
+    assert_claims_hold(page)
+    assert_written_by_script(page, name)
 
 
 def test_waves_of_one_length_have_the_least_nayak_parameter():
@@ -58,7 +48,7 @@ def test_waves_of_one_length_have_the_least_nayak_parameter():
 
 
 def test_the_written_figure_10_is_the_scripts():
-    written = (FOLDER / "figure_10.md").read_text(encoding="utf-8")
+    written = written_page("figure_10")
     for text in (figure_10.ABOUT, *figure_10.READING):
         assert text in written
     for load in figure_10.LOADS:

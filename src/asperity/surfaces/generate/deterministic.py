@@ -332,7 +332,7 @@ def weierstrass_mandelbrot(
 
     z = -L (G/L)^(D-2) sqrt(ln γ/M) Σ_m Σ_n γ^((D-3)n) cos[2π γ^n (x cos(πm/M) + y sin(πm/M))/L + φ_mn], m = 1…M, n = 0…n_max,
     n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
-    for many ridges; prefer :func:`gaussian` unless a published case is to be repeated.
+    for many ridges; prefer ``asp.generate.gaussian`` unless a published case is to be repeated.
     """
     longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
     if shortest > longest:

@@ -152,6 +152,11 @@ def oscillation(beta: float) -> float:
     return math.atanh(beta) / math.pi
 
 
+def sticking_gain(beta: float) -> float:
+    """ln((1 + β)/(1 - β))/2β, stiffness of a round contact without slip over that without friction."""
+    return math.atanh(beta) / beta if beta else 1.0
+
+
 @dataclass(frozen=True)
 class StickingPunch(Theory):
     """Flat round punch without slip.
@@ -174,8 +179,8 @@ class StickingPunch(Theory):
 
     @property
     def gain(self) -> float:
-        """Load over that of the punch without friction at the same approach, ln((1 + β)/(1 - β))/2β."""
-        return math.atanh(self.beta) / self.beta if self.beta else 1.0
+        """Load over that of the punch without friction at the same approach."""
+        return sticking_gain(self.beta)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
@@ -308,7 +313,7 @@ class StickingIndenter(Theory):
     @property
     def load_gain(self) -> float:
         """C/nI."""
-        return StickingPunch(self.E_star, 1.0, self.beta).gain * self.approach_gain
+        return sticking_gain(self.beta) * self.approach_gain
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
@@ -323,12 +328,11 @@ class StickingIndenter(Theory):
         return PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
 
     def _with_stick(self, free: ContactAnswer) -> ContactAnswer:
-        gain = StickingPunch(self.E_star, 1.0, self.beta).gain
         return ContactAnswer(
             load=free.load * self.load_gain,
             approach=free.approach * self.approach_gain,
             radius=free.radius,
             area=free.area,
             max_pressure=np.full_like(free.load, np.nan),
-            stiffness=free.stiffness * gain,
+            stiffness=free.stiffness * sticking_gain(self.beta),
         )

@@ -273,7 +273,7 @@ class WetSummits(Theory):
 
         p_m = 2 π R γ (1 + cos θ) η F_0((d - h - z̄_s)/σ_s),  p + p_m = p_(solid)(d).
 
-    ``theory`` is the :class:`~asperity.theories.statistical_meniscus.StatisticalMeniscus` of these numbers.
+    ``theory`` is the ``asperity.theories.StatisticalMeniscus`` of these numbers.
     """
 
     E_star: Modulus
@@ -356,7 +356,7 @@ class GrowingMenisci(Theory):
         dy/dτ = (1 - y)/y²,  s_(eq) = γ (1 + cos θ)/Π,  t_0 = 3 μ R ln(r_o/r_i) s_(eq)²/(h³ Π),
 
     and a summit at the distance g from the plane, within the film, is pulled by 1 - g/s of the force of one that touches.
-    ``theory`` is the :class:`~asperity.theories.kinetic_meniscus.KineticMeniscus` of these numbers.
+    ``theory`` is the ``asperity.theories.KineticMeniscus`` of these numbers.
     """
 
     E_star: Modulus

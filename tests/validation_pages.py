@@ -1,0 +1,53 @@
+"""What holds for every page of validation: the claims of a smaller run hold, and the written page is the script's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import summary
+from page import Page
+
+CLAIMS = "## Claims and checks\n"
+COUNTING = (
+    "bhushan_dry",
+    "bhushan_film",
+    "bhushan_humidity",
+    "elementary_contacts",
+    "layered_sphere_stress",
+    "rough_sphere",
+)
+"""Pages whose words name the number of surfaces or points, which is smaller in a test."""
+
+
+SWEEPS = ("scan_size",)
+"""Pages with claims for every size, of which a test takes a few."""
+
+
+def written_page(name: str) -> str:
+    """The page of the script ``name`` as it stands in validation/."""
+    return (Path(summary.FOLDER) / f"{name}.md").read_text(encoding="utf-8")
+
+
+def written_rows(name: str, after: str = "") -> list[list[str]]:
+    """Cells of the tables of the written page below the line ``after``, rules between head and body left out."""
+    text = written_page(name)
+    lines = text[text.index(after) :].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
+
+
+def assert_claims_hold(page: Page) -> None:
+    assert page.claims
+    assert [f"{one.text}: {one.found:g}, expected {one.expected}" for one in page.claims if not one.holds] == []
+
+
+def assert_written_by_script(page: Page, name: str) -> None:
+    """Title, claims in their order, published numbers, and words if they count no surfaces; ours are those of a larger run."""
+    written = written_page(name)
+    assert written.startswith(f"# {page.title}\n")
+    assert name in COUNTING or page.about in written
+    rows = written[written.index(CLAIMS) :].splitlines()[4:]
+    own = [row for row in rows if name not in SWEEPS or row.startswith(tuple(f"| {one.text} |" for one in page.claims))]
+    for row, claim in zip(own, page.claims, strict=True):
+        assert row.startswith(f"| {claim.text} |"), "run the script"
+    assert [row for row in rows if not row.endswith("| yes |")] == []
+    assert [one.what for one in page.published if f"| {' | '.join(one.cells[:3])} |" not in written] == []
