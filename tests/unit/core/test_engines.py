@@ -18,7 +18,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
-from asperity.contact.solvers.active_set.solver import free_set, local_means
+from asperity.contact.solvers.active_set.solver import free_set, local_means, pyramid
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, CoarseCompliance, Engine, Hierarchy, Load, Merge
 from asperity.core.engine.cpu import SERIAL_BELOW
@@ -303,8 +303,8 @@ def test_members_of_a_free_set(engine: Engine, cap: str) -> None:
     bound = np.inf if case.cap is None else case.cap if case.cap.size == 1 else case.cap.reshape(12, 7)
     gap = case.u - case.h - case.level
     movable = (case.p > 0.0) & (case.p < bound)
-    apart = gap - local_means(np.array([[[movable.sum(), gap[movable].sum()]]]))
-    margin = 0.5 * np.sqrt(local_means(np.array([[[movable.sum(), (apart[movable] ** 2).sum()]]])))
+    apart = gap - local_means([np.array([[movable.sum()]])], [np.array([[gap[movable].sum()]])])
+    margin = 0.5 * np.sqrt(local_means([np.array([[movable.sum()]])], [np.array([[(apart[movable] ** 2).sum()]])]))
     entering = ((case.p <= 0.0) & (apart < -margin)) | ((case.p > 0.0) & (case.p >= bound) & (apart > margin))
     inside = entering | movable
     field = engine.zeros((12, 7), "float64")
@@ -358,15 +358,17 @@ def test_points_enter_by_the_level_of_their_neighbourhood(engine: Engine) -> Non
 def test_means_fall_back_on_wider_squares_where_there_are_few_points() -> None:
     rng = np.random.default_rng(4)
     count, total = 1e6 + rng.uniform(size=(5, 3)), 1e6 * rng.standard_normal((5, 3))
-    np.testing.assert_allclose(local_means(np.stack([count, total], axis=-1)), total / count, atol=1e-5)
-    np.testing.assert_allclose(local_means(np.stack([count, total], axis=-1), 0.5), total / count - 0.5, atol=1e-5)
+    np.testing.assert_allclose(local_means(pyramid(count), pyramid(total)), total / count, atol=1e-5)
+    np.testing.assert_allclose(
+        local_means(pyramid(count), pyramid(total - 0.5 * count)), total / count - 0.5, atol=1e-5
+    )
     empty = count.copy()
     empty[2, 1] = total[2, 1] = 0.0
     four = slice(2, 4), slice(0, 2)
-    assert local_means(np.stack([empty, total], axis=-1))[2, 1] == pytest.approx(
+    assert local_means(pyramid(empty), pyramid(total))[2, 1] == pytest.approx(
         total[four].sum() / empty[four].sum(), abs=1e-5
     )
-    assert not local_means(np.zeros((4, 7, 2))).any()
+    assert not local_means(pyramid(np.zeros((4, 7))), pyramid(np.zeros((4, 7)))).any()
 
 
 @every_engine

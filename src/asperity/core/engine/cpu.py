@@ -216,21 +216,27 @@ class _CpuCells:
         self.s = np.zeros(size, dtype)
         self._nothing = np.empty(0, dtype)
 
+    @cached_property
+    def _all(self) -> RealArray:
+        """g of cells that pass everything on: 1, and 0 on the rims."""
+        g = np.zeros_like(self.g)
+        for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
+            g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
+        return g
+
     def factorise(self, free: FreeSet) -> None:
         """g of all cells for the points of ``free``."""
-        self._sweep("factorise", free, self._nothing)
+        self._sweep("factorise", free, self._nothing, self.g)
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        self._sweep("cell_deflections", free, r)
+        self._sweep("cell_deflections", free, r, self.g)
         return self.at_points(free, r, other, out)
 
     def predicted_residual(
         self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
     ) -> RealArray:
-        """r - factor times the deflection of the cells, which pass everything on: g = 1, and 0 on the rims."""
-        for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
-            self.g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
-        self._sweep("cell_deflections", loaded, change * change.dtype.type(factor))
+        """r - factor times the deflection of the cells."""
+        self._sweep("cell_deflections", loaded, change * change.dtype.type(factor), self._all)
         return np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
 
     def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
@@ -243,9 +249,9 @@ class _CpuCells:
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
-    def _sweep(self, kernel: str, free: FreeSet, values: RealArray) -> None:
+    def _sweep(self, kernel: str, free: FreeSet, values: RealArray, g: RealArray) -> None:
         assert isinstance(free, _CpuFreeSet)
-        arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, self.g, self.s)
+        arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, g, self.s)
         call = getattr(self._blocks.cell_kernels, kernel)
         self._blocks.share(call, len(self.levels), *arguments, serial=self.g.size < SERIAL_BELOW)
 

@@ -104,27 +104,45 @@ def entering_levels(squares: RealArray, level: float) -> RealArray:
     """
     count, total, square = (squares[..., kind] for kind in range(3))
     total, square = total - level * count, square - level * (2.0 * total - level * count)
-    mean = local_means(squares[..., :2], level)
+    counts = pyramid(count)
+    mean = local_means(counts, pyramid(total))
     spread = square - mean * (2.0 * total - mean * count)
-    spread = np.where(spread > _RESOLVED * squares[..., 2], spread, 0.0)
-    margin = _SCATTER_SHARE * np.sqrt(local_means(np.stack([count, spread], axis=-1)))
-    return np.asarray(level + np.stack([mean - margin, mean + margin], axis=-1))
+    spread[spread <= _RESOLVED * squares[..., 2]] = 0.0
+    margin = _SCATTER_SHARE * np.sqrt(local_means(counts, pyramid(spread)))
+    levels = np.empty((*count.shape, 2))
+    np.subtract(mean, margin, out=levels[..., 0])
+    np.add(mean, margin, out=levels[..., 1])
+    levels += level
+    return levels
 
 
-def local_means(squares: RealArray, level: float = 0.0) -> RealArray:
-    """Mean above ``level`` in each square of a grid, from ``squares[..., 0]``, the number of its points, and ``[..., 1]``, their sum.
+def pyramid(values: RealArray) -> list[RealArray]:
+    """Sums of the ``values`` of squares of a grid over squares of once, twice, four times ... the side, up to the whole grid."""
+    sums = [values]
+    while sums[-1].size > 1:
+        finer = sums[-1]
+        for axis in (0, 1):
+            n = finer.shape[axis]
+            if n > 1:
+                along = finer.T if axis else finer
+                coarser = along[: n - n % 2 : 2] + along[1::2]
+                coarser = np.concatenate([coarser, along[-1:]]) if n % 2 else coarser
+                finer = coarser.T if axis else coarser
+        sums.append(finer)
+    return sums
+
+
+def local_means(counts: list[RealArray], totals: list[RealArray]) -> RealArray:
+    """Mean in each square of a grid, from the pyramids of the number of its points and of their sum.
 
     Where there are few points it falls back on the square of twice the side, and in the end on zero.
     """
-    count = squares[..., 0]
-    total = squares[..., 1] - level * count
-    if count.size > 1:
-        nx, ny, kinds = squares.shape
-        even = np.pad(squares, ((0, nx % 2), (0, ny % 2), (0, 0)))
-        fours = even.reshape(-(-nx // 2), 2, -(-ny // 2), 2, kinds).sum(axis=(1, 3))
-        wider = local_means(fours, level).repeat(2, axis=0).repeat(2, axis=1)
-        total += _PRIOR * wider[: count.shape[0], : count.shape[1]]
-    return np.asarray(total / (count + _PRIOR))
+    mean = np.zeros((1, 1))
+    for count, total in zip(reversed(counts), reversed(totals), strict=True):
+        nx, ny = total.shape
+        wider = mean.repeat(2, axis=0)[:nx].repeat(2, axis=1)[:, :ny]
+        mean = (total + _PRIOR * wider) / (count + _PRIOR)
+    return mean
 
 
 # (2) How accurately a linear system is solved.
