@@ -62,6 +62,35 @@ def slipping_wave_like_lines(share: float) -> float:
     return max(apart(answer.stick_half_width, sticking), apart(1e-6 * answer.dissipation, loop))
 
 
+def first_twist(share: float) -> float:
+    """Stiffness of a twisted sphere at a ``share`` of the largest torque beside that of a disc without slip."""
+    ball = make("lubkin", E, R, 0.4 * E, 0.3)
+    answer = ball.at_load(1e-6, share * ball.largest_torque(1e-6))
+    return apart(answer.stiffness, make("sticking-twist", 0.4 * E, float(answer.normal.radius)).stiffness)
+
+
+def small_creepage(creepage: float) -> float:
+    """Longitudinal force of a wheel at ``creepage`` beside that of the linear theory."""
+    wheel = (6e-3, 6e-3, 80e9, 0.25)
+    linear = make("kalker-linear", *wheel).at_creepage(creepage)
+    return apart(make("shen-hedrick-elkins", *wheel, 1e5, 0.3).at_creepage(creepage).force_x, linear.force_x)
+
+
+def fine_strips(cells: float) -> float:
+    """Lateral force of small spin from ``cells`` strips beside that of the linear theory."""
+    wheel = (6e-3, 4e-3, 80e9, 0.25)
+    linear = make("kalker-linear", *wheel).at_creepage(0.0, 0.0, 1e-7)
+    found = make("fastsim", *wheel, 1e5, 0.3).at_creepage(0.0, 0.0, 1e-7, cells=int(cells))
+    return apart(found.force_y, linear.force_y)
+
+
+def first_creepage(share: float) -> float:
+    """Creepage of rolling cylinders per ``share`` Q/μP of traction beside μa/2R."""
+    roller = make("carter", E, R, 0.3)
+    answer = roller.at_load(1.0, share * 0.3)
+    return apart(answer.creepage, 0.15 * share * answer.normal.radius / R)
+
+
 def first_stiffness(_: float) -> float:
     """Tangential over normal stiffness before any slip: 2(1 - ν)/(2 - ν) for equal bodies of ν = 0.3."""
     shear = E * (1.0 - 0.3)
@@ -165,6 +194,42 @@ SINGLE_CONTACTS = (
         (1e-2, 1e-4, 1e-6),
         1e-6,
         "arcsin departs from its argument by its square over 6, the load over that of full contact over 6",
+    ),
+    Agreement(
+        "lubkin",
+        "sticking-twist",
+        "vanishing torque: stiffness",
+        first_twist,
+        (1e-2, 1e-4, 1e-6),
+        2e-3,
+        "the slipping rim goes as the root of the torque",
+    ),
+    Agreement(
+        "carter",
+        "mu a Q/(2 mu P R)",
+        "vanishing traction",
+        first_creepage,
+        (1e-2, 1e-4, 1e-6),
+        1e-6,
+        "1 - sqrt(1 - s) is s/2 but for s/4 of it",
+    ),
+    Agreement(
+        "shen-hedrick-elkins",
+        "kalker-linear",
+        "vanishing creepage",
+        small_creepage,
+        (1e-5, 1e-7, 1e-9),
+        1e-6,
+        "a third of the linear force over the limit of friction",
+    ),
+    Agreement(
+        "fastsim",
+        "kalker-linear",
+        "vanishing spin, number of strips to infinity",
+        fine_strips,
+        (15.0, 60.0, 240.0),
+        1e-4,
+        "midpoint rules: 1/cells² with a factor of about one",
     ),
     Agreement(
         "maugis-dugdale",

@@ -4,7 +4,11 @@ from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
 from .friction.histories import PartialSlip, SlipMemory, SlipPath
+from .friction.kalker import kalker_coefficients
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave, tangential_modulus
+from .friction.rolling import CarterRolling, CreepForces, Fastsim, KalkerLinear, ShenHedrickElkins
+from .friction.torsion import LubkinSphere, StickingTwist
+from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
 from .hardness.plasticity import (
     LeastArea,
@@ -102,11 +106,13 @@ __all__ = [
     "AnyHeights",
     "Boussinesq",
     "BushGibsonThomas",
+    "CarterRolling",
     "Cerruti",
     "ChangEtsionBogy",
     "ChangEtsionBogySphere",
     "Cone",
     "ContactAnswer",
+    "CreepForces",
     "CrossedWaves",
     "CylinderInHole",
     "CylinderYield",
@@ -117,6 +123,7 @@ __all__ = [
     "EllipticPunch",
     "Evaluation",
     "ExponentialHeights",
+    "Fastsim",
     "FilmMeniscus",
     "FittedGreenwoodWilliamson",
     "Flamant",
@@ -138,6 +145,7 @@ __all__ = [
     "InteractingCrests",
     "JacksonGreen",
     "JacksonGreenSphere",
+    "KalkerLinear",
     "KineticMeniscus",
     "KogutEtsion",
     "KogutEtsionSphere",
@@ -147,6 +155,7 @@ __all__ = [
     "Limit",
     "LineFlatPunch",
     "LinePowerLawIndenter",
+    "LubkinSphere",
     "MajumdarBhushan",
     "MaugisDugdale",
     "McCool",
@@ -166,6 +175,7 @@ __all__ = [
     "Prediction",
     "ProfilePlasticityIndex",
     "SampledPeaks",
+    "ShenHedrickElkins",
     "SinusoidalAsperity",
     "SlidingCylinder",
     "SlidingPunch",
@@ -179,7 +189,11 @@ __all__ = [
     "StickingIndenter",
     "StickingPunch",
     "StickingPunchLine",
+    "StickingTwist",
     "Strip",
+    "TrescaDisc",
+    "TrescaLine",
+    "TrescaTwist",
     "TriangularHeights",
     "UniformHeights",
     "VapourMeniscus",
@@ -200,6 +214,7 @@ __all__ = [
     "hertz_line_shear",
     "hertz_normal",
     "hertz_shear",
+    "kalker_coefficients",
     "maugis_pull_off",
     "nominal_interference",
     "plastic_area_share",

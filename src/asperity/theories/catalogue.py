@@ -9,6 +9,9 @@ from ..core.errors import InputError
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave
+from .friction.rolling import CarterRolling, Fastsim, KalkerLinear, ShenHedrickElkins
+from .friction.torsion import LubkinSphere, StickingTwist
+from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
 from .protocol import Described
@@ -94,6 +97,15 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             MindlinPoint,
             MindlinLine,
             MindlinWave,
+            TrescaDisc,
+            TrescaTwist,
+            TrescaLine,
+            StickingTwist,
+            LubkinSphere,
+            CarterRolling,
+            KalkerLinear,
+            ShenHedrickElkins,
+            Fastsim,
             SlidingCylinder,
             SlidingPunch,
             StickingIndenter,

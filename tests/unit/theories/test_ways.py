@@ -25,6 +25,7 @@ CRESTS = {
     "wavelength": np.full(20, 1e-6),
     "area": 9e-12,
 }
+WHEEL = {"semi_x": 6e-3, "semi_y": 4e-3, "shear": 8e10, "nu": 0.3}
 FILM = {"surface_tension": 0.072, "film_thickness": 1e-9}
 EXAMPLES = {
     "greenwood-williamson": SUMMITS,
@@ -69,6 +70,15 @@ EXAMPLES = {
     "mindlin": {**BALL, "G_star": 8e10, "friction": 0.3},
     "mindlin-line": {**BALL, "friction": 0.3},
     "mindlin-wave": {"E_star": 1e11, "amplitude": 1e-9, "wavelength": 1e-6, "friction": 0.3},
+    "tresca-disc": {"G_star": 8e10, "radius": 1e-6, "bound": 1e8},
+    "tresca-twist": {"G_torsion": 4e10, "radius": 1e-6, "bound": 1e8},
+    "tresca-line": {"half_width": 1e-6, "bound": 1e8},
+    "sticking-twist": {"G_torsion": 4e10, "radius": 1e-6},
+    "lubkin": {**BALL, "G_torsion": 4e10, "friction": 0.3},
+    "carter": {**BALL, "friction": 0.3},
+    "kalker-linear": WHEEL,
+    "shen-hedrick-elkins": {**WHEEL, "load": 1e5, "friction": 0.3},
+    "fastsim": {**WHEEL, "load": 1e5, "friction": 0.3},
     "sliding-cylinder": {**BALL, "beta": 0.25, "friction": 0.5},
     "sliding-punch": {"E_star": 1e11, "half_width": 1e-6, "beta": 0.25, "friction": 0.5},
     "sticking-indenter": {"E_star": 1e11, "coefficient": 0.5e6, "exponent": 2.0, "beta": 0.25},
@@ -123,6 +133,8 @@ RANGES = {
     "depth_ratio": (0.0, 5.0),
     "time": (0.0, 1e-3),
     "local": (1e7, 1e10),
+    "torque": (0.0, 1e-15),
+    "creepage": (-0.01, 0.01),
 }
 """Between what the arguments run."""
 

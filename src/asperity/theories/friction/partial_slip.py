@@ -112,7 +112,7 @@ class MindlinPoint(Theory):
         """
         normal = self.normal.at_load(require.positive(load, "load (N)"))
         a = float(normal.radius)
-        c = a * np.cbrt(_sticking(tangential, self.friction * load))
+        c = a * np.cbrt(sticking_share(tangential, self.friction * load))
         ratio = self.E_star / self.G_star
         displacement = self.friction * ratio * (a - c) * (a + c) / self.radius
         return SlipAnswer(c, displacement, 2.0 * self.G_star * c, normal)
@@ -131,7 +131,7 @@ class MindlinPoint(Theory):
 
     def slip(self, r: ArrayLike, load: float, tangential: float) -> RealArray:
         """Motion of facing points past each other in m at the distance ``r`` in m (any shape) from the axis."""
-        normal, left = self.normal, load * _sticking(tangential, self.friction * load)
+        normal, left = self.normal, load * sticking_share(tangential, self.friction * load)
         return _slip(normal.gap, r, load, left, self.friction * self.E_star / self.G_star)
 
     def cycle_dissipation(self, load: float, amplitude: ArrayLike) -> RealArray:
@@ -140,7 +140,7 @@ class MindlinPoint(Theory):
         4μPδ_m e³ (1 - e + e²/5), e = 1 - c/a and δ_m = μ (E*/G*) a²/R (Mindlin & Deresiewicz 1953).
         """
         normal = self.normal.at_load(require.positive(load, "load (N)"))
-        slipping = 1.0 - _sticking(amplitude, self.friction * load)
+        slipping = 1.0 - sticking_share(amplitude, self.friction * load)
         with np.errstate(divide="ignore"):
             e = -np.expm1(np.log1p(-slipping) / 3.0)
         full = self.friction * self.E_star / self.G_star * float(normal.approach)
@@ -182,7 +182,7 @@ class MindlinLine(Theory):
         """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any shape."""
         normal = self.normal.at_load(require.positive(load, "load per length (N/m)"))
         a = float(normal.radius)
-        c = a * np.sqrt(_sticking(tangential, self.friction * load))
+        c = a * np.sqrt(sticking_share(tangential, self.friction * load))
         unknown = np.full_like(c, np.nan)
         return SlipAnswer(c, unknown, unknown, normal)
 
@@ -192,7 +192,7 @@ class MindlinLine(Theory):
 
     def slip(self, x: ArrayLike, load: float, tangential: float) -> RealArray:
         """Motion of facing points past each other in m at ``x`` in m (any shape) from the middle."""
-        normal, left = self.normal, load * _sticking(tangential, self.friction * load)
+        normal, left = self.normal, load * sticking_share(tangential, self.friction * load)
         return _slip(normal.gap, x, load, left, self.friction * self.ratio)
 
     def cycle_dissipation(self, load: float, amplitude: ArrayLike) -> RealArray:
@@ -200,7 +200,7 @@ class MindlinLine(Theory):
 
         Independent of the supports, which add a displacement proportional to Q.
         """
-        Q = self.friction * load * (1.0 - _sticking(amplitude, self.friction * load))
+        Q = self.friction * load * (1.0 - sticking_share(amplitude, self.friction * load))
         return self.ratio / (np.pi * self.E_star) * _loop(np.asarray(load), Q, self.friction)
 
     def stick_shift(self, load: float, tangential: float, bulk_stress: float) -> float:
@@ -219,7 +219,7 @@ class MindlinLine(Theory):
         return shift
 
 
-def _sticking(tangential: ArrayLike, limit: float) -> RealArray:
+def sticking_share(tangential: ArrayLike, limit: float) -> RealArray:
     """1 - Q/μP."""
     Q = checked(tangential, "tangential force")
     if np.any(limit * (1.0 + 1e-12) < Q):
@@ -234,7 +234,7 @@ def _difference(
     field: Callable[[ArrayLike, float], RealArray], r: ArrayLike, load: float, tangential: float, friction: float
 ) -> RealArray:
     """μ times a ``field`` of the normal contact under P less that under P*."""
-    sticking = float(_sticking(tangential, friction * load))
+    sticking = float(sticking_share(tangential, friction * load))
     values = field(r, load)
     if sticking > 0.0:
         values = values - field(r, load * sticking)
@@ -343,7 +343,7 @@ class MindlinWave(Theory):
     def at_pressure(self, pressure: float, tangential: ArrayLike) -> WaveSlipAnswer:
         """Under mean ``pressure`` p̄ in Pa, > 0, and mean shear stress ``tangential`` q̄, 0 <= q̄ <= μp̄, of any shape."""
         p = require.positive(pressure, "mean pressure (Pa)")
-        left = p * _sticking(tangential, self.friction * p)
+        left = p * sticking_share(tangential, self.friction * p)
         a, c = (0.5 * self.wavelength * self.normal.area_fraction(value) for value in (p, left))
         scale = self.friction * self.ratio
         shift = scale * (self.normal.approach(p) - self.normal.approach(left))
@@ -362,7 +362,7 @@ class MindlinWave(Theory):
 
     def slip(self, x: ArrayLike, pressure: float, tangential: float) -> RealArray:
         """Motion of facing points past each other in m at ``x`` in m (any shape) from a crest."""
-        left = pressure * _sticking(tangential, self.friction * pressure)
+        left = pressure * sticking_share(tangential, self.friction * pressure)
         return _slip(self.normal.gap, x, pressure, left, self.friction * self.ratio)
 
     def _dissipation(self, p: float, amplitude: RealArray, shift: RealArray) -> RealArray:
