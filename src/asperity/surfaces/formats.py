@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import logging
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..core.arrays import RealArray
 from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
 from ..core.status import require_memory
 from ..core.units import show, unit_factor
+from .reader_library import opened_by_first_reader, opened_by_library
 from .surface import Origin, Surface
 from .text_files import gridded, is_table, table, text_end
 
@@ -61,26 +62,33 @@ def chosen(channels: Sequence[ChannelInfo], channel: str | int | None, path: obj
 # Instrument files through the reader library SurfaceTopography (Roettger et al. 2022).
 
 
+_Read = TypeVar("_Read")
+
+
 def instrument_channels(file: Path) -> tuple[ChannelInfo, ...]:
     """Two-dimensional channels of an instrument file."""
-    with _library(file) as reader:
-        return _listed(reader, file)
+    return _read_with(file, lambda reader: _listed(reader, file))
 
 
 def read_instrument(
     file: Path, *, channel: str | int | None, size: tuple[float, float] | None, height_unit: str | None
 ) -> Surface:
     """Surface from one channel of an instrument file; ``size`` and ``height_unit`` only where the file lacks them."""
-    with _library(file) as reader:
-        info = chosen(_listed(reader, file), channel, file)
-        raw = next(c for c in reader.channels if c.index == info.index)
-        if type(reader).__name__ == "AscReader":
-            size = _require_whole(info, raw.info.get("raw_metadata", {}), file, size)
-        size, factor = _scales(info, file, size, height_unit)
-        given = {} if raw.physical_sizes is not None else {"physical_sizes": size}
-        topography = reader.topography(channel_index=info.index, **given)
-        values = topography.heights()
-        periodic, metadata = bool(topography.is_periodic), _metadata(topography.info)
+    return _read_with(file, lambda reader: _surface(reader, file, channel, size, height_unit))
+
+
+def _surface(
+    reader: Any, file: Path, channel: str | int | None, size: tuple[float, float] | None, height_unit: str | None
+) -> Surface:
+    info = chosen(_listed(reader, file), channel, file)
+    raw = next(c for c in reader.channels if c.index == info.index)
+    if type(reader).__name__ == "AscReader":
+        size = _require_whole(info, raw.info.get("raw_metadata", {}), file, size)
+    size, factor = _scales(info, file, size, height_unit)
+    given = {} if raw.physical_sizes is not None else {"physical_sizes": size}
+    topography = reader.topography(channel_index=info.index, **given)
+    values = topography.heights()
+    periodic, metadata = bool(topography.is_periodic), _metadata(topography.info)
     if values.shape != info.shape:
         raise FileFormatError(
             f"file {file} states {info.shape} points for channel {info.name!r}, but holds {values.shape}.",
@@ -129,23 +137,27 @@ def _require_whole(
     return size
 
 
-@contextmanager
-def _library(file: Path) -> Iterator[Any]:
-    """Open reader of ``file``; whatever the library raises becomes one sentence."""
-    with _quiet():
-        try:
-            from SurfaceTopography.IO import open_topography
+def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
+    """What ``use`` makes of the reader of ``file``; whatever the library raises becomes one sentence.
 
-            with open_topography(str(file)) as reader:
-                _require_signature(reader, file)
-                yield reader
-        except InputError:
-            raise
-        except Exception as exc:  # its readers raise many types on damaged files
-            raise FileFormatError(
-                f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-                f"but cannot be read ({_reason(exc)}). It may be damaged or of an unknown format."
-            ) from exc
+    What cannot be read with the parts of the library that the reader imports is read with all of it.
+    """
+    failure: Exception | None = None
+    with _quiet():
+        for opened in (opened_by_first_reader, opened_by_library):
+            try:
+                with opened(file) as reader:
+                    _require_signature(reader, file)
+                    return use(reader)
+            except InputError:
+                raise
+            except Exception as exc:  # its readers raise many types on damaged files
+                failure = exc
+    assert failure is not None
+    raise FileFormatError(
+        f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
+        f"but cannot be read ({_reason(failure)}). It may be damaged or of an unknown format."
+    ) from failure
 
 
 def _require_signature(reader: Any, file: Path) -> None:

@@ -1,0 +1,143 @@
+"""Opening instrument files with SurfaceTopography, of which only the reader that recognises the file is imported.
+
+The whole library takes 1.0 s to import: 42 readers and all its analyses of surfaces, with scipy.stats, scipy.optimize, pandas and
+spreadsheets. Its packages are therefore entered into Python without their contents, which come with the first name that is
+asked of them: readers one by one, anything else with everything.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from importlib import import_module
+from importlib.abc import InspectLoader, Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+_POSTPONED = ("SurfaceTopography", "SurfaceTopography.IO", "NuMPI.Optimization")
+"""Packages that import far more than a reader needs; the last is that of the parallel library below the readers."""
+
+_START = 512
+"""Bytes at the start of a file from which a reader may tell that it is not meant, as in ``open_topography``."""
+
+
+@contextmanager
+def opened_by_first_reader(file: Path) -> Iterator[Any]:
+    """Reader of ``file``, the first in the order of the library that can open it; no reader after it is imported.
+
+    Raises
+    ------
+    LookupError
+        If no reader can, or the library does not state its order as expected.
+    """
+    with file.open("rb") as stream:
+        start = stream.read(_START)
+    with _postponed_packages():
+        package = import_module("SurfaceTopography.IO")
+        reader = next(_opened(package, _order(package), start, file), None)
+    if reader is None:
+        raise LookupError(f"no reader opens {file}")
+    with reader:
+        yield reader
+
+
+@contextmanager
+def opened_by_library(file: Path) -> Iterator[Any]:
+    """Reader of ``file`` from the whole library."""
+    from SurfaceTopography.IO import open_topography
+
+    with open_topography(str(file)) as reader:
+        yield reader
+
+
+def _order(package: ModuleType) -> Sequence[str]:
+    """Names of the readers in the order in which the library tries them; none if its source does not state one list."""
+    lists = re.findall(r"^readers = \[$(.*?)^\]$", _source(package), re.MULTILINE | re.DOTALL)
+    return re.findall(r"^    (\w+),$", lists[0], re.MULTILINE) if len(lists) == 1 else ()
+
+
+def _source(package: ModuleType) -> str:
+    """Source text of ``package``; empty where there is none."""
+    loader = package.__spec__.loader if package.__spec__ is not None else None
+    return (loader.get_source(package.__name__) or "") if isinstance(loader, InspectLoader) else ""
+
+
+def _opened(package: ModuleType, order: Sequence[str], start: bytes, file: Path) -> Iterator[Any]:
+    """What the readers make of ``file``, in their ``order``, as far as they can open it."""
+    for name in order:
+        reader = getattr(package, name)
+        if reader.can_read(start).name == "NO":
+            continue
+        try:
+            opened = reader(str(file))
+        except Exception:
+            continue
+        yield opened
+
+
+class _PostponedPackage(ModuleType):
+    """Package whose own code has not run yet: it gives a name of its submodules with that submodule, any other with all.
+
+    ``_homes`` holds the submodule of each name that a line ``from .module import name`` of its code gives it.
+    """
+
+    _homes: Mapping[str, str]
+
+    def __getattr__(self, name: str) -> Any:
+        homes = self.__dict__.get("_homes")  # None as long as Python makes the module
+        if homes is not None and name in homes:
+            return getattr(import_module(homes[name], self.__name__), name)
+        if homes is not None and self.__spec__ is not None and self.__spec__.loader is not None:
+            del self._homes
+            self.__class__ = ModuleType  # type: ignore[assignment]
+            self.__spec__.loader.exec_module(self)
+            return getattr(self, name)
+        raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+
+
+class _Postponing(Loader):
+    """Loader of a package that leaves its code to the first use, for which it restores the usual ``loader``."""
+
+    def __init__(self, loader: InspectLoader) -> None:
+        self.loader = loader
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        """The package without its code."""
+        return _PostponedPackage(spec.name)
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Note where the package has its names from."""
+        lines = re.findall(
+            r"^from (\.\w+) import ([\w, ]+?) *(?:#.*)?$", self.loader.get_source(module.__name__) or "", re.MULTILINE
+        )
+        module.__dict__["_homes"] = {name: home for home, names in lines for name in names.split(", ")}
+        module.__loader__ = self.loader
+        if module.__spec__ is not None:
+            module.__spec__.loader = self.loader
+
+
+class _Finder(MetaPathFinder):
+    """Finds the packages that are postponed."""
+
+    def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
+        """Specification of ``name`` if it is one of them."""
+        spec = PathFinder.find_spec(name, path, target) if name in _POSTPONED else None
+        if spec is None or not isinstance(spec.loader, InspectLoader):
+            return None
+        spec.loader = _Postponing(spec.loader)
+        return spec
+
+
+@contextmanager
+def _postponed_packages() -> Iterator[None]:
+    """While this lasts, ``_POSTPONED`` packages that are not imported yet are imported without their code."""
+    finder = _Finder()
+    sys.meta_path.insert(0, finder)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(finder)
