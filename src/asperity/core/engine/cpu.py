@@ -202,7 +202,7 @@ def bound(cap: RealArray | None) -> RealArray:
 # Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
 
 
-class _CpuCells:
+class NestedCells:
     """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
 
     def __init__(
@@ -224,9 +224,14 @@ class _CpuCells:
             g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
         return g
 
-    def factorise(self, free: FreeSet) -> None:
-        """g of all cells for the points of ``free``."""
-        self._sweep("factorise", free, self._nothing, self.g)
+    def factorise(self, free: FreeSet, conductance: RealArray | None = None) -> None:
+        """g of all cells for the points of ``free``, see ``solve_yielding`` for those of another ``conductance`` than one."""
+        self._sweep("factorise", free, self._nothing if conductance is None else conductance, self.g)
+
+    def solve_yielding(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
+        """Inverse times ``r`` where each point deflects under its own load by 1 / ``conductance`` (in (0, 1]) instead of by one."""
+        self._sweep("cell_deflections", free, conductance * r, self.g)
+        return conductance * np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         self._sweep("cell_deflections", free, r, self.g)
@@ -283,7 +288,7 @@ class _CpuCorrectedCells:
     """Inverse of nested cells with coarse correction (see ``cell_kernels``), a hierarchy and a product per thread."""
 
     def __init__(
-        self, blocks: Blocks, cells: _CpuCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
+        self, blocks: Blocks, cells: NestedCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
     ) -> None:
         self._blocks = blocks
         self._cells = cells
@@ -358,17 +363,26 @@ class CpuEngine:
 
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution."""
-        return _Convolution(self.blocks, RealTransform(shape, self._threads_for(shape)), kernel, dtype)
+        return _Convolution(self.blocks, RealTransform(shape, self.threads_for(shape)), kernel, dtype)
 
     def padded_convolution(
         self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
     ) -> Convolution:
         """Free convolution with pruned transforms."""
-        return _Convolution(self.blocks, PaddedTransform(shape, padded, self._threads_for(padded)), kernel, dtype)
+        return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads_for(padded)), kernel, dtype)
 
-    def _threads_for(self, shape: tuple[int, int]) -> int:
+    def threads_for(self, shape: tuple[int, int]) -> int:
         """Threads for transforms of this ``shape``."""
         return self.threads if shape[0] * shape[1] >= SERIAL_BELOW else 1
+
+    def points(self, shape: tuple[int, int], index: Any, dtype: str) -> FreeSet:
+        """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
+        wide = shape[0] * (shape[1] + ROW_PAD) >= 2**31
+        return _CpuFreeSet(self.blocks, shape, index.astype(np.int64 if wide else np.int32), np.zeros(index.size, dtype), 0)
+
+    def nested_cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> NestedCells:
+        """Nested cells whose points may have a compliance of their own."""
+        return NestedCells(self.blocks, shape, hierarchies, dtype)
 
     def cells(
         self,
@@ -378,7 +392,7 @@ class CpuEngine:
         dtype: str,
     ) -> Cells:
         """Nested cells. Two hierarchies are swept side by side, so their transforms share the threads."""
-        cells = _CpuCells(self.blocks, shape, hierarchies, dtype)
+        cells = NestedCells(self.blocks, shape, hierarchies, dtype)
         if coarse is None:
             return cells
         threads = max(1, self.threads // len(hierarchies))
@@ -494,6 +508,40 @@ class _Convolution:
         self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
         spectrum[0, 0] = mean * self._mean_factor
         return self._transform.backward(spectrum, out)
+
+
+class TensorConvolution:
+    """Product of fields with two components with a symmetric 2 x 2 tensor in Fourier space; owns its buffers.
+
+    The entries ``xx``, ``yy`` and ``xy`` are real half spectra of the grid ``padded``; ``shape`` is that of the fields, which are zero
+    beyond it.
+    """
+
+    def __init__(
+        self,
+        engine: CpuEngine,
+        entries: tuple[RealArray, RealArray, RealArray],
+        shape: tuple[int, int],
+        padded: tuple[int, int],
+        dtype: str,
+    ) -> None:
+        self._blocks = engine.blocks
+        threads = engine.threads_for(padded)
+        self._transform: RealTransform | PaddedTransform
+        if padded == shape:
+            self._transform = RealTransform(shape, threads)
+        else:
+            self._transform = PaddedTransform(shape, padded, threads)
+        self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
+        kind = np.complex128 if dtype == "float64" else np.complex64
+        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(2)]
+
+    def apply(self, fields: tuple[RealArray, RealArray], out: tuple[RealArray, RealArray]) -> None:
+        """Convolve the two components ``fields`` into ``out``."""
+        x, y = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
+        self._blocks.run(self._blocks.kernels.tensor_product, x.size, x.ravel(), y.ravel(), *self._entries)
+        for spectrum, component in zip((x, y), out, strict=True):
+            self._transform.backward(spectrum, component)
 
 
 def _read_only(values: RealArray) -> RealArray:

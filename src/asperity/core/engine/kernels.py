@@ -36,6 +36,15 @@ def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def tensor_product(span, x, y, xx, yy, xy):  # type: ignore[no-untyped-def]
+    """(x, y) = symmetric tensor times (x, y)."""
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, x.size)):
+        along, across = x[i], y[i]
+        x[i] = xx[i] * along + xy[i] * across
+        y[i] = xy[i] * along + yy[i] * across
+
+
+@compiled
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of loaded points, their sum r and r².
 

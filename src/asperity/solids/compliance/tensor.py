@@ -11,7 +11,18 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ..elastic import Elastic, Rigid
 from ..layers import Body, Layered, deformable
-from .influence import COS_1, COS_2, ISOTROPIC, SIN_1, SIN_2, line_integral, patch_coefficients, wavenumber_grid
+from .influence import (
+    COS_1,
+    COS_2,
+    ISOTROPIC,
+    SIN_1,
+    SIN_2,
+    line_integral,
+    line_kernel,
+    patch_coefficients,
+    strip_coefficients,
+    wavenumber_grid,
+)
 from .layered import LayerStack, PlaneCompliance, Samples, half_space, samples
 
 
@@ -151,16 +162,20 @@ def _samples(grid: Grid, body: Elastic | Layered) -> Samples:
     return samples(body, depth or max(grid.spacing))
 
 
-def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
-    """From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
-
-    A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m theta) and J_m.
-    """
+def _require_bonded(body: Elastic | Layered) -> None:
     if isinstance(body, Layered) and body.reduced.slips:
         raise InputError(
             "layers under a tangential traction must be bonded on the free boundary, but one is Frictionless(): "
             "it would slip without end. Use Bonded() or the periodic boundary."
         )
+
+
+def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
+    """From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
+
+    A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m theta) and J_m.
+    """
+    _require_bonded(body)
     known = _samples(grid, body)
     mean = patch_coefficients(known.kernel(lambda c: 0.5 * (c.LL + c.T)), grid)
     bending = known.kernel(lambda c: 0.5 * (c.LL - c.T), order=2)
@@ -173,7 +188,28 @@ def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
     }
 
 
-# Plane strain: normal displacement of strips under a shear traction along x, which couples friction to pressure.
+# Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
+
+
+def shear_strips(
+    grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum: float
+) -> tuple[RealArray, RealArray]:
+    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1).
+
+    At offsets (0…nx-1) dx from a strip of width dx; those of both bodies add up. A half-space gives them relative to the distance
+    ``datum`` (m) from a line load, as ``line_influence`` of the normal compliance; for a half-space the first is the same as the
+    normal displacement (Johnson 1985, eq. 2.24).
+
+    InputError if both bodies are rigid, or a layer may slip.
+    """
+    along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
+    for solid, _ in deformable(body, counter_body):
+        _require_bonded(solid)
+        known = _samples(grid, solid)
+        for total, component in ((along, lambda c: c.LL), (across, lambda c: c.T)):
+            total += strip_coefficients(line_kernel(component(known.values), known.limits(component)), grid, datum)
+    return along, across
+
 
 
 def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> RealArray:

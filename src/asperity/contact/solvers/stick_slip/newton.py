@@ -1,0 +1,218 @@
+"""Semi-smooth Newton's method on stick and slip, inexact and on nested grids: the fast tangential solver.
+
+A step sorts the points of the contact into sticking ones (traction below its bound, or at it and pushed back inside) and
+slipping ones, solves the linear system of ``linear_system`` to a modest accuracy, turns slipping tractions on their
+circles and puts sticking ones that went beyond their bound back on it (Alart & Curnier 1991, with the active sets of the normal
+solver). The energy falls in every step: one that would raise it is halved, and at last replaced by one along the projected
+gradient. First guesses come from coarser grids.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from ....core import require
+from ....core.arrays import RealArray
+from ...operators.convolution import restricted
+from .linear_system import NewtonSystem, Workspace
+from .problem import Points, Sets, TangentialQP, TangentialSolution, best_shift, ended, relative_gap
+
+_SETTLED = 0.003
+"""Share of points that change between stick and slip below which the sets count as nearly settled."""
+
+_REDUCTION = 0.3
+"""Reduction of the residual while sets change: conjugate gradients gain a factor of 3 to 4 a step."""
+
+_UNSETTLED_STEPS = 3
+_SETTLED_STEPS = 12
+
+_MARGIN = 0.1
+"""Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first powers of the residual, which is
+large where bounds are."""
+
+_FINEST = 1e-4
+"""Reduction at most in one system, which is in single precision."""
+
+_HALVINGS = 5
+
+COARSEST = 32
+"""Points per side at which there is no coarser grid."""
+
+_LOOSEST = 0.02
+"""Error at which a coarse grid is left: its contact is not that of the finer grid anyway."""
+
+
+@dataclass(frozen=True)
+class StickSlipNewton:
+    """Newton's method on stick and slip.
+
+    Parameters
+    ----------
+    tolerance
+        Largest duality gap over elastic energy and work of the slip.
+    max_iterations
+        Newton steps at most.
+    precision
+        ``"mixed"``: linear systems in single precision, iterates in double; or ``"double"``.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    """
+
+    tolerance: float = 1e-6
+    max_iterations: int = 100
+    precision: Literal["mixed", "double"] = "mixed"
+    name: ClassVar[str] = "newton"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "Kalker1990")
+
+    def __post_init__(self) -> None:
+        require.positive(self.tolerance, "tolerance of the tangential solver")
+        require.integer(self.max_iterations, 1, "iterations of the tangential solver")
+        require.one_of(self.precision, ("mixed", "double"), "precision of the tangential solver")
+
+    def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
+        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa; by default from coarser grids."""
+        points, pairs = Points.of(qp), 0.0
+        if not len(points.index):
+            nothing = np.zeros((2, 0))
+            return ended(
+                qp, points, (nothing, nothing, np.zeros(2)), error=0.0, tolerance=1.0, iterations=0, pairs=0.0
+            )
+        if start is None:
+            start, pairs = self._from_coarser(qp)
+        iteration = _Iteration(qp, points, start, self)
+        iteration.pairs += pairs
+        return iteration.solved()
+
+    def _from_coarser(self, qp: TangentialQP) -> tuple[RealArray | None, float]:
+        """Traction in proportion to the bound as on the grid of half as many points per side, and its FFT pairs."""
+        shape = qp.bound.shape
+        if min(shape) <= COARSEST or not np.isfinite(qp.bound).all():
+            return None, 0.0
+        bound = restricted(qp.bound)
+        target = np.stack([restricted(component) for component in qp.target])
+        coarse = replace(qp, operator=qp.operator.coarsened, bound=bound, target=target)
+        found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
+        ratio = found.traction / np.where(bound > 0.0, bound, 1.0)
+        fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
+        share = bound.size / qp.bound.size
+        return fine * qp.bound, found.pairs * share
+
+
+class _Iteration:
+    """Iterate of one solve on the points of its contact: traction, displacement, shift."""
+
+    def __init__(self, qp: TangentialQP, points: Points, start: RealArray | None, settings: StickSlipNewton) -> None:
+        self.qp, self.points, self.settings = qp, points, settings
+        self.total = None if qp.mean_traction is None else np.asarray(qp.mean_traction) * qp.bound.size
+        self.work = Workspace.of(qp.operator, points, "float32" if settings.precision == "mixed" else "float64")
+        self.pairs = 0.0
+        if start is None:
+            self.q = self._first()
+        else:
+            q = points.projected(points.gathered(start))
+            self.q = q if self.total is None else points.with_mean(q, self.total)
+        self._compute()
+        self.exact = True
+
+    def _first(self) -> RealArray:
+        """No traction, or the prescribed one in proportion to the bound."""
+        n = len(self.points.bound)
+        if self.total is None:
+            return np.zeros((2, n))
+        bound = self.points.bound
+        weight = np.where(np.isfinite(bound), bound, 1.0) if np.isfinite(bound).all() else ~np.isfinite(bound)
+        return np.asarray(self.total[:, None] * (weight / weight.sum()))
+
+    def _compute(self) -> None:
+        """Displacement of the traction from scratch, in double precision."""
+        operator = self.qp.operator
+        self.u = self.points.gathered(
+            operator.displacement(self.points.scattered(self.q, self.qp.bound.shape))
+        )
+        self.pairs += operator.pairs_per_application
+        self.exact = True
+
+    def solved(self) -> TangentialSolution:
+        """Steps until the error is reached by a displacement computed from scratch."""
+        before: Sets | None = None
+        error = np.inf
+        for count in range(self.settings.max_iterations + 1):
+            shift, s = self._slip()
+            error = relative_gap(self.points, self.q, self.u, s)
+            if error <= self.settings.tolerance and not self.exact:
+                self._compute()
+                shift, s = self._slip()
+                error = relative_gap(self.points, self.q, self.u, s)
+            if error <= self.settings.tolerance or count == self.settings.max_iterations:
+                break
+            sets = Sets.of(self.points, self.q, s)
+            changed = len(sets.slip) if before is None else np.count_nonzero(sets.slip != before.slip)
+            before = sets
+            self._step(sets, s, settled=changed <= _SETTLED * len(sets.slip), error=error)
+        return ended(
+            self.qp,
+            self.points,
+            (self.q, s, shift),
+            error=error,
+            tolerance=self.settings.tolerance,
+            iterations=count,
+            pairs=self.pairs,
+        )
+
+    def _slip(self) -> tuple[RealArray, RealArray]:
+        """Shift (2,) that is sought, and slip (2, n)."""
+        residual = self.points.target - self.u
+        shift = np.zeros(2) if self.total is None else best_shift(self.points, self.q, residual)
+        return shift, residual + shift[:, None]
+
+    def _step(self, sets: Sets, s: RealArray, *, settled: bool, error: float) -> None:
+        """One step of Newton's method."""
+        work = self.work
+        system = NewtonSystem.of(work, sets, zero_sum=self.total is not None)
+        unit = float(np.abs(s).max()) or 1.0
+        r = system.free_part((s / unit).astype(work.dtype))
+        reduction, most = _REDUCTION, _UNSETTLED_STEPS
+        if settled:
+            wanted = _MARGIN * self.settings.tolerance / error
+            reduction, most = min(_REDUCTION, max(wanted, _FINEST)), _SETTLED_STEPS
+        d, products = system.solved(r, reduction, most)
+        self.pairs += products * self.qp.operator.pairs_per_application
+        d = d.astype(float) * (unit / work.pixel)
+        part = 1.0
+        for _ in range(_HALVINGS):
+            if self._taken(self._moved(sets, part * d), s):
+                return
+            part *= 0.5
+        downhill = self.q + s / self.qp.operator.largest
+        self._taken(self._restored(self.points.projected(downhill)), s, force=True)
+
+    def _moved(self, sets: Sets, d: RealArray) -> RealArray:
+        """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds."""
+        bound = np.where(sets.slip, self.points.bound, 1.0)
+        tangent = np.stack([-sets.normal[1], sets.normal[0]])
+        angle = np.einsum("ij,ij->j", d, tangent) / bound
+        turned = bound * (sets.normal * np.cos(angle) + tangent * np.sin(angle))
+        return self._restored(np.where(sets.slip, turned, self.points.projected(self.q + d)))
+
+    def _restored(self, traction: RealArray) -> RealArray:
+        return traction if self.total is None else self.points.with_mean(traction, self.total)
+
+    def _taken(self, traction: RealArray, s: RealArray, *, force: bool = False) -> bool:
+        """Go to ``traction`` if the energy does not rise by that, or in any case if ``force``."""
+        step = traction - self.q
+        unit = float(np.abs(step).max())
+        if unit == 0.0:
+            return force
+        response = self.work.product((step / unit).astype(self.work.dtype)).astype(float) * unit
+        self.pairs += self.qp.operator.pairs_per_application
+        rise = -float(np.einsum("ij,ij->", s, step)) + 0.5 * float(np.einsum("ij,ij->", step, response))
+        if rise > 0.0 and not force:
+            return False
+        self.q, self.u, self.exact = traction, self.u + response, False
+        return True

@@ -1,0 +1,220 @@
+"""The tangential problem of one step: a convex programme with a disc at every point, its multiplier and its duality gap.
+
+    min  1/2 q·C q - q·b    over |q| <= B at every point,
+
+with q the shear traction on the body, B the bound of the friction law, C the tangential compliance and b what the
+surfaces would slip without traction (Kalker 1990; Panagiotopoulos 1975). Minus the gradient, s = b - C q, is the slip of
+the step: zero where the traction is below its bound, along the traction where it is at it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ....core.arrays import BoolArray, RealArray
+from ....core.status import Outcome, Status
+from ...operators.tangential import TangentialOperator
+
+AT_BOUND = 1.0 - 1e-12
+"""Share of the bound from which on a traction counts as at it: a traction put on the circle is there to a few roundings."""
+
+
+@dataclass(frozen=True, eq=False)
+class TangentialQP:
+    """One step with given bounds.
+
+    Attributes
+    ----------
+    operator
+        Shear traction to tangential displacement.
+    bound
+        Largest shear traction (nx, ny) in Pa, >= 0: zero outside the contact, infinite where nothing slips.
+    target
+        b without the part that is sought, (2, nx, ny) in m.
+    mean_traction
+        Prescribed mean of the traction (2,) in Pa, for which a uniform shift is sought; None where the shift is part of ``target``.
+    """
+
+    operator: TangentialOperator
+    bound: RealArray
+    target: RealArray
+    mean_traction: RealArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class TangentialSolution:
+    """Solution of a ``TangentialQP``.
+
+    Attributes
+    ----------
+    traction
+        (2, nx, ny), Pa.
+    shift
+        Uniform shift (2,) in m that was sought; zero where the shift was prescribed.
+    slip
+        Slip (2, nx, ny) in m of the counter body over the body in this step; zero outside the contact.
+    error
+        Duality gap over elastic energy and work of the slip, see ``relative_gap``.
+    status
+        How the solver ended.
+    iterations, pairs
+        Work of the solver; FFT pairs of the grid.
+    """
+
+    traction: RealArray
+    shift: RealArray
+    slip: RealArray
+    error: float
+    status: Status
+    iterations: int
+    pairs: float
+
+    @property
+    def slipping(self) -> BoolArray:
+        """(nx, ny), True where the surfaces slip in this step."""
+        return np.any(self.slip != 0.0, axis=0)
+
+
+class TangentialSolver(Protocol):
+    """Method for a ``TangentialQP``."""
+
+    @property
+    def tolerance(self) -> float:
+        """Error to reach."""
+
+    def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
+        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa, which need not be feasible; by default from none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """A ``TangentialQP`` on the points of its contact: vectors (2, n) and (n,) in the order of the flat ``index``."""
+
+    index: np.ndarray[tuple[int], np.dtype[np.int64]]
+    bound: RealArray
+    target: RealArray
+
+    @classmethod
+    def of(cls, qp: TangentialQP) -> Points:
+        """Points of ``qp`` with a positive bound."""
+        index = np.flatnonzero(qp.bound.ravel() > 0.0)
+        return cls(index, qp.bound.ravel()[index], qp.target.reshape(2, -1)[:, index])
+
+    def gathered(self, field: RealArray) -> RealArray:
+        """Values (2, n) of a field (2, nx, ny)."""
+        values: RealArray = field.reshape(2, -1)[:, self.index]
+        return values
+
+    def scattered(self, values: RealArray, shape: tuple[int, int]) -> RealArray:
+        """Field (2, nx, ny), zero elsewhere, of ``values`` (2, n)."""
+        field = np.zeros((2, shape[0] * shape[1]))
+        field[:, self.index] = values
+        return field.reshape(2, *shape)
+
+    def projected(self, traction: RealArray) -> RealArray:
+        """Nearest tractions (2, n) within their bounds."""
+        size = np.hypot(*traction)
+        over = size > self.bound
+        factor = np.where(over, self.bound / np.where(over, size, 1.0), 1.0)
+        return traction * factor
+
+    def with_mean(self, traction: RealArray, total: RealArray) -> RealArray:
+        """Feasible ``traction`` (2, n) with the sum ``total`` (2,): what is missing goes where the bound leaves room."""
+        found = traction
+        for _ in range(_SWEEPS):
+            missing = total - found.sum(axis=1)
+            if np.hypot(*missing) <= _ROUNDING * np.hypot(*total):
+                break
+            room = np.where(np.isfinite(self.bound), self.bound - np.hypot(*found), 1.0)
+            weight = np.maximum(room, 0.0)
+            if weight.sum() <= 0.0:
+                break
+            found = self.projected(found + missing[:, None] * (weight / weight.sum()))
+        return found
+
+
+_SWEEPS = 20
+_ROUNDING = 1e-13
+
+
+@dataclass(frozen=True, eq=False)
+class Sets:
+    """Where an iterate sticks and slips, with the unit ``normal`` (2, n) of the traction and the ``outward`` slip (n,) along it."""
+
+    slip: BoolArray
+    normal: RealArray
+    outward: RealArray
+
+    @classmethod
+    def of(cls, points: Points, traction: RealArray, s: RealArray) -> Sets:
+        """Sets of a ``traction`` (2, n) with the slip ``s`` (2, n): slipping is what is at its bound and pushed outwards."""
+        size = np.hypot(*traction)
+        at = (size >= points.bound * AT_BOUND) & (size > 0.0)
+        normal = np.where(at, traction / np.where(at, size, 1.0), 0.0)
+        outward = np.einsum("ij,ij->j", s, normal)
+        slip = at & (outward > 0.0)
+        return cls(slip, normal, np.where(slip, outward, 0.0))
+
+
+def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
+    """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound."""
+    room = np.where(np.isfinite(points.bound), points.bound - np.hypot(*traction), 1.0)
+    weight = np.where(np.hypot(*traction) < points.bound * AT_BOUND, room, 0.0)
+    if weight.sum() <= 0.0:
+        weight = np.ones(len(points.bound))
+    return np.asarray(-(residual * weight).sum(axis=1) / weight.sum())
+
+
+def relative_gap(points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> float:
+    """Duality gap Σ (B |s| - q·s) over the sum of elastic energy and work of the slip; a bound on the error of the energy.
+
+    Each term is >= 0, and zero exactly where the friction law holds. Where the bound is infinite the residual counts times
+    the size of the traction.
+    """
+    size = np.hypot(*s)
+    finite = np.isfinite(points.bound)
+    limit = np.where(finite, points.bound, 0.0)
+    work = limit * size
+    along = np.einsum("ij,ij->j", traction, s)
+    gap = float(np.sum(np.where(finite, work - along, 0.0)))
+    if not finite.all():
+        strength = np.hypot(*traction)
+        gap += float(np.sum(np.where(finite, 0.0, (strength + strength.mean()) * size)))
+    scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float(work.sum())
+    return gap / scale if scale > 0.0 else 0.0 if gap == 0.0 else np.inf
+
+
+def ended(
+    qp: TangentialQP,
+    points: Points,
+    iterate: tuple[RealArray, RealArray, RealArray],
+    *,
+    error: float,
+    tolerance: float,
+    iterations: int,
+    pairs: float,
+    stagnated: bool = False,
+) -> TangentialSolution:
+    """Solution at the ``iterate``: traction (2, n), slip (2, n), shift (2,)."""
+    traction, s, shift = iterate
+    shape = qp.bound.shape
+    sets = Sets.of(points, traction, s)
+    if error <= tolerance:
+        status = Status(Outcome.CONVERGED, f"Stick and slip settled to {error:.1e} in {iterations} iterations.")
+    else:
+        outcome = Outcome.STAGNATED if stagnated else Outcome.ITERATION_LIMIT
+        message = f"Stick and slip are not settled: error {error:.1e} after {iterations} iterations."
+        status = Status(outcome, message, "Take smaller steps of shift or force, or a larger tolerance.")
+    slip = sets.normal * sets.outward
+    return TangentialSolution(
+        traction=points.scattered(traction, shape),
+        shift=shift,
+        slip=points.scattered(slip, shape),
+        error=error,
+        status=status,
+        iterations=iterations,
+        pairs=pairs,
+    )
