@@ -27,6 +27,7 @@ from asperity import (
     Surface,
 )
 from asperity.contact.boundary import Boundary
+from asperity.contact.history import Step
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
 from asperity.contact.solve import Prepared
@@ -104,7 +105,7 @@ class Case:
 
 def solved(case: Case, solver: Solver) -> tuple[ContactQP, Solution]:
     """Discrete problem of ``case`` and its solution by ``solver``."""
-    contact = Prepared(case.problem, solver=solver).settled(case.control).contact
+    contact = Prepared(case.problem, solver=solver).settled(Step(case.control)).contact
     return contact.qp, contact.solution
 
 

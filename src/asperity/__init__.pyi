@@ -5,8 +5,9 @@ from .contact.boundary import Free, FreeLine, Periodic
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
-from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps
-from .contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
+from .contact.couplings.stick_slip import StickSlip
+from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps, shear_cycles
+from .contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Unloaded
@@ -14,6 +15,7 @@ from .contact.result import ContactResult
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
+from .contact.tangential import Shift, TangentialForce
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
@@ -104,6 +106,7 @@ __all__ = [
     "Free",
     "FreeLine",
     "Frictionless",
+    "FullStick",
     "Grid",
     "GrossSliding",
     "HardWall",
@@ -140,14 +143,18 @@ __all__ = [
     "Rounds",
     "Section",
     "ShearTraction",
+    "Shift",
     "Sliding",
     "Step",
+    "StickSlip",
     "Strength",
     "StressField",
     "Surface",
     "SurfacePair",
+    "TangentialForce",
     "Tractions",
     "Tresca",
+    "TrescaFriction",
     "UnitError",
     "Unloaded",
     "VonMises",
@@ -211,6 +218,7 @@ __all__ = [
     "save_stress",
     "save_surface",
     "save_surface_plot",
+    "shear_cycles",
     "sliced",
     "solve",
     "solvers",

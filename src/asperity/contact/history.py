@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Self, TypeAlias
 
@@ -17,6 +17,7 @@ from ..core.late import Stored
 from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 from .result import ContactResult
 from .state import InterfaceState
+from .tangential import Shift, Tangential, TangentialForce
 
 Ramped: TypeAlias = type[MeanPressure] | type[Force] | type[Approach] | type[MeanGap]
 """Kind of control that is changed step by step."""
@@ -24,9 +25,36 @@ Ramped: TypeAlias = type[MeanPressure] | type[Force] | type[Approach] | type[Mea
 
 @dataclass(frozen=True)
 class Step:
-    """One step of a history: what is prescribed along the normal, ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``."""
+    """One step of a history.
+
+    Parameters
+    ----------
+    normal
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
+    tangential
+        ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem. None leaves what the step before
+        prescribed, at first no shift; in a history without any, all points slide where the problem has ``Coulomb`` friction.
+
+    Raises
+    ------
+    InputError
+        If one of them is something else.
+    """
 
     normal: Control
+    tangential: Tangential | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.normal, Control):
+            raise InputError(
+                f"normal control of a step must be a MeanPressure, Force, Approach, MeanGap or Unloaded, but is {self.normal!r}. "
+                "Write for example MeanPressure(50e3)."
+            )
+        if not isinstance(self.tangential, Tangential | None):
+            raise InputError(
+                f"tangential control of a step must be a Shift, a TangentialForce or None, but is {self.tangential!r}. "
+                "Write for example Shift(5e-9)."
+            )
 
 
 @dataclass(frozen=True, init=False)
@@ -77,6 +105,37 @@ class History:
 
     def __iter__(self) -> Iterator[Step]:
         return iter(self.steps)
+
+
+def shear_cycles(
+    normal: Control, amplitude: Shift | TangentialForce, *, cycles: int = 1, steps: int = 8
+) -> tuple[Step, ...]:
+    """Steps of a tangential cycle at a constant normal control: to ``amplitude``, to its opposite and back, and so on.
+
+    Parameters
+    ----------
+    normal
+        Control along the normal, held throughout.
+    amplitude
+        ``Shift`` or ``TangentialForce`` of the first turning point; the others are its opposite and itself.
+    cycles
+        Number of closed cycles after the first loading.
+    steps
+        Steps from zero to the amplitude; twice as many from one turning point to the other.
+
+    Raises
+    ------
+    InputError
+        If a number is below one.
+    """
+    require.integer(cycles, 0, "number of cycles")
+    require.integer(steps, 1, "number of steps")
+    course = [k / steps for k in range(1, steps + 1)]
+    back = [1.0 - k / steps for k in range(1, 2 * steps + 1)]
+    for _ in range(cycles):
+        course += [*back, *(-share for share in back)]
+    kind, values = type(amplitude), [getattr(amplitude, item.name) for item in fields(amplitude)]
+    return tuple(Step(normal, kind(*(share * value for value in values))) for share in course)
 
 
 def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> tuple[Control, ...]:

@@ -20,7 +20,7 @@ from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
-from .laws import Coulomb, HardWall, InterfaceLaw
+from .laws import Coulomb, FrictionLaw, HardWall, InterfaceLaw
 from .wetting import LiquidFilm
 
 
@@ -125,7 +125,8 @@ class ContactProblem(Shown):
     film
         Film of liquid whose menisci pull the surfaces together; None for a dry contact.
     friction
-        ``Coulomb(mu)``: all points slide, and the shear changes the pressure of unlike bodies; None for none.
+        ``Coulomb(mu)``, ``TrescaFriction(strength)`` or ``FullStick()``; None for none. Under Coulomb friction all points slide unless a
+        step prescribes a ``Shift`` or ``TangentialForce``; under the others the counter body does not shift until then.
 
     Notes
     -----
@@ -145,7 +146,7 @@ class ContactProblem(Shown):
     boundary: Boundary = Periodic()
     law: InterfaceLaw = HardWall()
     film: LiquidFilm | None = None
-    friction: Coulomb | None = None
+    friction: FrictionLaw | None = None
 
     def __post_init__(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
@@ -155,7 +156,12 @@ class ContactProblem(Shown):
             _require(body, Body, what, "Elastic(...), a named material, Layered(...) or Rigid()")
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
         _require(self.film, LiquidFilm | None, "film", "LiquidFilm.of(liquid, thickness) or None")
-        _require(self.friction, Coulomb | None, "friction", "Coulomb(coefficient) or None")
+        _require(
+            self.friction,
+            FrictionLaw | None,
+            "friction",
+            "Coulomb(coefficient), TrescaFriction(strength), FullStick() or None",
+        )
         for body in (self.body, self.counter_body):
             layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
             for solid in (*layers, body.base if isinstance(body, Layered) else body):
@@ -176,10 +182,26 @@ class ContactProblem(Shown):
                 require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
+        self._check_friction()
         cap = self.law.pressure_cap()
         if isinstance(cap, np.ndarray) and cap.shape != self.surface.shape:
             raise InputError(
                 f"hardness array must have the shape {self.surface.shape} of the surface, but has {cap.shape}."
+            )
+
+    def _check_friction(self) -> None:
+        values = {"coefficient": "friction coefficient", "strength": "shear strength of the interface"}
+        for name, what in values.items():
+            found = getattr(self.friction, name, 0.0)
+            if isinstance(found, np.ndarray) and found.shape != self.surface.shape:
+                raise InputError(
+                    f"{what} must have the shape {self.surface.shape} of the surface, but has {found.shape}."
+                )
+            if isinstance(found, np.ndarray) and self.film is not None:
+                raise InputError(f"{what} beside a film of liquid must be one number, but is an array.")
+        if self.film is not None and not isinstance(self.friction, Coulomb | None):
+            raise InputError(
+                f"friction beside a film of liquid must be Coulomb(coefficient) or None, but is {self.friction!r}."
             )
 
     @property

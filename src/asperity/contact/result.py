@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from .problem import ContactProblem, Control
 from .solvers.active_set.linear_system import normal_stiffness
 from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, least_length, level_of
 from .state import InterfaceState
+
+if TYPE_CHECKING:
+    from .couplings.stick_slip import StickSlip
 
 LARGEST_DUALITY_GAP = 1e-3
 """Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
@@ -203,7 +206,7 @@ class ContactResult(Stored):
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
-        What each coupling found, by its name: ``menisci``, ``sliding``.
+        What each coupling found, by its name: ``menisci``, ``sliding``, ``stick_slip``.
     memory
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
@@ -273,6 +276,11 @@ class ContactResult(Stored):
     def sliding(self) -> GrossSliding | None:
         """What the shear traction does to the contact; None where it is left out."""
         return self.couplings.get("sliding")
+
+    @property
+    def stick_slip(self) -> StickSlip | None:
+        """Shear traction and slip of a step with stick and slip; None in other contacts."""
+        return self.couplings.get("stick_slip")
 
     @property
     def external_force(self) -> float:

@@ -22,6 +22,8 @@ from .couplings.menisci import MeniscusCoupling
 from .couplings.protocol import Coupling, Posed
 from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
+from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
+from .couplings.stick_slip import StickSlipCoupling
 from .history import History, HistoryResult, Step
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
@@ -53,7 +55,7 @@ class _Options(TypedDict, total=False):
 
 
 @overload
-def solve(problem: ContactProblem, control: Control, **options: Unpack[_Options]) -> ContactResult: ...
+def solve(problem: ContactProblem, control: Control | Step, **options: Unpack[_Options]) -> ContactResult: ...
 
 
 @overload
@@ -62,7 +64,7 @@ def solve(problem: ContactProblem, control: History, **options: Unpack[_Options]
 
 def solve(
     problem: ContactProblem,
-    control: Control | History,
+    control: Control | Step | History,
     *,
     on_failure: Literal["raise", "return"] = "raise",
     **options: Any,
@@ -78,8 +80,8 @@ def solve(
     problem
         Surfaces, bodies, boundary, physics of the interface.
     control
-        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``; or a ``History`` of such steps, each of
-        which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``; a ``Step`` with one of these and a ``Shift`` or
+        ``TangentialForce``, under which the surfaces stick and slip; or a ``History`` of such steps, each of which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
         All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted.
     solver
         Method of the normal solves with its tolerance; chosen by ``default_solver`` if not given.
@@ -112,12 +114,13 @@ def solve(
     if isinstance(control, History):
         start = options.get("state")
         return HistoryResult(tuple(steps(problem, control, on_failure=on_failure, **options)), start)
-    if not isinstance(control, Control):
-        kinds = "MeanPressure, Force, Approach, MeanGap, Unloaded or a History of them"
+    if not isinstance(control, Control | Step):
+        kinds = "MeanPressure, Force, Approach, MeanGap, Unloaded, a Step or a History of them"
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     state = options.pop("state", None)
     keep = options.pop("keep", None) or Keep()
-    result = Prepared(problem, keep=keep, **options).step(control, state)
+    step = control if isinstance(control, Step) else Step(control)
+    result = Prepared(problem, keep=keep, sticks=sticks(problem, [step], state), **options).step(step, state)
     if on_failure == "raise" and not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
@@ -138,14 +141,14 @@ def steps(
     """
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     ordered = history if isinstance(history, History) else History(history)
-    prepared = Prepared(problem, keep=keep or Keep(stiffness=False), **options)
+    prepared = Prepared(problem, keep=keep or Keep(stiffness=False), sticks=sticks(problem, ordered, state), **options)
 
     def run() -> Iterator[ContactResult]:
         latest = state
         for number, step in enumerate(ordered, start=1):
             where = f"Step {number} of the history"
             try:
-                result = prepared.step(step.normal, latest)
+                result = prepared.step(step, latest)
             except NoSolutionError as error:
                 raise NoSolutionError(f"{where}: {error}", subject=f"{where}: {error.subject}") from error
             if result.converged:
@@ -171,21 +174,22 @@ class Prepared:
         progress: Progress | None = None,
         engine: Engine | None = None,
         rounds: Rounds = Rounds(),
+        sticks: bool = False,
     ) -> None:
         if solver is not None and not hasattr(solver, "step"):
             raise InputError(
                 f"solver must be a method such as ConjugateGradient(), but is {solver!r}. See solver_by_name."
             )
         self.problem, self.keep, self.progress, self.rounds = problem, keep, progress, rounds
-        self.solver = solver or default_solver(problem)
+        self.solver = solver or default_solver(problem, sticks=sticks)
         self.operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
         _require_same_problem(self.operator, problem)
-        self.couplings = couplings_of(problem, self.operator, rounds)
+        self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile = problem.profile()
 
-    def settled(self, control: Control, state: InterfaceState | None = None) -> Settled:
-        """Contact under ``control`` that agrees with all couplings, started from ``state``."""
-        dented, start = self.profile, None
+    def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
+        """Contact under ``step`` that agrees with all couplings, started from ``state``."""
+        control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
             dented = self.profile - state.permanent_indentation
@@ -195,8 +199,10 @@ class Prepared:
         elif not isinstance(control, Unloaded):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
         scale = _height_scale(self.profile, control, self.operator)
+        earlier = None if state is None else state.earlier
+        posed = Posed(self.operator, self.profile, dented, control, scale, start, earlier, step.tangential)
         return settle(
-            Posed(self.operator, self.profile, dented, control, scale, start, None if state is None else state.earlier),
+            posed,
             self.couplings,
             {} if state is None else state.memory,
             self.solver,
@@ -204,17 +210,17 @@ class Prepared:
             progress=self.progress,
         )
 
-    def step(self, control: Control, state: InterfaceState | None = None) -> ContactResult:
-        """Result under ``control``, started from ``state``."""
+    def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
+        """Result of ``step``, started from ``state``."""
         started = time.perf_counter()
-        settled = self.settled(control, state)
+        settled = self.settled(step, state)
         return self._result(settled, state, time.perf_counter() - started)
 
     def _result(self, settled: Settled, state: InterfaceState | None, seconds: float) -> ContactResult:
         contact, problem = settled.contact, self.problem
         ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
-        lift = found["sliding"].shear_displacement if "sliding" in found else None
+        lift = next((found[name].shear_displacement for name in ("sliding", "stick_slip") if name in found), None)
         certificate = certify(
             contact.qp,
             contact.solution,
@@ -225,6 +231,8 @@ class Prepared:
         )
         certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
         status = doubted(settled.status, certificate)
+        if status.converged and "stick_slip" in found and not found["stick_slip"].status.converged:
+            status = found["stick_slip"].status
         shown = replace(contact, solution=replace(contact.solution, status=status))
         papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
         return assemble(
@@ -240,17 +248,38 @@ class Prepared:
         )
 
 
-def default_solver(problem: ContactProblem) -> Solver:
+def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:
+    """Whether surfaces stick and slip: where a step prescribes it, the interface remembers it, or the law knows no gross sliding.
+
+    InputError if a step is tangential and the problem has no friction.
+    """
+    tangential = any(step.tangential is not None for step in ordered)
+    if problem.friction is None:
+        if tangential:
+            raise InputError(
+                "friction of a problem under a Shift or TangentialForce must be given, but is None. "
+                "Write ContactProblem(..., friction=Coulomb(0.3))."
+            )
+        return False
+    gross = isinstance(problem.friction, Coulomb) and problem.friction.limit == np.inf
+    return tangential or not gross or (state is not None and "stick_slip" in state.memory)
+
+
+def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
     """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size.
 
     Where shear changes the pressure the tolerance is 1e-12, so that the error of the normal solve (which goes with its
     root) does not hide that the displacement by shear has settled to 1e-6.
     """
-    return ActiveSet(tolerance=1e-12) if problem.friction is not None and problem.friction.couples else ActiveSet()
+    friction = problem.friction
+    couples = sticks or (isinstance(friction, Coulomb) and friction.couples)
+    return ActiveSet(tolerance=1e-12) if couples else ActiveSet()
 
 
-def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds()) -> tuple[Coupling, ...]:
-    """Couplings of the physics that ``problem`` holds, prepared for ``operator``."""
+def couplings_of(
+    problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds(), *, sticks: bool = False
+) -> tuple[Coupling, ...]:
+    """Couplings of the physics that ``problem`` holds, prepared for ``operator``; friction with stick and slip if it ``sticks``."""
     law, film, friction, tolerances = problem.law, problem.film, problem.friction, rounds.tolerances
     found: list[Coupling] = []
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
@@ -259,10 +288,14 @@ def couplings_of(problem: ContactProblem, operator: Operator, rounds: Rounds = R
         found.append(ConstantHardness(law))
     if film is not None:
         tolerance = tolerances.get("menisci", MENISCUS_TOLERANCE)
-        found.append(MeniscusCoupling(film, problem.boundary.wraps, friction or Coulomb(0.0), tolerance))
-    if friction is not None and friction.couples:
+        dry = friction if isinstance(friction, Coulomb) else Coulomb(0.0)
+        found.append(MeniscusCoupling(film, problem.boundary.wraps, dry, tolerance))
+    threads = getattr(operator.engine, "threads", None)
+    if sticks:
+        tolerance = tolerances.get("stick_slip", STICK_SLIP_TOLERANCE)
+        found.append(StickSlipCoupling.prepared(problem, tolerance, threads))
+    elif isinstance(friction, Coulomb) and friction.couples:
         tolerance, stiffest = tolerances.get("sliding", SLIDING_TOLERANCE), float(operator.kernel.max())
-        threads = getattr(operator.engine, "threads", None)
         found.append(SlidingCoupling.prepared(problem, friction, stiffest, tolerance, threads))
     return tuple(found)
 

@@ -6,6 +6,7 @@ from .errors import InputError
 
 REFERENCES = {
     "Abbott1933": "Abbott, E. J., Firestone, F. A. (1933). Specifying surface quality: a method based on accurate measurement and comparison. Mechanical Engineering 55, 569-572.",
+    "Alart1991": "Alart, P., Curnier, A. (1991). A mixed formulation for frictional contact problems prone to Newton like solution methods. Computer Methods in Applied Mechanics and Engineering 92, 353-375.",
     "Almqvist2007": "Almqvist, A., Sahlin, F., Larsson, R., Glavatskih, S. (2007). On the dry elasto-plastic contact of nominally flat surfaces. Tribology International 40, 574-579.",
     "Anderson1965": "Anderson, D. G. (1965). Iterative procedures for nonlinear integral equations. Journal of the ACM 12, 547-560.",
     "Ausloos1985": "Ausloos, M., Berman, D. H. (1985). A multivariate Weierstrass-Mandelbrot function. Proceedings of the Royal Society A 400, 331-350.",
@@ -31,6 +32,7 @@ REFERENCES = {
     "Ciavarella2001": "Ciavarella, M., Decuzzi, P. (2001). The state of stress induced by the plane frictionless cylindrical contact. I. The case of elastic similarity. International Journal of Solids and Structures 38, 4507-4523.",
     "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",
     "Cottle1992": "Cottle, R. W., Pang, J.-S., Stone, R. E. (1992). The Linear Complementarity Problem. Academic Press, Boston.",
+    "DeSaxce1998": "De Saxce, G., Feng, Z.-Q. (1998). The bipotential method: a constructive approach to design the complete contact law with friction and improved numerical algorithms. Mathematical and Computer Modelling 28, 225-245.",
     "Derjaguin1975": "Derjaguin, B. V., Muller, V. M., Toporov, Y. P. (1975). Effect of contact deformations on the adhesion of particles. Journal of Colloid and Interface Science 53, 314-326.",
     "Dietrich1997": "Dietrich, C. R., Newsam, G. N. (1997). Fast and exact simulation of stationary Gaussian processes through circulant embedding of the covariance matrix. SIAM Journal on Scientific Computing 18, 1088-1107.",
     "Dundurs1969": "Dundurs, J. (1969). Discussion of Edge-bonded dissimilar orthogonal elastic wedges under normal and shear loading. Journal of Applied Mechanics 36, 650-652.",
@@ -87,6 +89,7 @@ REFERENCES = {
     "OSullivan1988": "O'Sullivan, T. C., King, R. B. (1988). Sliding contact stress field due to a spherical indenter on a layered elastic half-space. Journal of Tribology 110, 235-240.",
     "Oliver1992": "Oliver, W. C., Pharr, G. M. (1992). An improved technique for determining hardness and elastic modulus using load and displacement sensing indentation experiments. Journal of Materials Research 7, 1564-1583.",
     "Onions1973": "Onions, R. A., Archard, J. F. (1973). The contact of surfaces having a random structure. Journal of Physics D 6, 289-304.",
+    "Panagiotopoulos1975": "Panagiotopoulos, P. D. (1975). A nonlinear programming approach to the unilateral contact- and friction-boundary value problem in the theory of elasticity. Ingenieur-Archiv 44, 421-432.",
     "Pearson1895": "Pearson, K. (1895). Contributions to the mathematical theory of evolution. II. Skew variation in homogeneous material. Philosophical Transactions of the Royal Society A 186, 343-414.",
     "Pearson1916": "Pearson, K. (1916). Mathematical contributions to the theory of evolution. XIX. Second supplement to a memoir on skew variation. Philosophical Transactions of the Royal Society A 216, 429-457.",
     "Peng2001": "Peng, W. (2001). Contact mechanics of multilayered rough surfaces in tribology. Dissertation, Ohio State University.",

@@ -445,8 +445,8 @@ def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str 
         stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
         stored = {name: rebuild(value) for name, value in json.loads(numbers).items()}
         found["menisci"] = Menisci(problem.film, stands, **stored)
-    if problem.friction is not None and LIFT.name in arrays:
-        friction = problem.friction
+    friction = problem.friction
+    if isinstance(friction, Coulomb) and LIFT.name in arrays:
         found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
     return found
 

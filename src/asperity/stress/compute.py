@@ -72,10 +72,7 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
             "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, tractions), but is of "
             f"type {type(result).__name__}."
         )
-    if friction is None:
-        own = getattr(result.problem, "friction", None)
-        friction, direction = (0.0, 0.0) if own is None else (own.coefficient, own.direction)
-    shear = _shear(friction, direction)
+    shear = _own_shear(result) if friction is None else _shear(friction, direction)
     if of == "counter_body":
         if isinstance(shear, Sliding):
             shear = Sliding(shear.coefficient, shear.direction + math.pi)
@@ -83,6 +80,19 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
             shear = ShearTraction(-shear.x, -shear.y)
     grid, boundary = result.problem.grid, result.problem.boundary
     return Tractions(grid, result.pressure, shear, boundary.name, getattr(boundary, "datum", None))
+
+
+def _own_shear(result: Loaded) -> Shear:
+    """Shear traction on the body that the result of a contact brings itself: found with stick and slip, or that of gross sliding."""
+    found, own = getattr(result, "stick_slip", None), getattr(result.problem, "friction", None)
+    if found is not None:
+        return ShearTraction(found.traction[0], found.traction[1])
+    if own is None or not hasattr(own, "coefficient"):
+        return Sliding(0.0)
+    if isinstance(own.coefficient, np.ndarray):
+        along = own.coefficient * result.pressure
+        return ShearTraction(along * math.cos(own.direction), along * math.sin(own.direction))
+    return Sliding(own.coefficient, own.direction)
 
 
 def stress(

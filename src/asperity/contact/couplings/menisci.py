@@ -222,7 +222,7 @@ class MeniscusCoupling(Coupling):
             wetting=note.found,
             external_force=contact.force - note.force if external is None else external,
             meniscus_force=note.force,
-            dry_friction=self.friction.coefficient,
+            dry_friction=self.friction.largest,
             viscous_force=viscous_force(contact.gap, grid, note.found, self.film, self.friction.speed),
             feedback=feedback,
         )

@@ -15,6 +15,7 @@ from ...core.errors import NoSolutionError
 from ..operators.convolution import Operator
 from ..problem import Control, Force, MeanPressure, Unloaded, mean_pressure
 from ..solvers.protocol import ContactQP, Solution, level_of
+from ..tangential import Tangential
 
 Memory: TypeAlias = Mapping[str, RealArray]
 """Memory of a coupling from one step to the next, by name; numbers are 0-d arrays."""
@@ -40,6 +41,8 @@ class Posed:
         Pressure (nx, ny) in Pa to start from; None where nothing is known.
     earlier
         That of the load before ``start`` on the same leg, beyond which both are extrapolated; None where there is none.
+    tangential
+        What is prescribed along the surfaces; None where that is as in the step before.
     """
 
     operator: Operator
@@ -49,6 +52,7 @@ class Posed:
     height_scale: float
     start: RealArray | None = None
     earlier: RealArray | None = None
+    tangential: Tangential | None = None
 
     @cached_property
     def top(self) -> float:

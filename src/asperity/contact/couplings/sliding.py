@@ -13,19 +13,15 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from ...core.arrays import ComplexArray, RealArray
-from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count, wrapped
-from ...solids.compliance.tensor import coupling_influence, coupling_strips, surface_tensor
-from ..boundary import Free, Periodic
+from ...core.arrays import RealArray
+from ...core.spectral import thread_count
 from ..laws import Coulomb
+from ..operators.tangential import NO_COUPLING, CouplingKernel
 from ..problem import ContactProblem
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
 TOLERANCE = 1e-6
 """Relative L2 change of the displacement by shear that does not count."""
-
-_NOTHING = 1e-11
-"""Displacement by shear over that by pressure which is rounding: equal bodies, or an incompressible one on a rigid one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +31,12 @@ class GrossSliding:
     Attributes
     ----------
     friction, direction
-        Coefficient μ, and angle in rad of the shear traction on ``body`` from +x towards +y.
+        Coefficient μ (number or map), and angle in rad of the shear traction on ``body`` from +x towards +y.
     shear_displacement
         Normal displacement (nx, ny) in m caused by the shear traction alone.
     """
 
-    friction: float
+    friction: float | RealArray
     direction: float
     shear_displacement: RealArray
 
@@ -53,24 +49,10 @@ class ShearKernel:
     """
 
     def __init__(self, problem: ContactProblem, ratios: tuple[float, float], *, threads: int | None = None) -> None:
-        grid, (kx, ky) = problem.grid, ratios
-        threads = thread_count(threads)
-        self._transform: RealTransform | PaddedTransform
-        self._kernel: ComplexArray
-        if isinstance(problem.boundary, Periodic):
-            tensor = surface_tensor(grid, problem.body, problem.counter_body)
-            self._kernel = -1j * (kx * tensor.xz + ky * tensor.yz)  # C_zx = -C_xz
-            self._transform = RealTransform(grid.shape, threads)
-        else:
-            bodies = problem.body, problem.counter_body
-            padded = fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1)
-            if isinstance(problem.boundary, Free):
-                xz, yz = coupling_influence(grid, *bodies)  # C_zx = -C_xz
-                kernel = -kx * wrapped(xz, padded, odd_x=True) - ky * wrapped(yz, padded, odd_y=True)
-            else:
-                kernel = kx * wrapped(coupling_strips(grid, *bodies), padded, odd_x=True)
-            self._kernel = RealTransform(padded, threads).forward(kernel)
-            self._transform = PaddedTransform(grid.shape, padded, threads)
+        bodies = problem.body, problem.counter_body
+        coupling = CouplingKernel.of(problem.grid, bodies, problem.boundary, thread_count(threads))
+        self._transform = coupling.transform
+        self._kernel = 1j * (ratios[0] * coupling.zx + ratios[1] * coupling.zy)
 
     @property
     def largest(self) -> float:
@@ -101,14 +83,20 @@ class SlidingCoupling(Coupling):
         cls, problem: ContactProblem, friction: Coulomb, stiffest: float, tolerance: float, threads: int | None
     ) -> Self:
         """Coupling of the bodies of ``problem``; passive where it is nothing beside ``stiffest``, the largest normal compliance (m/Pa)."""
-        mu, angle = friction.coefficient, friction.direction
+        mu, angle = friction.largest, friction.direction
         kernel = ShearKernel(problem, (mu * math.cos(angle), mu * math.sin(angle)), threads=threads)
-        return cls(friction, kernel, kernel.largest > _NOTHING * stiffest, tolerance)
+        return cls(friction, kernel, kernel.largest > NO_COUPLING * stiffest, tolerance)
+
+    def _displacement(self, pressure: RealArray) -> RealArray:
+        """Normal displacement (nx, ny) in m under friction times ``pressure``; the kernel holds the largest coefficient."""
+        if isinstance(self.friction.coefficient, np.ndarray):
+            pressure = pressure * (self.friction.coefficient / self.friction.largest)
+        return self.kernel.displacement(pressure)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The displacement under the pressure to start from."""
         start = posed.start if self.feedback else None
-        x = np.zeros(posed.profile.shape) if start is None else self.kernel.displacement(start)
+        x = np.zeros(posed.profile.shape) if start is None else self._displacement(start)
         return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
 
     def share(self, exchange: Exchange) -> Share:
@@ -119,7 +107,7 @@ class SlidingCoupling(Coupling):
         """The displacement under the shear of ``contact``."""
         if not self.feedback:
             return exchange
-        target = self.kernel.displacement(contact.pressure)
+        target = self._displacement(contact.pressure)
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)

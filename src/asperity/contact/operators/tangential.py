@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...core.arrays import RealArray
+from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
 from ...core.engine.cpu import TensorConvolution
 from ...core.grid import Grid
@@ -29,7 +29,7 @@ from ...solids.layers import Body, Layered, deformable
 from ..boundary import Boundary, Free, FreeLine, Periodic
 from .convolution import Octaves, coarse_grid
 
-_NOTHING = 1e-11
+NO_COUPLING = 1e-11
 """Coupling over compliance that is rounding: equal bodies, or an incompressible one on a rigid one."""
 
 
@@ -80,10 +80,9 @@ class CouplingKernel:
             self.transform.backward(kernel * spectrum, component)
         return out
 
-    def _forward(self, field: RealArray) -> RealArray:
+    def _forward(self, field: RealArray) -> ComplexArray:
         values = np.ascontiguousarray(field, dtype=np.float64)
-        spectrum: RealArray = self.transform.forward(values, np.empty(self.transform.spectrum_shape, np.complex128))  # type: ignore[assignment]
-        return spectrum
+        return self.transform.forward(values, np.empty(self.transform.spectrum_shape, np.complex128))
 
 
 def padded_shape(grid: Grid) -> tuple[int, int]:
@@ -169,7 +168,7 @@ class TangentialOperator:
     def coupled(self) -> bool:
         """Whether shear moves the surfaces up and down, and pressure moves them sideways."""
         largest = max(float(np.abs(kernel).max()) for kernel in (self.coupling.zx, self.coupling.zy))
-        return largest > _NOTHING * self.largest
+        return largest > NO_COUPLING * self.largest
 
     @cached_property
     def largest(self) -> float:
@@ -206,11 +205,12 @@ class TangentialOperator:
             fine, (rows, columns) = self.grid.shape[0], grid.shape
             row = np.arange(rows)
             of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
-            entries = tuple(entry[of_wave, : columns // 2 + 1].copy() for entry in self._entries)
+            xx, yy, xy = (entry[of_wave, : columns // 2 + 1].copy() for entry in self._entries)
             if rows % 2 == 0:
-                entries[2][rows // 2] = 0.0  # odd in x: no sign on the Nyquist line
+                xy[rows // 2] = 0.0  # odd in x: no sign on the Nyquist line
             if columns % 2 == 0:
-                entries[2][:, columns // 2] = 0.0
+                xy[:, columns // 2] = 0.0
+            entries = xx, yy, xy
         return TangentialOperator(
             grid, self.bodies, self.boundary, engine=self.engine, entries=entries, octaves=self.octaves
         )

@@ -202,7 +202,7 @@ def bound(cap: RealArray | None) -> RealArray:
 # Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
 
 
-class NestedCells:
+class CpuCells:
     """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
 
     def __init__(
@@ -231,9 +231,10 @@ class NestedCells:
     def solve_yielding(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
         """Inverse times ``r`` where each point deflects under its own load by 1 / ``conductance`` (in (0, 1]) instead of by one."""
         self._sweep("cell_deflections", free, conductance * r, self.g)
-        return conductance * np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
+        return np.asarray(conductance * self.at_points(free, r, r, np.empty_like(r)).vector)
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
+        """Inverse times ``r``, see ``protocol.Cells``."""
         self._sweep("cell_deflections", free, r, self.g)
         return self.at_points(free, r, other, out)
 
@@ -288,7 +289,12 @@ class _CpuCorrectedCells:
     """Inverse of nested cells with coarse correction (see ``cell_kernels``), a hierarchy and a product per thread."""
 
     def __init__(
-        self, blocks: Blocks, cells: NestedCells, coarse: CoarseCompliance, products: tuple[Convolution, ...], dtype: str
+        self,
+        blocks: Blocks,
+        cells: CpuCells,
+        coarse: CoarseCompliance,
+        products: tuple[Convolution, ...],
+        dtype: str,
     ) -> None:
         self._blocks = blocks
         self._cells = cells
@@ -378,11 +384,13 @@ class CpuEngine:
     def points(self, shape: tuple[int, int], index: Any, dtype: str) -> FreeSet:
         """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
         wide = shape[0] * (shape[1] + ROW_PAD) >= 2**31
-        return _CpuFreeSet(self.blocks, shape, index.astype(np.int64 if wide else np.int32), np.zeros(index.size, dtype), 0)
+        return _CpuFreeSet(
+            self.blocks, shape, index.astype(np.int64 if wide else np.int32), np.zeros(index.size, dtype), 0
+        )
 
-    def nested_cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> NestedCells:
+    def nested_cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> CpuCells:
         """Nested cells whose points may have a compliance of their own."""
-        return NestedCells(self.blocks, shape, hierarchies, dtype)
+        return CpuCells(self.blocks, shape, hierarchies, dtype)
 
     def cells(
         self,
@@ -392,7 +400,7 @@ class CpuEngine:
         dtype: str,
     ) -> Cells:
         """Nested cells. Two hierarchies are swept side by side, so their transforms share the threads."""
-        cells = NestedCells(self.blocks, shape, hierarchies, dtype)
+        cells = CpuCells(self.blocks, shape, hierarchies, dtype)
         if coarse is None:
             return cells
         threads = max(1, self.threads // len(hierarchies))

@@ -191,9 +191,7 @@ def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
 # Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
 
 
-def shear_strips(
-    grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum: float
-) -> tuple[RealArray, RealArray]:
+def shear_strips(grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum: float) -> tuple[RealArray, RealArray]:
     """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1).
 
     At offsets (0…nx-1) dx from a strip of width dx; those of both bodies add up. A half-space gives them relative to the distance
@@ -206,10 +204,9 @@ def shear_strips(
     for solid, _ in deformable(body, counter_body):
         _require_bonded(solid)
         known = _samples(grid, solid)
-        for total, component in ((along, lambda c: c.LL), (across, lambda c: c.T)):
-            total += strip_coefficients(line_kernel(component(known.values), known.limits(component)), grid, datum)
+        along += strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
+        across += strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
     return along, across
-
 
 
 def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> RealArray:

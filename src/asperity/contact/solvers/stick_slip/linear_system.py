@@ -17,7 +17,7 @@ import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ....core.engine import FreeSet
-from ....core.engine.cpu import NestedCells
+from ....core.engine.cpu import CpuCells
 from ...operators.tangential import TangentialOperator
 from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
 from .problem import Points, Sets
@@ -44,7 +44,7 @@ class Workspace:
     points: Points
     free: FreeSet
     fields: Fields
-    cells: tuple[NestedCells, NestedCells]
+    cells: tuple[CpuCells, CpuCells]
     pixel: float
     dtype: str
 
@@ -96,7 +96,7 @@ class NewtonSystem:
     def of(cls, work: Workspace, sets: Sets, *, zero_sum: bool) -> NewtonSystem:
         """System at ``sets``; if ``zero_sum`` steps sum to zero, and residuals count up to a uniform shift."""
         kind, slip = work.dtype, sets.slip
-        tangent = np.where(slip, np.stack([-sets.normal[1], sets.normal[0]]), 0.0)
+        tangent = sets.tangent
         bound = np.where(slip, work.points.bound, 1.0)
         curvature = np.where(slip, sets.outward / bound / work.pixel, 0.0)
         _, vectors = np.linalg.eigh(tangent @ tangent.T)

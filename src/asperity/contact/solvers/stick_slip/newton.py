@@ -10,7 +10,7 @@ gradient. First guesses come from coarser grids.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ....core import require
 from ....core.arrays import RealArray
 from ...operators.convolution import restricted
 from .linear_system import NewtonSystem, Workspace
-from .problem import Points, Sets, TangentialQP, TangentialSolution, best_shift, ended, relative_gap
+from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended
 
 _SETTLED = 0.003
 """Share of points that change between stick and slip below which the sets count as nearly settled."""
@@ -36,7 +36,16 @@ large where bounds are."""
 _FINEST = 1e-4
 """Reduction at most in one system, which is in single precision."""
 
+_REFRESH = 1e-4
+"""Fall of the error since the displacement was computed from scratch after which it is again: updates are in single precision."""
+
+_SLOW = 0.5
+"""Error over the lowest so far above which rounding of the updates may be the reason."""
+
 _HALVINGS = 5
+
+_ROUNDING = 4.0 * np.finfo(float).eps
+"""Rise of the energy, over the work of the slip, that is rounding of the sums."""
 
 COARSEST = 32
 """Points per side at which there is no coarser grid."""
@@ -52,7 +61,7 @@ class StickSlipNewton:
     Parameters
     ----------
     tolerance
-        Largest duality gap over elastic energy and work of the slip.
+        Largest ``Deviation.error``.
     max_iterations
         Newton steps at most.
     precision
@@ -79,10 +88,8 @@ class StickSlipNewton:
         """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa; by default from coarser grids."""
         points, pairs = Points.of(qp), 0.0
         if not len(points.index):
-            nothing = np.zeros((2, 0))
-            return ended(
-                qp, points, (nothing, nothing, np.zeros(2)), error=0.0, tolerance=1.0, iterations=0, pairs=0.0
-            )
+            nothing = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(2)
+            return ended(qp, points, nothing, Deviation(0.0, 0.0), tolerance=1.0, work=(0, 0.0))
         if start is None:
             start, pairs = self._from_coarser(qp)
         iteration = _Iteration(qp, points, start, self)
@@ -102,6 +109,14 @@ class StickSlipNewton:
         fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
         share = bound.size / qp.bound.size
         return fine * qp.bound, found.pairs * share
+
+
+class _Slip(NamedTuple):
+    """Uniform ``shift`` (2,) in m, slip ``s`` (2, n) in m, and their ``deviation`` from the law."""
+
+    shift: RealArray
+    s: RealArray
+    deviation: Deviation
 
 
 class _Iteration:
@@ -132,51 +147,52 @@ class _Iteration:
     def _compute(self) -> None:
         """Displacement of the traction from scratch, in double precision."""
         operator = self.qp.operator
-        self.u = self.points.gathered(
-            operator.displacement(self.points.scattered(self.q, self.qp.bound.shape))
-        )
+        self.u = self.points.gathered(operator.displacement(self.points.scattered(self.q, self.qp.bound.shape)))
         self.pairs += operator.pairs_per_application
         self.exact = True
 
     def solved(self) -> TangentialSolution:
         """Steps until the error is reached by a displacement computed from scratch."""
         before: Sets | None = None
-        error = np.inf
+        error = computed_at = lowest = np.inf
         for count in range(self.settings.max_iterations + 1):
-            shift, s = self._slip()
-            error = relative_gap(self.points, self.q, self.u, s)
-            if error <= self.settings.tolerance and not self.exact:
+            shift, s, found = self._slip()
+            error = found.error
+            reached = error <= self.settings.tolerance
+            if not self.exact and (reached or error < _REFRESH * computed_at or error > _SLOW * lowest):
                 self._compute()
-                shift, s = self._slip()
-                error = relative_gap(self.points, self.q, self.u, s)
+                shift, s, found = self._slip()
+                error = computed_at = found.error
+            lowest = min(lowest, error)
             if error <= self.settings.tolerance or count == self.settings.max_iterations:
                 break
             sets = Sets.of(self.points, self.q, s)
             changed = len(sets.slip) if before is None else np.count_nonzero(sets.slip != before.slip)
             before = sets
-            self._step(sets, s, settled=changed <= _SETTLED * len(sets.slip), error=error)
+            self._step(sets, s, settled=bool(changed <= _SETTLED * len(sets.slip)), error=error)
         return ended(
             self.qp,
             self.points,
             (self.q, s, shift),
-            error=error,
+            found,
             tolerance=self.settings.tolerance,
-            iterations=count,
-            pairs=self.pairs,
+            work=(count, self.pairs),
         )
 
-    def _slip(self) -> tuple[RealArray, RealArray]:
-        """Shift (2,) that is sought, and slip (2, n)."""
+    def _slip(self) -> _Slip:
+        """Shift that is sought, slip, and how far they are from the law."""
         residual = self.points.target - self.u
         shift = np.zeros(2) if self.total is None else best_shift(self.points, self.q, residual)
-        return shift, residual + shift[:, None]
+        s = residual + shift[:, None]
+        return _Slip(shift, s, Deviation.of(self.points, self.q, self.u, s))
 
     def _step(self, sets: Sets, s: RealArray, *, settled: bool, error: float) -> None:
         """One step of Newton's method."""
         work = self.work
         system = NewtonSystem.of(work, sets, zero_sum=self.total is not None)
-        unit = float(np.abs(s).max()) or 1.0
-        r = system.free_part((s / unit).astype(work.dtype))
+        sought = sets.free_part(s)  # in double: along the traction slip is large where points slip
+        unit = float(np.abs(sought).max()) or 1.0
+        r = (sought / unit).astype(work.dtype)
         reduction, most = _REDUCTION, _UNSETTLED_STEPS
         if settled:
             wanted = _MARGIN * self.settings.tolerance / error
@@ -195,9 +211,8 @@ class _Iteration:
     def _moved(self, sets: Sets, d: RealArray) -> RealArray:
         """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds."""
         bound = np.where(sets.slip, self.points.bound, 1.0)
-        tangent = np.stack([-sets.normal[1], sets.normal[0]])
-        angle = np.einsum("ij,ij->j", d, tangent) / bound
-        turned = bound * (sets.normal * np.cos(angle) + tangent * np.sin(angle))
+        angle = np.einsum("ij,ij->j", d, sets.tangent) / bound
+        turned = bound * (sets.normal * np.cos(angle) + sets.tangent * np.sin(angle))
         return self._restored(np.where(sets.slip, turned, self.points.projected(self.q + d)))
 
     def _restored(self, traction: RealArray) -> RealArray:
@@ -212,7 +227,8 @@ class _Iteration:
         response = self.work.product((step / unit).astype(self.work.dtype)).astype(float) * unit
         self.pairs += self.qp.operator.pairs_per_application
         rise = -float(np.einsum("ij,ij->", s, step)) + 0.5 * float(np.einsum("ij,ij->", step, response))
-        if rise > 0.0 and not force:
+        work = float(np.sum(np.abs(s * traction) + np.abs(s * self.q) + np.abs(self.u * step)))
+        if rise > _ROUNDING * work and not force:
             return False
         self.q, self.u, self.exact = traction, self.u + response, False
         return True

@@ -44,6 +44,32 @@ class TangentialQP:
     mean_traction: RealArray | None = None
 
 
+@dataclass(frozen=True)
+class Deviation:
+    """How far an iterate is from the friction law, over the sum of its elastic energy and the work of its slip.
+
+    ``gap`` is the duality gap Σ (B |s| - q·s), a bound on the error of the energy; ``error`` is Σ |B s - |s| q|, which is never
+    smaller and of first order in the angle between slip and traction as well, where the gap is of second.
+    """
+
+    gap: float
+    error: float
+
+    @classmethod
+    def of(cls, points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> Deviation:
+        """Deviation of ``traction`` (2, n) with its ``displacement`` and slip ``s``.
+
+        Where the bound is infinite the residual counts times the size of the traction.
+        """
+        size, finite = np.hypot(*s), np.isfinite(points.bound)
+        strength = np.hypot(*traction)
+        limit = np.where(finite, points.bound, strength + strength.mean())
+        gap = float(np.sum(limit * size - np.einsum("ij,ij->j", traction, s)))
+        error = float(np.sum(np.hypot(*(limit * s - size * traction))))
+        scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float((limit * size)[finite].sum())
+        return cls(*(value / scale if scale > 0.0 else 0.0 if value == 0.0 else np.inf for value in (gap, error)))
+
+
 @dataclass(frozen=True, eq=False)
 class TangentialSolution:
     """Solution of a ``TangentialQP``.
@@ -56,8 +82,8 @@ class TangentialSolution:
         Uniform shift (2,) in m that was sought; zero where the shift was prescribed.
     slip
         Slip (2, nx, ny) in m of the counter body over the body in this step; zero outside the contact.
-    error
-        Duality gap over elastic energy and work of the slip, see ``relative_gap``.
+    deviation
+        How far it is from the friction law.
     status
         How the solver ended.
     iterations, pairs
@@ -67,7 +93,7 @@ class TangentialSolution:
     traction: RealArray
     shift: RealArray
     slip: RealArray
-    error: float
+    deviation: Deviation
     status: Status
     iterations: int
     pairs: float
@@ -75,7 +101,13 @@ class TangentialSolution:
     @property
     def slipping(self) -> BoolArray:
         """(nx, ny), True where the surfaces slip in this step."""
-        return np.any(self.slip != 0.0, axis=0)
+        return np.asarray(np.any(self.slip != 0.0, axis=0))
+
+    def at_bound(self, bound: RealArray) -> RealArray:
+        """The traction (2, nx, ny) with that of slipping points at another ``bound`` (nx, ny)."""
+        size = np.hypot(*self.traction)
+        turned = self.traction * (bound / np.where(size > 0.0, size, 1.0))
+        return np.where(self.slipping, turned, self.traction)
 
 
 class TangentialSolver(Protocol):
@@ -158,6 +190,16 @@ class Sets:
         slip = at & (outward > 0.0)
         return cls(slip, normal, np.where(slip, outward, 0.0))
 
+    @property
+    def tangent(self) -> RealArray:
+        """Unit tangent (2, n) of the circle at slipping points, zero elsewhere."""
+        return np.where(self.slip, np.stack([-self.normal[1], self.normal[0]]), 0.0)
+
+    def free_part(self, values: RealArray) -> RealArray:
+        """Part of ``values`` (2, n) along which the traction may change: all where it sticks, along the tangent where it slips."""
+        tangent = self.tangent
+        return np.where(self.slip, tangent * np.einsum("ij,ij->j", values, tangent), values)
+
 
 def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
     """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound."""
@@ -168,52 +210,33 @@ def best_shift(points: Points, traction: RealArray, residual: RealArray) -> Real
     return np.asarray(-(residual * weight).sum(axis=1) / weight.sum())
 
 
-def relative_gap(points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> float:
-    """Duality gap Σ (B |s| - q·s) over the sum of elastic energy and work of the slip; a bound on the error of the energy.
-
-    Each term is >= 0, and zero exactly where the friction law holds. Where the bound is infinite the residual counts times
-    the size of the traction.
-    """
-    size = np.hypot(*s)
-    finite = np.isfinite(points.bound)
-    limit = np.where(finite, points.bound, 0.0)
-    work = limit * size
-    along = np.einsum("ij,ij->j", traction, s)
-    gap = float(np.sum(np.where(finite, work - along, 0.0)))
-    if not finite.all():
-        strength = np.hypot(*traction)
-        gap += float(np.sum(np.where(finite, 0.0, (strength + strength.mean()) * size)))
-    scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float(work.sum())
-    return gap / scale if scale > 0.0 else 0.0 if gap == 0.0 else np.inf
-
-
 def ended(
     qp: TangentialQP,
     points: Points,
     iterate: tuple[RealArray, RealArray, RealArray],
+    deviation: Deviation,
     *,
-    error: float,
     tolerance: float,
-    iterations: int,
-    pairs: float,
-    stagnated: bool = False,
+    work: tuple[int, float],
 ) -> TangentialSolution:
-    """Solution at the ``iterate``: traction (2, n), slip (2, n), shift (2,)."""
-    traction, s, shift = iterate
+    """Solution at the ``iterate``: traction (2, n), slip (2, n), shift (2,); ``work`` are its iterations and FFT pairs."""
+    (traction, s, shift), (iterations, pairs) = iterate, work
     shape = qp.bound.shape
     sets = Sets.of(points, traction, s)
+    error = deviation.error
     if error <= tolerance:
         status = Status(Outcome.CONVERGED, f"Stick and slip settled to {error:.1e} in {iterations} iterations.")
     else:
-        outcome = Outcome.STAGNATED if stagnated else Outcome.ITERATION_LIMIT
         message = f"Stick and slip are not settled: error {error:.1e} after {iterations} iterations."
-        status = Status(outcome, message, "Take smaller steps of shift or force, or a larger tolerance.")
+        status = Status(
+            Outcome.ITERATION_LIMIT, message, "Take smaller steps of shift or force, or a larger tolerance."
+        )
     slip = sets.normal * sets.outward
     return TangentialSolution(
         traction=points.scattered(traction, shape),
         shift=shift,
         slip=points.scattered(slip, shape),
-        error=error,
+        deviation=deviation,
         status=status,
         iterations=iterations,
         pairs=pairs,

@@ -1,0 +1,356 @@
+"""Stick and slip as a coupling: shear tractions within the bound of a friction law, which lift the surfaces and so change the pressure.
+
+For the pressure of a round the tangential problem is a convex programme (``solvers.stick_slip``); its traction lifts the surfaces of
+unlike bodies, which changes the pressure (Panagiotopoulos 1975). The alternation reduces the change by about friction times Dundurs' β
+a round; extrapolation does the rest. Where bodies do not couple, one tangential solve follows the contact.
+
+A step is implicit: the traction at its end is along the slip of the whole step (Alart & Curnier 1991), so that paths must be
+sampled finely enough that slip does not turn or reverse within a step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from ...core.arrays import BoolArray, RealArray
+from ...core.engine import CpuEngine
+from ...core.errors import InputError, NoSolutionError
+from ...core.grid import Grid
+from ...core.status import Outcome, Status
+from ..laws import Coulomb, FrictionLaw
+from ..operators.tangential import TangentialOperator, slips_inside
+from ..problem import ContactProblem
+from ..solvers.stick_slip.newton import StickSlipNewton
+from ..solvers.stick_slip.problem import Deviation, TangentialQP, TangentialSolution, TangentialSolver
+from ..tangential import Shift, Tangential, TangentialForce, about_centre, shift_field
+from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+TOLERANCE = 1e-6
+"""Relative change of the displacement by shear that does not count, and duality gap of the tangential problem."""
+
+_SHARE = 0.01
+"""Error of a tangential solve over the residual of the coupling: replies are that much finer than what still changes."""
+
+_LOOSEST = 1e-3
+
+_GROSS = 1.0 - 1e-9
+"""Share of the largest friction force from which on a prescribed force slides everything."""
+
+
+@dataclass(frozen=True, eq=False)
+class StickSlip:
+    """Shear and slip at the end of one step. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y components, all values SI.
+
+    Attributes
+    ----------
+    law
+        Law of friction.
+    tangential
+        What was prescribed in this step.
+    traction
+        Shear traction (2, nx, ny) on the body in Pa.
+    slip_increment, slip
+        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the history, in m.
+    tangential_displacement
+        Displacement (2, nx, ny) of the body relative to the counter body along the surface, elastic, in m.
+    shear_displacement
+        Normal displacement (nx, ny) in m by the shear traction.
+    shift_x, shift_y, twist
+        Rigid displacement (m) and rotation (rad) of the counter body since the start.
+    force_x, force_y, torque
+        Tangential force (N) and torque about the centre of the grid (N·m) on the body.
+    friction_limit
+        Largest tangential force in N that the contact bears: sum of the bounds.
+    dissipation_density
+        Energy turned into heat in this step, (nx, ny) in J/m², >= 0.
+    dissipated, total_dissipated
+        Its integral in J, and the sum over all steps.
+    tangential_energy
+        Half of shear traction times tangential displacement, J.
+    duality_gap
+        Bound on the relative error of the tangential energy for the pressure found.
+    complementarity
+        De Saxcé's residual Σ [p (g + μ|s|) - q·s] over Σ p |shift of the step|, which vanishes at solutions of the coupled problem; over the
+        work of the slip where nothing was shifted.
+    iterations, fft_pairs
+        Work of the last tangential solve.
+    status
+        How it ended.
+    """
+
+    law: FrictionLaw
+    tangential: Tangential
+    traction: RealArray
+    slip_increment: RealArray
+    slip: RealArray
+    tangential_displacement: RealArray
+    shear_displacement: RealArray
+    shift_x: float
+    shift_y: float
+    twist: float
+    force_x: float
+    force_y: float
+    torque: float
+    friction_limit: float
+    dissipation_density: RealArray
+    dissipated: float
+    total_dissipated: float
+    tangential_energy: float
+    duality_gap: float
+    complementarity: float
+    iterations: int
+    fft_pairs: float
+    status: Status
+
+    @property
+    def traction_magnitude(self) -> RealArray:
+        """Magnitude of the shear traction, (nx, ny) in Pa."""
+        return np.asarray(np.hypot(*self.traction))
+
+    @property
+    def slipping(self) -> BoolArray:
+        """(nx, ny), True where the surfaces slipped in this step."""
+        return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of law and method."""
+        return ("Alart1991", "Kalker1990", "Panagiotopoulos1975")
+
+
+@dataclass(frozen=True, eq=False)
+class _Before:
+    """What a step starts from: traction, displacement along the surface, slip so far (2, nx, ny); shift (3,); work (J)."""
+
+    traction: RealArray
+    displacement: RealArray
+    slip: RealArray
+    shift: RealArray
+    total: float
+    control: Tangential
+
+
+@dataclass(frozen=True, eq=False)
+class _Note:
+    """The step's beginning, and its last tangential solution with the pressure it is for."""
+
+    before: _Before
+    solution: TangentialSolution | None = None
+    residual: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class StickSlipCoupling(Coupling):
+    """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by them."""
+
+    law: FrictionLaw
+    operator: TangentialOperator = field(repr=False)
+    solver: TangentialSolver
+    feedback: bool = True
+    name: ClassVar[str] = "stick_slip"
+    remedy: ClassVar[str] = "Take smaller steps, tighten the solver's tolerance, or lower the friction coefficient."
+
+    @classmethod
+    def prepared(cls, problem: ContactProblem, tolerance: float, threads: int | None) -> Self:
+        """Coupling of the bodies of ``problem``, passive where shear does not lift them or is not to.
+
+        InputError if an interface inside a periodic body carries no shear.
+        """
+        law, bodies = problem.friction, (problem.body, problem.counter_body)
+        assert law is not None
+        if slips_inside(bodies):
+            raise InputError(
+                "layers of a body with stick and slip must be bonded, but one is Frictionless(): nothing would hold it. Use Bonded()."
+            )
+        operator = TangentialOperator(problem.grid, bodies, problem.boundary, engine=CpuEngine(threads))
+        lifts = operator.coupled and not (isinstance(law, Coulomb) and not law.coupled)
+        return cls(law, operator, StickSlipNewton(tolerance), lifts)
+
+    @property
+    def tolerance(self) -> float:
+        """Residual at which it is settled."""
+        return self.solver.tolerance
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """What is remembered, with the displacement by the last shear traction."""
+        before = self._before(posed, memory)
+        x = self.operator.lift(before.traction) if self.feedback else np.zeros(posed.profile.shape)
+        return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance, note=_Note(before))
+
+    def _before(self, posed: Posed, memory: Memory) -> _Before:
+        zero = np.zeros((2, *posed.profile.shape))
+        if not memory:
+            control = posed.tangential or Shift()
+            self._check(control, posed)
+            return _Before(zero, zero, zero, np.zeros(3), 0.0, control)
+        traction = np.stack([memory["traction_x"], memory["traction_y"]])
+        slip = np.stack([memory["slip_x"], memory["slip_y"]])
+        displacement = self.operator.displacement(traction)
+        if posed.start is not None:
+            displacement += self.operator.drawn(posed.start)
+        shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
+        kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
+        control = posed.tangential or kept
+        self._check(control, posed)
+        return _Before(traction, displacement, slip, shift, float(memory["dissipated"]), control)
+
+    def _check(self, control: Tangential, posed: Posed) -> None:
+        if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
+            raise InputError(
+                f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
+            )
+
+    def share(self, exchange: Exchange) -> Share:
+        """The displacement as a lift."""
+        return Share(lift=exchange.x)
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """The displacement by the shear traction that ``contact`` bears."""
+        if not self.feedback:
+            return exchange
+        note: _Note = exchange.note
+        loose = replace_tolerance(self.solver, max(self.tolerance, min(_LOOSEST, _SHARE * note.residual)))
+        solution = self._solved(note, contact, loose)
+        target = self.operator.lift(solution.traction)
+        size = float(np.linalg.norm(target))
+        change = float(np.linalg.norm(target - exchange.x))
+        residual = change / size if size else change
+        note = replace(note, solution=solution, residual=residual)
+        return replace(exchange, target=target, residual=residual, scale=size or 1.0, note=note)
+
+    def _solved(self, note: _Note, contact: Contact, solver: TangentialSolver) -> TangentialSolution:
+        """Tangential problem under the pressure of ``contact``, from the last solution of this step or the step before."""
+        before, grid = note.before, self.operator.grid
+        pressure = np.asarray(contact.pressure, dtype=float)
+        bound = self.law.bound(pressure)
+        target = before.displacement - self.operator.drawn(pressure)
+        start = before.traction if note.solution is None else note.solution.at_bound(bound)
+        warm = start if start.any() else None
+        if isinstance(before.control, Shift):
+            target += shift_field(grid, _vector(before.control) - before.shift)
+            return solver.solve(TangentialQP(self.operator, bound, target), warm)
+        force = np.array([before.control.x, before.control.y])
+        most = float(bound.sum()) * grid.pixel_area
+        size = float(np.hypot(*force))
+        if size >= _GROSS * most:
+            return self._gross(bound, target, force / size if size else force)
+        mean = force / grid.area
+        return solver.solve(TangentialQP(self.operator, bound, target, mean), warm)
+
+    def _gross(self, bound: RealArray, target: RealArray, direction: RealArray) -> TangentialSolution:
+        """Everything slides along ``direction``, by the least shift that slides the last point."""
+        traction = bound * direction[:, None, None]
+        residual = target - self.operator.displacement(traction)
+        contact = bound > 0.0
+        along = np.tensordot(direction, residual, axes=1)
+        least = float(np.max(-along[contact], initial=0.0))
+        across = np.array([-direction[1], direction[0]])
+        sideways = float(np.tensordot(across, residual, axes=1)[contact].mean()) if contact.any() else 0.0
+        shift = least * direction - sideways * across
+        slip = np.where(contact, (along + least) * direction[:, None, None], 0.0)
+        return TangentialSolution(
+            traction, shift, slip, Deviation(0.0, 0.0), _SLIDES, 0, self.operator.pairs_per_application
+        )
+
+    def settled(self, exchange: Exchange) -> str:
+        """That the displacement is."""
+        return "The displacement by shear is settled"
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """The change of the displacement."""
+        return f"The normal displacement by the shear of stick and slip still changes by {exchange.residual:.1e}"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, StickSlip]:
+        """Memory of tractions, slip, shift and work; shear and slip of the step.
+
+        NoSolutionError if the prescribed force is more than friction bears.
+        """
+        note: _Note = exchange.note
+        before, grid = note.before, self.operator.grid
+        bound = self.law.bound(np.asarray(contact.pressure, dtype=float))
+        limit = float(bound.sum()) * grid.pixel_area
+        self._require_borne(before.control, limit)
+        solution = self._solved(note, contact, self.solver)
+        found = self._outcome(exchange, contact, solution, limit)
+        control = before.control
+        force = (np.nan, np.nan) if isinstance(control, Shift) else (control.x, control.y)
+        memory = {
+            "traction_x": found.traction[0],
+            "traction_y": found.traction[1],
+            "slip_x": found.slip[0],
+            "slip_y": found.slip[1],
+            "shift": np.array([found.shift_x, found.shift_y, found.twist]),
+            "force": np.array(force),
+            "dissipated": np.asarray(found.total_dissipated),
+        }
+        return memory, found
+
+    def _require_borne(self, control: Tangential, limit: float) -> None:
+        if isinstance(control, TangentialForce) and control.magnitude > limit * (2.0 - _GROSS):
+            raise NoSolutionError(
+                f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
+                f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
+                subject="tangential force",
+            )
+
+    def _outcome(self, exchange: Exchange, contact: Contact, solution: TangentialSolution, limit: float) -> StickSlip:
+        before, grid, pressure = exchange.note.before, self.operator.grid, np.asarray(contact.pressure, dtype=float)
+        control, traction = before.control, solution.traction
+        moved = _vector(control) if isinstance(control, Shift) else before.shift + np.append(solution.shift, 0.0)
+        displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
+        density = np.einsum("kij,kij->ij", traction, solution.slip)
+        dissipated = float(density.sum()) * grid.pixel_area
+        x, y = about_centre(grid)
+        return StickSlip(
+            law=self.law,
+            tangential=control,
+            traction=traction,
+            slip_increment=solution.slip,
+            slip=before.slip + solution.slip,
+            tangential_displacement=displacement,
+            shear_displacement=exchange.x,
+            shift_x=float(moved[0]),
+            shift_y=float(moved[1]),
+            twist=float(moved[2]),
+            force_x=float(traction[0].sum()) * grid.pixel_area,
+            force_y=float(traction[1].sum()) * grid.pixel_area,
+            torque=float((x * traction[1] - y * traction[0]).sum()) * grid.pixel_area,
+            friction_limit=limit,
+            dissipation_density=density,
+            dissipated=dissipated,
+            total_dissipated=before.total + dissipated,
+            tangential_energy=0.5 * float(np.einsum("kij,kij->", traction, displacement)) * grid.pixel_area,
+            duality_gap=solution.deviation.gap,
+            complementarity=_complementarity(contact, self.law.bound(pressure), solution, moved - before.shift, grid),
+            iterations=solution.iterations,
+            fft_pairs=solution.pairs,
+            status=solution.status,
+        )
+
+
+_SLIDES = Status(Outcome.CONVERGED, "All points slide.")
+
+
+def replace_tolerance(solver: TangentialSolver, tolerance: float) -> TangentialSolver:
+    """The same method with another ``tolerance``."""
+    return replace(solver, tolerance=tolerance)  # type: ignore[type-var]
+
+
+def _vector(shift: Shift) -> RealArray:
+    return np.array([shift.x, shift.y, shift.twist])
+
+
+def _complementarity(
+    contact: Contact, bound: RealArray, solution: TangentialSolution, moved: RealArray, grid: Grid
+) -> float:
+    """De Saxcé's residual of gap and slip together, see ``StickSlip``."""
+    pressure = np.asarray(contact.pressure, dtype=float)
+    size = np.hypot(*solution.slip)
+    finite = np.isfinite(bound)
+    work = np.where(finite, bound, 0.0) * size
+    residual = float((pressure * contact.gap + work).sum() - np.einsum("kij,kij->", solution.traction, solution.slip))
+    scale = max(float(pressure.sum()) * float(np.hypot(*moved[:2])), float(work.sum()))
+    return abs(residual) / scale if scale > 0.0 else 0.0
