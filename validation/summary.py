@@ -33,7 +33,7 @@ Made by `python validation/summary.py`, the last step of `make validate`. One sc
 
 ```sh
 python validation/sphere_on_layer.py     # writes validation/sphere_on_layer.md
-make validate                            # all pages (a few minutes), this page, and pictures in validation-pictures/
+make validate                            # all pages (a quarter of an hour of one core), this page, and pictures in validation-pictures/
 ```
 
 Each page states what was computed, the source of the published values ("theirs"), whether a parameter was chosen freely, and the deviations found and allowed. Where the
