@@ -15,7 +15,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.status import NoProgress, Progress
-from ..core.tensor import StressTensor
+from ..core.tensor import STRESSES, StressTensor
 from ..solids.elastic import Rigid
 from .boundaries import require_held
 from .compute import Loaded, papers, stress_planes
@@ -23,6 +23,7 @@ from .criteria import Criterion, VonMises
 from .field import InterfaceMaxima, Maxima, Peak, RegionMaxima, StressField
 from .regions import (
     DepthProfile,
+    Plane,
     Position,
     Section,
     Where,
@@ -346,7 +347,8 @@ def survey(
 ) -> StressSurvey:
     """Compute the stresses of ``request`` in the contact ``result``.
 
-    The planes are computed once for the maxima, and a second time where sections or profiles go through these.
+    Sections and profiles through the maxima are cut out of the planes of which these were found, if these take at most
+    ``MOST_KEPT`` bytes; else the planes are computed a second time.
 
     ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep sections and profiles, or
     only the maxima on the same planes; ``threads``: number of threads; ``progress``: called after each plane with the number
@@ -361,11 +363,15 @@ def survey(
     maxima = Maxima(threads)
     shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
     body = getattr(result.problem, request.of)
-    tracked = _Tracked(progress, sum(len(planes(body, d)) for d in (depths, shown) if d.size))
-    found = tracked.planes(_planes(request, result, depths, threads))
+    first, second = (planes(body, d) if d.size else () for d in (depths, shown))
+    size = len(STRESSES) * result.problem.grid.n_points * np.dtype(request.dtype).itemsize
+    once = frozenset(second if len(second) * size <= MOST_KEPT and set(second) <= set(first) else ())
+    kept: list[StressField] = []
+    tracked = _Tracked(progress, len(first) + len(second) - len(once))
+    found = _keeping(tracked.planes(_planes(request, result, depths, threads)), once, kept)
     report = first_yield(maxima.watching(found), request.criterion)
     wanted = wanted_lines(request, result, maxima.drawn) if shown.size else {}
-    again = tracked.planes(_planes(request, result, shown, threads)) if wanted else iter(())
+    again = iter(kept) if kept or not wanted else tracked.planes(_planes(request, result, shown, threads))
     named = list(zip(wanted.values(), cut(again, list(wanted), result), strict=True))
     return StressSurvey(
         request,
@@ -379,6 +385,18 @@ def survey(
         citation_keys(maxima, request),
         threads,
     )
+
+
+MOST_KEPT = 400_000_000
+"""Bytes of whole planes that are kept for sections: those of a coated contact of 512² points in double precision."""
+
+
+def _keeping(fields: Iterable[StressField], wanted: frozenset[Plane], kept: list[StressField]) -> Iterator[StressField]:
+    """The same ``fields``; those of the planes ``wanted`` are appended to ``kept``."""
+    for field in fields:
+        if field.planes[0] in wanted:
+            kept.append(field)
+        yield field
 
 
 def _planes(

@@ -13,10 +13,13 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
+from asperity.stress import survey as survey_module
 from asperity.stress.criteria import sqrt_J2
+from asperity.stress.regions import planes
 from asperity.stress.survey import (
     RATIO,
     StressRequest,
+    StressSurvey,
     WantedProfile,
     WantedSection,
     line_depths,
@@ -44,6 +47,16 @@ def coated() -> asp.ContactResult:
 
 
 SLIDING = StressRequest(friction=0.3, direction=0.5)
+
+
+class Heard:
+    """Progress that keeps the number of every plane and the share that was left."""
+
+    def __init__(self) -> None:
+        self.planes: list[tuple[int, float]] = []
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        self.planes.append((iteration, error))
 
 
 @pytest.mark.parametrize(
@@ -255,17 +268,32 @@ def test_line_contacts(boundary: object) -> None:
     assert found.depths[-1] == pytest.approx(3.0, rel=0.1)
 
 
+def test_sections_cut_out_of_kept_planes_are_those_of_planes_computed_again(
+    coated: asp.ContactResult, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    request = StressRequest(friction=0.3, depths=(0.3,))
+
+    def surveyed() -> tuple[StressSurvey, int]:
+        heard = Heard()
+        return survey(request, coated, progress=heard), len(heard.planes)
+
+    once, fewer = surveyed()
+    monkeypatch.setattr(survey_module, "MOST_KEPT", 0)
+    twice, more = surveyed()
+    assert fewer == len(planes(coated.problem.body, [float(depth) for depth in once.depths]))
+    assert 1.5 * fewer < more <= 2 * fewer
+    for one, other in zip(once.sections, twice.sections, strict=True):
+        assert one.field.planes == other.field.planes
+        for name in STRESSES:
+            np.testing.assert_array_equal(getattr(one.field.tensor, name), getattr(other.field.tensor, name))
+
+
 def test_progress_counts_down(coated: asp.ContactResult) -> None:
-    heard: list[tuple[int, float]] = []
-
-    class Heard:
-        def update(self, iteration: int, error: float, tolerance: float) -> None:
-            heard.append((iteration, error))
-
-    survey(SLIDING, coated, progress=Heard())
-    assert [number for number, _ in heard] == list(range(1, len(heard) + 1))
-    assert heard[-1][1] == 0.0
-    assert np.all(np.diff([left for _, left in heard]) < 0.0)
+    heard = Heard()
+    survey(SLIDING, coated, progress=heard)
+    assert [number for number, _ in heard.planes] == list(range(1, len(heard.planes) + 1))
+    assert heard.planes[-1][1] == 0.0
+    assert np.all(np.diff([left for _, left in heard.planes]) < 0.0)
 
 
 @pytest.mark.parametrize(
