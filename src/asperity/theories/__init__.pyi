@@ -3,6 +3,7 @@ from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_pa
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
+from .friction.coated import CoatedLine, CoatedLineSlip, CoatedTwist, CoatedTwistSlip
 from .friction.histories import PartialSlip, SlipMemory, SlipPath
 from .friction.kalker import kalker_coefficients
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave, tangential_modulus
@@ -110,6 +111,10 @@ __all__ = [
     "Cerruti",
     "ChangEtsionBogy",
     "ChangEtsionBogySphere",
+    "CoatedLine",
+    "CoatedLineSlip",
+    "CoatedTwist",
+    "CoatedTwistSlip",
     "Cone",
     "ContactAnswer",
     "CreepForces",
