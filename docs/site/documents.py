@@ -7,6 +7,7 @@ from typing import Any
 
 from asperity.core.units import DIMENSIONS, EXAMPLES
 from asperity.run.document import json_schema
+from asperity.run.tractions import TractionsDocument
 
 Schema = dict[str, Any]
 
@@ -55,6 +56,10 @@ def _document() -> str:
     for title, names in groups.items():
         parts.append(f"## {title}\n")
         parts += [_section(name, kinds) for name in sorted(names, key=lambda name: _title(name, kinds[name]).lower())]
+    loaded = TractionsDocument.model_json_schema()
+    own = loaded["$defs"]
+    parts += ["## Prescribed tractions\n", _about(loaded), _table(loaded, own)]
+    parts += [_section(name, own) for name in sorted(own.keys() - kinds.keys())]
     return "\n".join(parts)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -22,17 +24,27 @@ from ..parts.stress import Stress, stress_request
 from ..plots.contact import figures_of
 from ..plots.picture import save_pictures
 from ..report import write_report
+from ..report.write import write_tractions_report
 from ..run.build import build
-from ..run.document import ProblemDocument, checked_parts, load_document, loads, relocated
-from ..run.execute import analysed
-from ..run.stored import load_outcome
+from ..run.document import TRACTIONS, ProblemDocument, checked_parts, dumps, load_document, loads, read_table, relocated
+from ..run.execute import analysed, run_tractions
+from ..run.stored import load_outcome, save_tractions
+from ..run.tractions import checked_tractions, traction_rows
 from ..stress.survey import Planned, StressRequest
 from .contact import STRESS_NAMES, Force, Out, file_options, files_in, output_folder, write_parts, write_volume
 from .declared import Given, Option, offers, part_names, part_options, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import solver_options
-from .show import print_advice, print_doubts, print_files, print_problem, print_words, say, stage
+from .show import console, print_advice, print_doubts, print_files, print_problem, print_words, say, stage
+from .show import table as text_table
 
+Loaded = Annotated[
+    Path,
+    typer.Argument(
+        help="Result file of `asperity contact --out`, or document with a table [tractions].",
+        metavar="RESULT.nc|LOADS.toml",
+    ),
+]
 Result = Annotated[Path, typer.Argument(help="Result file of `asperity contact --out`.", metavar="RESULT.nc")]
 
 
@@ -117,18 +129,23 @@ def _options() -> list[Option]:
 
 
 @offers(_options)
-def stress(file: Result, given: Given, out: Out = None, force: Force = False) -> None:
-    """Compute the stresses in a saved contact, without solving it again.
+def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) -> None:
+    """Compute the stresses in a saved contact, without solving it again, or under prescribed tractions.
 
-    What the result's own problem document requests is computed, with the options in place of its parts; without either, the
+    A document with the table [tractions] prescribes point, line and patch loads and arrays of pressure and shear on a body.
+    Of a result, what the result's own problem document requests is computed, with the options in place of its parts; without either, the
     section y=max. The pressure stays that of the result, whatever the friction.
 
-    Example: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out stresses
+    Examples: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out stresses;
+    asperity stress loads.toml --section y=max --out stresses
 
     Exit code 1 if the saved contact has not converged; the others as for `contact`.
     """
     files = files_in(given, force=force)
     written = [*files.values()]
+    if file.suffix.lower() in (".toml", ".json"):
+        _under_tractions(file, given, out, files, force=force)
+        return
     result = contact_of(load(file))
     request, document, threads = _asked(document_in(file), given)
     Stress().check(request, result.problem)
@@ -147,6 +164,41 @@ def stress(file: Result, given: Given, out: Out = None, force: Force = False) ->
     print_advice(finding for finding in findings if finding not in first)
     print_files(written)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
+
+
+def _under_tractions(file: Path, given: Given, out: Path | None, files: Mapping[str, Path], *, force: bool) -> None:
+    """The stresses under the tractions of the document ``file``, with the options in place of its table [stress]."""
+    table = read_table(file)
+    if TRACTIONS not in table:
+        raise InputError(
+            f"document for `asperity stress` must have a table [tractions], but {file} has none; a contact is solved by "
+            "`asperity contact --from`.",
+            subject="document for `asperity stress`",
+        )
+    if given.under("friction").values:
+        raise InputError(
+            "friction must be left out under prescribed tractions, but is given: prescribe the shear of the loads."
+        )
+    chosen = {"stress": given.under("stress").table(), "solver": given.under("solver").table()}
+    table = {**table, **{name: {**table.get(name, {}), **values} for name, values in chosen.items() if values}}
+    document = checked_tractions(table, f"problem document {file}", part_names(given, everything=False))
+    with output_folder(out, force=force) as folder:
+        outcome = run_tractions(document, file.parent, stage=stage, lines=folder is not None)
+        if folder is not None and out is not None:
+            text = dumps(relocated(document, file.parent, out))
+            (folder / "problem.toml").write_text(text, encoding="utf-8", newline="\n")
+            save_tractions(outcome, text, folder / "result.nc")
+            (folder / "plots").mkdir()
+            for figure in itertools.chain(*outcome.figures.values()):
+                (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+            write_tractions_report(outcome, folder / "report.html", document=document, text=text)
+            export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])
+    write_volume(outcome, files, force=force)
+    loaded: Any = outcome.result
+    console().print(text_table(document.title or f"Tractions of {file}", traction_rows(loaded, document)))
+    print_words(outcome)
+    names = ("report.html", "result.nc", "plots", *STRESS_NAMES, "problem.toml")
+    print_files([*([] if out is None else [out / name for name in names]), *files.values()])
 
 
 def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocument | None, int | None]:

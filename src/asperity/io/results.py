@@ -192,6 +192,10 @@ def result_in(tree: Node, path: str | Path) -> Any:
     """
     groups = tree.children
     with whole(path):
+        if "tractions" in groups:
+            raise FileFormatError(
+                f"result file must hold a contact or a stress field, but {path} holds stresses under prescribed tractions; read it with open_tree."
+            )
         if "contact" not in groups and "field" in groups:
             return field_from(groups["field"])
         if "path" in groups and "control" not in groups["path"]:

@@ -345,7 +345,8 @@ def setting_rows(survey: StressSurvey) -> Rows:
     """What the stresses are those of, and where they were computed."""
     request, depths = survey.request, survey.depths
     rows = [("inside", "the body" if request.of == "body" else "the counter body")]
-    rows.append(("friction coefficient", f"{request.friction:g}"))
+    if not _prescribed(survey):
+        rows.append(("friction coefficient", f"{request.friction:g}"))
     if request.friction:
         rows.append(
             ("direction of the shear traction on the body", f"{math.degrees(request.direction):g}° from x towards y")
@@ -450,7 +451,9 @@ def yield_sentence(survey: StressSurvey) -> str:
 def remarks(survey: StressSurvey) -> list[str]:
     """What to know about these stresses before using them."""
     found = [
-        "The load factor multiplies the stresses of this contact. A rough contact grows with its load, so that its "
+        "The load factor multiplies the prescribed tractions."
+        if _prescribed(survey)
+        else "The load factor multiplies the stresses of this contact. A rough contact grows with its load, so that its "
         "stresses rise more slowly than the load.",
         "Largest values are those on the planes that were computed; at the surface they are resolved no better than the "
         "pixels are.",
@@ -461,6 +464,13 @@ def remarks(survey: StressSurvey) -> list[str]:
             "pressures: where they pass the yield stress they say that it yields, not how large they really are."
         )
     return found
+
+
+def _prescribed(survey: StressSurvey) -> bool:
+    """Whether the tractions were given, and no contact was solved."""
+    from ..stress.tractions import LoadedBody
+
+    return isinstance(survey.result, LoadedBody)
 
 
 def region_text(regions: Sequence[Region]) -> str:

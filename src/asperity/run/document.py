@@ -14,7 +14,7 @@ import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Optional
+from typing import Any, Optional, TypeVar
 
 from pydantic import Field, create_model
 
@@ -27,6 +27,7 @@ from ..parts.registry import parts
 
 __all__ = [
     "RENAMED",
+    "TRACTIONS",
     "ProblemDocument",
     "checked",
     "checked_parts",
@@ -42,6 +43,11 @@ __all__ = [
     "validated",
 ]
 
+
+D = TypeVar("D", bound=Settings)
+
+TRACTIONS = "tractions"
+"""Table of documents that prescribe tractions and have no contact (``run.tractions``)."""
 
 RENAMED = MappingProxyType(
     {
@@ -161,7 +167,7 @@ def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
     return {**new, **before, **({"friction": friction} if friction else {})}
 
 
-def dumps(document: ProblemDocument, *, form: str = "toml") -> str:
+def dumps(document: Settings, *, form: str = "toml") -> str:
     """Text of ``document`` as ``toml`` or ``json``; loading it gives an equal document."""
     table = tidy(document.model_dump(mode="json", exclude_none=True))
     if form == "json":
@@ -190,7 +196,7 @@ def json_schema() -> dict[str, Any]:
     return document_model().model_json_schema()
 
 
-def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemDocument:
+def relocated(document: D, source: Path, target: Path) -> D:
     """``document`` of the folder ``source`` for use in the folder ``target``: relative paths lead to the same files."""
 
     def moved(path: str) -> str:
@@ -202,7 +208,7 @@ def relocated(document: ProblemDocument, source: Path, target: Path) -> ProblemD
         except ValueError:  # on Windows: another drive
             return str(found)
 
-    elsewhere: ProblemDocument = _with_paths(document, moved)
+    elsewhere: D = _with_paths(document, moved)
     return elsewhere
 
 
@@ -234,7 +240,7 @@ def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
         value = getattr(table, key)
         if isinstance(value, Settings):
             changed[key] = _with_paths(value, moved)
-        elif value is not None and key in ("path", "materials_file", "liquids_file"):
+        elif value is not None and (key == "path" or key.endswith("_file")):
             changed[key] = moved(value)
     return table.model_copy(update=changed) if changed else table
 

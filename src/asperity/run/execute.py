@@ -19,13 +19,17 @@ from ..core.engine import CpuEngine
 from ..core.errors import AsperityError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
+from ..core.status import Outcome as Ended
 from ..parts.contact import STIFFNESS
+from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
+from ..parts.stress import Stress, Yielding, stress_request
 from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
 from .build import Case, build
-from .document import ProblemDocument, checked, load_document
+from .document import TRACTIONS, ProblemDocument, checked, read_table
+from .tractions import TractionsDocument, build_tractions, checked_tractions
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +141,8 @@ def run(
     Parameters
     ----------
     document
-        Path of a TOML or JSON file, its content as nested dictionaries, or a document as ``load_document`` gives it.
+        Path of a TOML or JSON file, its content as nested dictionaries, or a document as ``load_document`` gives it. With a table
+        ``[tractions]`` it prescribes loads on a body, without any contact, and the ``result`` is a ``LoadedBody``.
     base_folder
         Where relative paths in the document start; by default the folder of the file, or the working folder.
     stage
@@ -155,11 +160,14 @@ def run(
         If the solve does not converge and ``on_failure`` is ``"raise"``.
     """
     folder = Path() if base_folder is None else Path(base_folder)
+    where = "problem document"
     if isinstance(document, str | os.PathLike):
-        folder = Path(document).parent if base_folder is None else folder
-        document = load_document(document)
-    elif not isinstance(document, ProblemDocument):
-        document = checked(document)
+        folder, where = Path(document).parent if base_folder is None else folder, f"{where} {document}"
+        document = read_table(document)
+    if isinstance(document, Mapping) and TRACTIONS in document:
+        return run_tractions(checked_tractions(document, where), folder, stage=stage)
+    if not isinstance(document, ProblemDocument):
+        document = checked(document, where)
     return execute(build(document, folder), stage=stage, on_failure=on_failure)
 
 
@@ -199,6 +207,26 @@ def execute(
     statuses = [item.status for item in found.values() if item.status is not None]
     worst = next((item for item in statuses if not item.converged), next(iter(statuses), status))
     return Outcome(case, replace(solved, found=found), found, findings, worst if status.converged else status)
+
+
+def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = no_stage, lines: bool = True) -> Outcome:
+    """Stresses under the tractions of ``document``, whose relative paths start at ``folder``; ``result`` is the ``LoadedBody``.
+
+    Raises
+    ------
+    InputError
+        If the document asks for what its body or grid does not have.
+    """
+    loaded: Any = build_tractions(document, folder)
+    request = stress_request(document.stress, FrictionSettings())
+    Stress().check(request, loaded.problem)
+    nothing: Any = None
+    solved = Solved(loaded.problem, nothing, loaded, threads=document.solver.threads, lines=lines, stage=stage)
+    found: dict[str, Found] = {}
+    both: tuple[Part, ...] = (Stress(), Yielding())
+    for part in both:
+        found[part.name] = part.compute(request, replace(solved, found=found))
+    return Outcome(None, replace(solved, found=found), found, (), Status(Ended.CONVERGED, "Stresses computed."))
 
 
 def analysed(

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, replace
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
+from ..io.description import describe, software
 from ..io.results import (
     contact_of,
     grid_lines,
@@ -27,7 +29,9 @@ from ..io.stress_files import field_from, field_node
 from ..io.tree import Node, datatree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
 from ..parts.registry import parts, versions
+from .document import TRACTIONS
 from .execute import Outcome, analysed
+from .tractions import FIELDS
 
 if TYPE_CHECKING:
     import xarray
@@ -63,7 +67,7 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
     groups = dict(result_tree(outcome.path or outcome.result).children)
     for part in parts():
         if part.name in outcome.found:
-            groups[part.name] = _group(part, outcome, groups.get(part.name, Node()))
+            groups[part.name] = part_group(part, outcome, groups.get(part.name, Node()))
     attributes = root_attributes(outcome.result, document, versions()) | status_attributes(outcome.status)
     attributes |= {
         OF_OUTCOME: 1,
@@ -71,6 +75,25 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
         "findings": json.dumps([asdict(finding) for finding in outcome.findings]),
     }
     return Node((), attributes | ({"report_title": title} if title else {}), groups)
+
+
+def save_tractions(outcome: Outcome, text: str, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write tractions and stresses of ``outcome``, and the ``text`` of its document, to the NetCDF-4 file ``path`` for ``open_tree``.
+
+    Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    loaded: Any = outcome.result
+    fields = [Labelled(q, getattr(loaded.tractions, q.name)) for q in FIELDS]
+    body = {"body": json.dumps(describe(loaded.body)), "boundary": loaded.tractions.boundary}
+    groups = {TRACTIONS: Node((*grid_lines(outcome.result), *fields), body)}
+    groups |= {part.name: part_group(part, outcome) for part, _ in outcome.sections}
+    attributes = {
+        "title": "stresses under prescribed tractions",
+        "provenance": json.dumps({"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}),
+        "citation_keys": " ".join(outcome.citation_keys),
+        "document": text,
+    }
+    write_tree(Node((), attributes, groups), path, overwrite=overwrite)
 
 
 def load_outcome(path: str | Path) -> Outcome:
@@ -114,7 +137,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     return replace(outcome, stored=dict(tree.attributes))
 
 
-def _group(part: Part, outcome: Outcome, before: Node) -> Node:
+def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
     """Group of values and text of ``part``, in addition to what the result itself has ``before``."""
     found = outcome.found[part.name]
     values = list(before.values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Annotated, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,15 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.values import Number, Several
 
 Vector: TypeAlias = tuple[float, float]
 """Two numbers, along x and along y."""
+
+Place: TypeAlias = Annotated[Vector, Several(Number("length"), 2)]
+PerLength: TypeAlias = Annotated[Vector, Several(Number("surface tension"), 2)]
+Forces: TypeAlias = Annotated[Vector, Several(Number("force"), 2)]
+Shears: TypeAlias = Annotated[Vector, Several(Number("pressure"), 2)]
 
 
 class PrescribedLoad(Protocol):
@@ -44,9 +50,9 @@ class PointLoad:
         Forces (x, y) in N along the surface.
     """
 
-    at: Vector
-    normal: float = 0.0
-    tangential: Vector = (0.0, 0.0)
+    at: Annotated[Place, "point (x, y)"]
+    normal: Annotated[float, Number("force"), "force into the body"] = 0.0
+    tangential: Annotated[Forces, "forces (x, y) along the surface"] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         _finite_pair(self.at, "place of a point load (m)")
@@ -82,10 +88,10 @@ class LineLoad:
         Forces per length (x, y) in N/m along the surface.
     """
 
-    start: Vector
-    end: Vector
-    normal: float = 0.0
-    tangential: Vector = (0.0, 0.0)
+    start: Annotated[Place, "one end (x, y)"]
+    end: Annotated[Place, "the other end (x, y)"]
+    normal: Annotated[float, Number("surface tension"), "force per length into the body"] = 0.0
+    tangential: Annotated[PerLength, "forces per length (x, y) along the surface"] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         _finite_pair(self.start, "start of a line load (m)")
@@ -131,10 +137,10 @@ class PatchLoad:
         Shear tractions (x, y) in Pa.
     """
 
-    x: Vector
-    y: Vector
-    pressure: float = 0.0
-    shear: Vector = (0.0, 0.0)
+    x: Annotated[Place, "range (from, to) along x"]
+    y: Annotated[Place, "range (from, to) along y"]
+    pressure: Annotated[float, Number("pressure"), "pressure, positive in compression"] = 0.0
+    shear: Annotated[Shears, "shear tractions (x, y)"] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         for axis, ends in (("x", self.x), ("y", self.y)):

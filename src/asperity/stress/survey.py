@@ -32,7 +32,7 @@ from .regions import (
     regions,
     selection,
 )
-from .tractions import Sliding, Tractions
+from .tractions import LoadedBody, Sliding, Tractions
 from .yielding import YieldReport, first_yield
 
 Place: TypeAlias = float | Literal["max", "pressure"]
@@ -402,11 +402,11 @@ def _keeping(fields: Iterable[StressField], wanted: frozenset[Plane], kept: list
 def _planes(
     request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None
 ) -> Iterator[StressField]:
+    own: Any = {} if isinstance(result, LoadedBody) else {"friction": request.friction, "direction": request.direction}
     return stress_planes(
         result,
         [float(depth) for depth in depths],
-        friction=request.friction,
-        direction=request.direction,
+        **own,
         of=request.of,
         dtype=request.dtype,
         threads=threads,

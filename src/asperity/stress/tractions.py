@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, Self, TypeAlias
+from typing import Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
 from ..core import require
-from ..core.arrays import RealArray
+from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..solids.elastic import Rigid
 from .loads import PrescribedLoad
 
 
@@ -153,6 +154,22 @@ class Tractions:
         return float(self.shear.x.mean(dtype=np.float64)), float(self.shear.y.mean(dtype=np.float64)), pressure
 
 
+class Edges(NamedTuple):
+    """What lies outside the grid of a loaded body: its name, and along which axes (x, y) the load repeats."""
+
+    name: Boundary
+    wraps: tuple[bool, bool]
+
+
+class Loading(NamedTuple):
+    """What stresses need to know of a loaded body beside its pressure: the same as of a contact problem."""
+
+    grid: Grid
+    body: object
+    counter_body: object
+    boundary: Edges
+
+
 @dataclass(frozen=True, eq=False)
 class LoadedBody:
     """A body whose surface carries prescribed tractions, without any contact: what ``stress`` takes in place of a result.
@@ -182,3 +199,30 @@ class LoadedBody:
 
     def __post_init__(self) -> None:
         require.instance(self.tractions, Tractions, "tractions of a loaded body", "Write Tractions(...).")
+
+    @property
+    def pressure(self) -> RealArray:
+        """(nx, ny) in Pa."""
+        return self.tractions.pressure
+
+    @property
+    def problem(self) -> Loading:
+        """Grid, body and boundary, with a rigid body that carries the opposite tractions."""
+        own = self.tractions
+        wraps = {"periodic": (True, True), "free": (False, False), "free line": (False, True)}[own.boundary]
+        return Loading(own.grid, self.body, Rigid(), Edges(own.boundary, wraps))
+
+    @property
+    def spot_areas(self) -> RealArray:
+        """Areas in m² of the connected loaded pixels, those with a thousandth of the largest traction or more."""
+        from scipy.ndimage import label
+
+        size = np.sqrt(self.pressure**2 + self.tractions.shear_x**2 + self.tractions.shear_y**2)
+        labels, count = label(size > 1e-3 * size.max())
+        areas: RealArray = np.bincount(labels.ravel(), minlength=count + 1)[1:] * self.tractions.grid.pixel_area
+        return areas
+
+    @property
+    def plastic(self) -> BoolArray:
+        """(nx, ny), False: no hardness limits what is prescribed."""
+        return np.zeros(self.tractions.grid.shape, dtype=bool)
