@@ -344,7 +344,7 @@ class ActiveSet:
     """
 
     tolerance: float = 1e-7
-    max_iterations: int = 300
+    max_iterations: int = 2000
     precision: Literal["mixed", "double", "single"] = "mixed"
     monotone: bool = False
     name: ClassVar[str] = "active_set"
@@ -476,8 +476,10 @@ class ActiveSet:
             spent = replace(spent, applications=spent.applications + 1)
             error = _relative_error(work, memory.survey.totals)
             memory = replace(memory, computed_at=error)
-        p, u = work.pressure, work.deflection
-        return replace(spent, pressure=p, deflection=u, error=error, memory=memory, engine=work.engine)
+        p, u, totals = work.pressure, work.deflection, memory.survey.totals
+        energy = None if memory.unsuccessful is not None else totals.work - 0.5 * totals.deflected
+        spent = replace(spent, pressure=p, deflection=u, error=error, energy=energy)
+        return replace(spent, memory=memory, engine=work.engine)
 
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
