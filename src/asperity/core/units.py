@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import cache
 from typing import Any
@@ -48,11 +49,23 @@ EXAMPLES = {
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
+_PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
+"""Power of ten of each prefix in use; the later of two symbols is the one that is printed."""
+
+_PREFIXED = ("m", "Pa", "N", "J", "N/m", "Pa/m")
+"""Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5 s to import and to set up.
+All others are left to pint."""
+
+
 @cache
 def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+class _OtherDimensionError(Exception):
+    """A unit is of another dimension than the one that is wanted."""
 
 
 def parse(text: str | float, kind: str, what: str) -> float:
@@ -87,13 +100,11 @@ def parse_in(text: str, unit: str, what: str) -> float:
     UnitError
         If number or unit is missing, unknown, or of another dimension.
     """
-    import pint
-
     known = {DIMENSIONS[kind]: example for kind, example in EXAMPLES.items()}
     number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, plain=not unit)
     try:
         return number * _factor(name or "dimensionless", unit or "dimensionless")
-    except pint.DimensionalityError:
+    except _OtherDimensionError:
         like = f"in a unit such as {unit}" if unit else "a plain number"
         raise UnitError(f"{what} must be {like}, but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
@@ -120,12 +131,10 @@ def unit_factor(name: str, kind: str, what: str) -> float:
     UnitError
         If the unit is unknown or of another dimension than ``kind``.
     """
-    import pint
-
     unit = DIMENSIONS[kind]
     try:
         return _factor(name or "dimensionless", unit)
-    except pint.DimensionalityError:
+    except _OtherDimensionError:
         raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
         raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
@@ -150,9 +159,18 @@ _GRAMMAR = re.compile(rf"(?:1 ?/ ?)?\(?{_FACTOR}\)?(?: ?[*/· ] ?\(?{_FACTOR}\)?
 @cache
 def _factor(name: str, unit: str) -> float:
     """One ``name`` in ``unit``."""
+    if name == unit:
+        return 1.0
+    if unit in _PREFIXED and name.endswith(unit) and name.removesuffix(unit) in _PREFIXES:
+        return float(f"1e{_PREFIXES[name.removesuffix(unit)]}")
     if len(name) > 60 or not _GRAMMAR.fullmatch(name):
         raise ValueError(name)
-    return float(_registry().Quantity(1.0, name).to(unit).magnitude)
+    import pint
+
+    try:
+        return float(_registry().Quantity(1.0, name).to(unit).magnitude)
+    except pint.DimensionalityError:
+        raise _OtherDimensionError from None
 
 
 def parse_size(text: str | tuple[float, float], what: str = "size") -> tuple[float, float]:
@@ -176,6 +194,9 @@ def parse_size(text: str | tuple[float, float], what: str = "size") -> tuple[flo
 _SMALLEST = 1e-19
 """SI value below which prefixes are of no help."""
 
+_FEMTO, _PETA = 1e-15, 1e15
+"""SI values between which the prefixes of ``_PREFIXES`` serve."""
+
 
 def show(value: float, unit: str, digits: int = 4) -> str:
     """Text of an SI ``value`` with an SI-prefixed ``unit``, for example ``show(5e-9, "m")`` → ``"5 nm"``."""
@@ -183,6 +204,10 @@ def show(value: float, unit: str, digits: int = 4) -> str:
         return f"{value:.{digits}g}"
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
+    if unit in _PREFIXED and (_FEMTO <= abs(value) < _PETA or value == 0.0):
+        power = 3 * math.floor(math.log10(abs(value)) / 3) if value else 0
+        prefix = {power: prefix for prefix, power in _PREFIXES.items()}[power]
+        return f"{value * float(f'1e{power}') ** -1.0:.{digits}g} {prefix}{unit}"
     quantity = _registry().Quantity(value, unit)
     compact = quantity if value == 0.0 else _compact(quantity, unit)
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
