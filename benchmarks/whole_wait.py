@@ -1,7 +1,8 @@
 """What a person waits for: start-up, reading, a whole command, its pictures and the first compilation, as processor time.
 
 Every row is a fresh process, measured by the system with all its children (user and system time), in rounds that do all rows once; the
-smallest of the rounds counts. Times inside a process are those of its own clock of processor time.
+smallest of the rounds counts. Times inside a process are those of its own clock of processor time. Python keeps its compiled
+modules in a folder of the run, whatever the environment says, so that they are compiled once, as in an installed package.
 
 Usage: python benchmarks/whole_wait.py [SCAN] [--rounds 5] [--fresh 1] [--json FILE]
 """
@@ -47,10 +48,10 @@ CONTACT = ("--body", "DLC", "--pressure", "50MPa")
 COATED = ["--body", "DLC:5nm/steel", "--periodise", "--pressure", "50MPa", "--friction", "0.3", "--section", "y=max"]
 
 
-def processor_seconds(command: Sequence[str], environment: Mapping[str, str]) -> tuple[float, str]:
+def processor_seconds(command: Sequence[str], variables: Mapping[str, str]) -> tuple[float, str]:
     """User and system time of ``command`` and its children, and what it prints."""
     with tempfile.TemporaryFile("w+") as printed:
-        process = subprocess.Popen(command, stdout=printed, env=environment)
+        process = subprocess.Popen(command, stdout=printed, env=variables)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
@@ -86,26 +87,32 @@ def rows(scan: Path, folder: Path) -> dict[str, tuple[list[str], bool]]:
     }
 
 
-def measured(scan: Path, rounds: int) -> dict[str, float]:
+def environment(folder: Path, **more: str) -> dict[str, str]:
+    """Variables of every process, whose compiled modules lie in ``folder``."""
+    kept = {key: text for key, text in os.environ.items() if key != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, "PYTHONPYCACHEPREFIX": str(folder), **more}
+
+
+def measured(scan: Path, rounds: int, modules: Path) -> dict[str, float]:
     """Smallest processor time of each row in s, after a first round that is not counted."""
     best: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         written = [sys.executable, "-m", "asperity", "contact", str(scan), *COATED]
-        processor_seconds([*written, "--save-document", str(folder / "problem.toml")], os.environ)
+        processor_seconds([*written, "--save-document", str(folder / "problem.toml")], environment(modules))
         for turn in range(rounds + 1):
             for row, (command, own) in rows(scan, folder).items():
-                seconds, printed = processor_seconds(command, os.environ)
+                seconds, printed = processor_seconds(command, environment(modules))
                 seconds = float(printed) if own else seconds
                 best[row] = min(best.get(row, seconds), seconds) if turn > 1 else seconds
     return best
 
 
-def first_result(scan: Path) -> float:
+def first_result(scan: Path, modules: Path) -> float:
     """Processor time of a contact for which every kernel must be compiled."""
+    command = [sys.executable, "-m", "asperity", "contact", str(scan), *CONTACT]
     with tempfile.TemporaryDirectory() as name:
-        environment = {**os.environ, "NUMBA_CACHE_DIR": name}
-        return processor_seconds([sys.executable, "-m", "asperity", "contact", str(scan), *CONTACT], environment)[0]
+        return processor_seconds(command, environment(modules, NUMBA_CACHE_DIR=name))[0]
 
 
 def main() -> None:
@@ -119,9 +126,9 @@ def main() -> None:
         scan = given.scan or Path(folder) / "scan.bcr"
         if given.scan is None:
             write_scan(scan)
-        best = measured(scan, given.rounds)
+        best = measured(scan, given.rounds, Path(folder))
         if given.fresh:
-            best["first contact, kernels compiled"] = min(first_result(scan) for _ in range(given.fresh))
+            best["first contact, kernels compiled"] = min(first_result(scan, Path(folder)) for _ in range(given.fresh))
     over = {"info": "imports", "contact": "imports", "coated contact, everything": "imports with pictures"}
     for row, seconds in best.items():
         ratio = f"{seconds / best[over[row]]:8.2f} times the {over[row]}" if row in over else ""

@@ -56,6 +56,9 @@ _PREFIXED = ("m", "Pa", "N", "J", "N/m", "Pa/m")
 """Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5 s to import and to set up.
 All others are left to pint."""
 
+_DIRECT = {("deg", "rad"): math.pi / 180.0, ("%", "dimensionless"): 0.01}
+"""Factors of two more usual units (the contact angle of liquids has a default in degrees)."""
+
 
 @cache
 def _registry() -> Any:
@@ -161,6 +164,8 @@ def _factor(name: str, unit: str) -> float:
     """One ``name`` in ``unit``."""
     if name == unit:
         return 1.0
+    if (name, unit) in _DIRECT:
+        return _DIRECT[name, unit]
     if unit in _PREFIXED and name.endswith(unit) and name.removesuffix(unit) in _PREFIXES:
         return float(f"1e{_PREFIXES[name.removesuffix(unit)]}")
     if len(name) > 60 or not _GRAMMAR.fullmatch(name):

@@ -139,3 +139,10 @@ def test_prefixes_are_those_of_pint_to_the_bit(unit):
         quantity = registry.Quantity(value, unit)
         compact = quantity if value == 0.0 or abs(value) < units._SMALLEST else quantity.to_compact()
         assert units.show(value, unit, 6) == f"{compact.magnitude:.6g} {compact.units:~P}"
+
+
+def test_other_factors_are_those_of_pint_to_the_bit():
+    for (name, unit), factor in units._DIRECT.items():
+        assert factor == units._registry().Quantity(1.0, name).to(unit).magnitude
+    for unit in units.DIMENSIONS.values():
+        assert units._factor(unit, unit) == units._registry().Quantity(1.0, unit).to(unit).magnitude
