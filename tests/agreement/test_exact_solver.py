@@ -11,7 +11,7 @@ from catalogue import EXACT, MODULUS, feasible_start
 from asperity import Grid
 from asperity.contact.operators import FreeOperator, PeriodicOperator
 from asperity.contact.solvers import ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
-from asperity.contact.solvers.reference.dense import all_at_once, dense_form, one_by_one
+from asperity.contact.solvers.reference.dense import Lemke, all_at_once, dense_form, one_by_one
 from asperity.solids.compliance.halfspace import HalfSpace
 
 SHAPES = ((1, 4), (2, 3), (5, 1), (2, 4))
@@ -116,3 +116,26 @@ def test_reaches_rounding() -> None:
     solution = run(DenseActiveSet(tolerance=1e-13), qp, feasible_start(qp))
     assert solution.status.converged
     assert solution.state.error < 1e-13
+
+
+@pytest.mark.parametrize("mean", [1e-6, 0.3])
+def test_a_load_carried_by_points_at_their_cap_moves_to_others(mean: float) -> None:
+    """With no point free the level is open: a point leaves its cap only together with one that takes the load."""
+    unfinished, wrong = [], []
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        operator = PeriodicOperator(HalfSpace(1.0), Grid((4, 6), (1.0, 0.7)))
+        heights = np.round(2.0 * rng.standard_normal((4, 6)))
+        qp = ContactQP(operator, heights, 4.0 * mean, FixedMean(mean), 2.0)
+        dense = dense_form(qp, near_contact=True)
+        start = np.zeros(24)
+        start[rng.permutation(24)[:6]] = dense.cap[0]  # the whole load, at points that need not be the right ones
+        x, _, finished = one_by_one(dense, start, 300)
+        if not finished:
+            unfinished.append(seed)
+        state = run(Lemke(tolerance=1e-8), qp).state
+        right = dense.matrix @ (state.pressure.ravel() / dense.unit), dense.matrix @ x
+        if np.abs(right[0] - right[1]).max() > 1e-9 * np.abs(right[0]).max():
+            wrong.append(seed)
+    assert not unfinished
+    assert not wrong

@@ -270,7 +270,7 @@ def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
             continue
         x = np.where(free, trial.x, x)
         entering = _entering(qp, x, trial, worst_first=moved)
-        if entering is None:
+        if not entering:
             return Pivoted(x, count + 1, optimal=True)
         free[entering], capped[entering] = True, False
     return Pivoted(x, limit, optimal=False)
@@ -287,20 +287,23 @@ def _way_to(qp: DenseQP, x: RealArray, trial: OnSet) -> tuple[float, int | None]
     return (float(fraction[index]), index) if fraction[index] <= 1.0 else (1.0, None)
 
 
-def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> int | None:
-    """Point at a bound that lowers the energy by leaving it; None at the solution."""
+def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> list[int]:
+    """Point at a bound that lowers the energy by leaving it; none at the solution.
+
+    Where the points at their cap carry the whole load the level is open, and one of them must give what another point takes.
+    """
     idle: BoolArray = ~(trial.free | trial.capped)
     r = qp.matrix @ x - qp.heights
-    level = trial.level
-    if qp.total is not None and not trial.free.any():  # the level is open: the idle point nearest to contact sets it
-        if not (idle.any() and trial.capped.any()):
-            return None
-        level = 0.5 * float(r[idle].min() + r[trial.capped].max())
-    excess = np.where(idle, level - r, np.where(trial.capped, r - level, -np.inf))
-    wrong = excess > ROUNDING * magnitude(qp, x)
+    resolved = ROUNDING * magnitude(qp, x)
+    if qp.total is not None and not trial.free.any():
+        takes, gives = int(np.argmin(np.where(idle, r, np.inf))), int(np.argmax(np.where(trial.capped, r, -np.inf)))
+        wanted = idle.any() and trial.capped.any() and r[gives] - r[takes] > 2.0 * resolved
+        return [takes, gives] if wanted else []
+    excess = np.where(idle, trial.level - r, np.where(trial.capped, r - trial.level, -np.inf))
+    wrong = excess > resolved
     if not wrong.any():
-        return None
-    return int(np.argmax(excess)) if worst_first else int(np.argmax(wrong))
+        return []
+    return [int(np.argmax(excess)) if worst_first else int(np.argmax(wrong))]
 
 
 # Lemke's complementary pivoting (Cottle, Pang & Stone 1992, sec. 4.4) with a lexicographic ratio test; tiny grids.
