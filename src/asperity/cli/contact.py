@@ -47,7 +47,11 @@ Out = Annotated[
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.", rich_help_panel=OUTPUT)]
 Document = Annotated[
     Path | None,
-    typer.Option("--from", help="Problem document (TOML or JSON); options replace parts of it.", metavar="DOCUMENT"),
+    typer.Option(
+        "--from",
+        help="Problem document (TOML or JSON); options replace parts of it. Of the literature: head-disk, disk-and-slider, mems.",
+        metavar="DOCUMENT",
+    ),
 ]
 
 

@@ -12,6 +12,7 @@ import os
 import re
 import tomllib
 from collections.abc import Callable, Mapping
+from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Optional, TypeVar
@@ -26,6 +27,7 @@ from ..io.schemas.problem import ProblemDocument
 from ..parts.registry import parts
 
 __all__ = [
+    "PRESETS",
     "RENAMED",
     "TRACTIONS",
     "ProblemDocument",
@@ -98,14 +100,23 @@ def loads(text: str, *, form: str = "toml") -> ProblemDocument:
     return checked(_parsed(text, form, "problem document"), "problem document")
 
 
+PRESETS = ("head-disk", "disk-and-slider", "mems")
+"""Documents of this package, each with its source: interfaces of the literature with roughness, bodies, film and load."""
+
+
 def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:
     """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in messages.
+
+    A name of ``PRESETS`` stands for that document where there is no such file.
 
     Raises
     ------
     FileFormatError
         If the file is missing, unreadable, or neither TOML nor JSON.
     """
+    if str(path) in PRESETS and not Path(path).exists():
+        preset = resources.files("asperity").joinpath("data", "presets", f"{path}.toml")
+        return _parsed(preset.read_text(encoding="utf-8"), "toml", f"{what} {path}")
     return _parsed(read_text(Path(path), what), _form(Path(path)), f"{what} {path}")
 
 

@@ -141,7 +141,7 @@ def run(
     Parameters
     ----------
     document
-        Path of a TOML or JSON file, its content as nested dictionaries, or a document as ``load_document`` gives it. With a table
+        Path of a TOML or JSON file, the name of one of this package (``document.PRESETS``), its content as nested dictionaries, or a document as ``load_document`` gives it. With a table
         ``[tractions]`` it prescribes loads on a body, without any contact, and the ``result`` is a ``LoadedBody``.
     base_folder
         Where relative paths in the document start; by default the folder of the file, or the working folder.
