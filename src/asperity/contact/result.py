@@ -282,6 +282,21 @@ class ContactResult(Stored):
         """Shear traction and slip of a step with stick and slip; None in other contacts."""
         return self.couplings.get("stick_slip")
 
+    def require_stick_slip(self) -> StickSlip:
+        """Shear traction and slip of the step.
+
+        Raises
+        ------
+        InputError
+            If the result has none.
+        """
+        if self.stick_slip is None:
+            raise InputError(
+                "result must be one of a step with stick and slip, but has none. Solve ContactProblem(..., friction=Coulomb(0.3)) "
+                "under Step(normal, Shift(5e-9))."
+            )
+        return self.stick_slip
+
     @property
     def external_force(self) -> float:
         """Force in N that is applied from outside: ``force`` less what menisci pull."""

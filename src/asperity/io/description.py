@@ -15,9 +15,10 @@ import numpy as np
 
 from ..contact.boundary import Boundary
 from ..contact.couplings.driver import CouplingCheck
-from ..contact.laws import Coulomb, Hardness, HardWall, LayeredHardness
+from ..contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
 from ..contact.problem import Control, Flat
 from ..contact.result import ContactResult
+from ..contact.tangential import Tangential
 from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
@@ -32,9 +33,11 @@ TYPES: tuple[type, ...] = (
     *get_args(Boundary),
     *get_args(Control),
     *get_args(Interface),
+    *get_args(Tangential),
     Coulomb,
     CouplingCheck,
     Flat,
+    FullStick,
     Hardness,
     HardWall,
     LayeredHardness,
@@ -43,6 +46,7 @@ TYPES: tuple[type, ...] = (
     Region,
     RigidBase,
     Strength,
+    TrescaFriction,
 )
 """Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 

@@ -29,6 +29,7 @@ from ..core.text import require_file
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
 from .description import describe, provenance, rebuild, software, surface_provenance
+from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
 from .words import ALL_SCALARS, CERTIFICATE, FIELDS
@@ -75,8 +76,20 @@ ENERGIES = (
 )
 """Entries of an energy balance."""
 
+STICK_SLIP = "stick_slip"
+"""Coupling, and group, whose memory follows from what it found."""
+
 SPOTS = Quantity("spot_areas", "m**2", "areas of the contact spots", dims=("spot",))
 """Areas of contact spots, largest first; of a load path those of one step after the other."""
+
+MAPS = {
+    item.name: item
+    for item in (
+        Quantity("Coulomb_coefficient", "1", "friction coefficient"),
+        Quantity("TrescaFriction_strength", "Pa", "shear strength of the interface"),
+    )
+}
+"""Maps of the laws of friction; any other map of a law is one of the hardness."""
 
 WET_FIELDS = (
     Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
@@ -202,7 +215,7 @@ def result_in(tree: Node, path: str | Path) -> Any:
             raise FileFormatError(
                 f"load path in {path} must be read with open_tree: files of format 1 hold no whole results."
             )
-        result = contact_from(groups["contact"], groups.get("film"), groups.get("memory"))
+        result = contact_from(groups["contact"], groups.get("film"), groups.get("memory"), groups.get(STICK_SLIP))
         if "path" in groups and "of_outcome" not in tree.attributes:
             return path_from(groups["path"], result)
         if "film" in groups and "stored_rounds" in groups["film"].attributes:
@@ -243,7 +256,9 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
     if isinstance(result, ContactResult):
         groups = {"contact": contact_node(result)}
         groups |= {} if result.menisci is None else {"film": film_node(result, result.menisci)}
-        memories = {name: _memory_node(memory) for name, memory in result.memory.items()}
+        shear = result.stick_slip
+        groups |= {} if shear is None else {STICK_SLIP: shear_node(shear, grid_lines(result))}
+        memories = {name: _memory_node(memory) for name, memory in result.memory.items() if name != STICK_SLIP}
         groups |= {"memory": Node((), {}, memories)} if memories else {}
         return Node((), root_attributes(result, document), groups)
     raise InputError(
@@ -270,7 +285,9 @@ def contact_node(result: ContactResult) -> Node:
     attributes = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
     values = [*grid_lines(result), _field(Quantity("heights", "m", "heights of the surface"), problem.surface.heights)]
     physics = {part: getattr(problem, part) for part in PHYSICS}
-    attributes |= {part: json.dumps(describe(value)) for part, value in physics.items() if value is not None}
+    attributes |= {
+        part: json.dumps(describe(value, arrays, part)) for part, value in physics.items() if value is not None
+    }
     attributes["surface"] = _surface_text(problem.surface)
     if isinstance(problem.counter_surface, Surface):
         quantity = Quantity("counter_heights", "m", "heights of the counter surface")
@@ -279,15 +296,17 @@ def contact_node(result: ContactResult) -> Node:
     values += [_field(item, getattr(result, item.name)) for item in (*FIELDS, *MARKS)]
     values += [] if result.sliding is None else [_field(LIFT, result.sliding.shear_displacement)]
     values += [] if result.earlier is None else [_field(EARLIER, result.earlier)]
-    values += [_field(Quantity(name, "Pa", "hardness"), array) for name, array in arrays.items()]
+    values += [_field(MAPS.get(name, Quantity(name, "Pa", "hardness")), array) for name, array in arrays.items()]
     values += [Labelled(SPOTS, result.spot_areas)]
     values += [Labelled(item, getattr(result, item.name)) for item in ALL_SCALARS]
     attributes["citation_keys"] = " ".join(result.citation_keys)
     return Node(tuple(values), attributes | _checks(result.certificate) | status_attributes(result.status))
 
 
-def contact_from(node: Node, film: Node | None = None, memory: Node | None = None) -> ContactResult:
-    """The contact of a group, and of those of its film and of the memories of its couplings; equal to the one it was made of."""
+def contact_from(
+    node: Node, film: Node | None = None, memory: Node | None = None, shear: Node | None = None
+) -> ContactResult:
+    """The contact of a group, and of those of its film, of the memories of its couplings, and of stick and slip; equal to the one it was made of."""
     attributes = node.attributes
     arrays = {item.quantity.name: np.asarray(item.values) for item in node.values if np.ndim(item.values) == 2}
     parts: dict[str, Any] = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
@@ -298,9 +317,13 @@ def contact_from(node: Node, film: Node | None = None, memory: Node | None = Non
     surface = _surface(arrays["heights"], attributes["surface"])
     if "counter_heights" in arrays:
         parts["counter_surface"] = _surface(arrays["counter_heights"], attributes["counter_surface"])
-    parts |= {part: rebuild(json.loads(attributes[part])) for part in PHYSICS if part in attributes}
+    parts |= {part: rebuild(json.loads(attributes[part]), arrays) for part in PHYSICS if part in attributes}
     problem = ContactProblem(surface=surface, **parts)
     numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
+    couplings = _couplings(problem, arrays, numbers)
+    memories = {} if memory is None else {name: _memory(child) for name, child in memory.children.items()}
+    if shear is not None and problem.friction is not None:
+        couplings[STICK_SLIP] = shear_in(shear, problem.friction)
     return ContactResult(
         problem=problem,
         control=control,
@@ -309,8 +332,8 @@ def contact_from(node: Node, film: Node | None = None, memory: Node | None = Non
         certificate=_certificate(attributes),
         status=status_from(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
-        couplings=_couplings(problem, arrays, numbers),
-        memory={} if memory is None else {name: _memory(child) for name, child in memory.children.items()},
+        couplings=couplings,
+        memory=memories | _shear_memory(couplings),
         earlier=arrays.get(EARLIER.name),
         **_values(arrays, FIELDS),
         **_values(node, _STORED),
@@ -386,12 +409,17 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
         for item in WET_SCALARS:
             yield _column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
         yield _column(Quantity("menisci", "", "numbers of the menisci, as JSON"), list(map(_numbers_text, found)))
+    yield from shear_columns([step.stick_slip for step in steps if step.stick_slip is not None])
     for name in _CHECKS:
         texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
         yield _column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts)
     memories = [
         json.dumps(
-            {key: {name: np.asarray(a).tolist() for name, a in memory.items()} for key, memory in step.memory.items()}
+            {
+                key: {name: np.asarray(a).tolist() for name, a in memory.items()}
+                for key, memory in step.memory.items()
+                if key != STICK_SLIP
+            }
         )
         for step in steps
     ]
@@ -413,6 +441,9 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
     before = None if start is None or not start.pressure.any() else start.pressure
     for step in range(len(ends)):
         at = {item.quantity.name: item.values[step] for item in node.values if item.quantity.dims[:1] == ("step",)}
+        couplings, friction = _couplings(last.problem, at, at.get("menisci")), last.problem.friction
+        if f"{PREFIX}tangential" in at and friction is not None:
+            couplings[STICK_SLIP] = shear_from(at, friction, PREFIX)
         result = replace(
             last,
             control=rebuild(json.loads(at["control"])),
@@ -420,11 +451,12 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             spot_areas=np.asarray(node["spot_areas"][ends[step] - at["n_spots"] : ends[step]]),
             certificate=_certificate({name: _plain(value) for name, value in at.items()}),
             status=status_from(at),
-            couplings=_couplings(last.problem, at, at.get("menisci")),
+            couplings=couplings,
             memory={
                 key: {name: np.asarray(value) for name, value in item.items()}
                 for key, item in json.loads(at["memory"]).items()
-            },
+            }
+            | _shear_memory(couplings),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )
@@ -453,6 +485,10 @@ def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str 
     if isinstance(friction, Coulomb) and LIFT.name in arrays:
         found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
     return found
+
+
+def _shear_memory(couplings: Mapping[str, Any]) -> dict[str, Any]:
+    return {STICK_SLIP: couplings[STICK_SLIP].memory} if STICK_SLIP in couplings else {}
 
 
 def _numbers_text(menisci: Menisci) -> str:

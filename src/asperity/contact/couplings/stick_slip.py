@@ -116,6 +116,21 @@ class StickSlip:
         return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
 
     @property
+    def memory(self) -> Memory:
+        """What the next step starts from; the force is NaN where a shift was prescribed."""
+        control = self.tangential
+        force = (np.nan, np.nan) if isinstance(control, Shift) else (control.x, control.y)
+        return {
+            "traction_x": self.traction[0],
+            "traction_y": self.traction[1],
+            "slip_x": self.slip[0],
+            "slip_y": self.slip[1],
+            "shift": np.array([self.shift_x, self.shift_y, self.twist]),
+            "force": np.array(force),
+            "dissipated": np.asarray(self.total_dissipated),
+        }
+
+    @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of law and method."""
         return ("Alart1991", "Kalker1990", "Panagiotopoulos1975")
@@ -275,18 +290,7 @@ class StickSlipCoupling(Coupling):
         self._require_borne(before.control, limit)
         solution = self._solved(note, contact, self.solver)
         found = self._outcome(exchange, contact, solution, limit)
-        control = before.control
-        force = (np.nan, np.nan) if isinstance(control, Shift) else (control.x, control.y)
-        memory = {
-            "traction_x": found.traction[0],
-            "traction_y": found.traction[1],
-            "slip_x": found.slip[0],
-            "slip_y": found.slip[1],
-            "shift": np.array([found.shift_x, found.shift_y, found.twist]),
-            "force": np.array(force),
-            "dissipated": np.asarray(found.total_dissipated),
-        }
-        return memory, found
+        return found.memory, found
 
     def _require_borne(self, control: Tangential, limit: float) -> None:
         if isinstance(control, TangentialForce) and control.magnitude > limit * (2.0 - _GROSS):
