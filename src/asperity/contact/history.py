@@ -288,6 +288,10 @@ class EnergyBalance:
     plastic work, p being the hardness where dw > 0. F is the external force and that of the menisci. Periodic
     bodies are measured without the mean mode on both sides.
 
+    Along the surface Q dδ = Σ q du + Σ q ds in the same way, s being the slip. Steps with stick and slip are implicit, so that
+    their work and dissipation are those of the traction at the end of the step: Q Δδ = Σ q Δu + Σ q Δs, of which half of
+    Σ Δq Δu is neither stored nor dissipated by slip; it falls with the length of the steps.
+
     Parameters
     ----------
     external_work
@@ -295,11 +299,17 @@ class EnergyBalance:
     meniscus_work
         The part of it that the menisci do.
     elastic_energy
-        Half of pressure times displacement, less that at the start.
+        Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start.
     plastic_work
         Sum of the plastic works of the steps.
     shear_work
-        ∫ Σ p du of the displacement by shear: what sliding takes, or gives, by lifting the surfaces.
+        ∫ Σ p du of the displacement by shear: what gross sliding takes, or gives, by lifting the surfaces.
+    tangential_work
+        Σ Q·Δδ of tangential force and shift, and of torque and twist, those at the end of each step.
+    slip_work
+        Energy dissipated by slip.
+    step_work
+        Σ ½ Σ Δq·Δu of shear traction and tangential displacement: what the length of implicit steps takes.
     """
 
     external_work: RealArray
@@ -307,16 +317,20 @@ class EnergyBalance:
     elastic_energy: RealArray
     plastic_work: RealArray
     shear_work: RealArray
+    tangential_work: RealArray
+    slip_work: RealArray
+    step_work: RealArray
 
     @property
     def residual(self) -> RealArray:
-        """External work less all others: the error of the trapezoidal rule, of second order."""
-        return self.external_work - self.elastic_energy - self.plastic_work - self.shear_work
+        """External and tangential work less all others: the error of the trapezoidal rule, of second order."""
+        done = self.external_work + self.tangential_work
+        return done - self.elastic_energy - self.plastic_work - self.shear_work - self.slip_work - self.step_work
 
     @property
     def relative_error(self) -> float:
-        """Largest magnitude of the residual over the largest external work; zero where no work was done."""
-        largest = float(np.abs(self.external_work).max())
+        """Largest magnitude of the residual over the largest external and tangential work; zero where no work was done."""
+        largest = float(max(np.abs(self.external_work).max(), np.abs(self.tangential_work).max()))
         return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0
 
 
@@ -325,19 +339,22 @@ def _balance(history: HistoryResult) -> EnergyBalance:
 
     force, approach, elastic = history.force, history.approach, history.elastic_energy
     plastic, pull = np.cumsum(history.plastic_work), history.force - history.external_force
-    shear = _shear_works(history)
+    shear, along = _shear_works(history), _tangential_works(history)
+    elastic = elastic + [
+        0.0 if step.stick_slip is None else step.stick_slip.tangential_energy for step in history.steps
+    ]
     start = history.start
     if start is None or not start.pressure.any():
         virgin = history.steps[0].problem.profile()
         dented = virgin if start is None else virgin - start.permanent_indentation
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
         work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
-        shear = np.cumsum(shear)
+        shear, along = np.cumsum(shear), np.cumsum(along, axis=1)
     else:
         work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
         elastic, plastic = elastic - elastic[0], plastic - plastic[0]
-        shear = np.cumsum(shear) - shear[0]
-    return EnergyBalance(work, pulled, elastic, plastic, shear)
+        shear, along = np.cumsum(shear) - shear[0], np.cumsum(along, axis=1) - along[:, :1]
+    return EnergyBalance(work, pulled, elastic, plastic, shear, *along)
 
 
 def _shear_works(history: HistoryResult) -> RealArray:
@@ -351,3 +368,23 @@ def _shear_works(history: HistoryResult) -> RealArray:
         works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
         pressure, lift = result.pressure, now
     return np.array(works)
+
+
+def _tangential_works(history: HistoryResult) -> RealArray:
+    """(3, steps): Q·Δδ, energy dissipated by slip and ½ Σ Δq·Δu (J) of every step; zero without stick and slip."""
+    pixel, works = history.steps[0].problem.grid.pixel_area, np.zeros((3, len(history.steps)))
+    before = None
+    for number, result in enumerate(history.steps):
+        now = result.stick_slip
+        if now is None:
+            continue
+        moved = np.array([now.shift_x, now.shift_y, now.twist])
+        traction, displacement = now.traction, now.tangential_displacement
+        if before is not None:
+            moved = moved - [before.shift_x, before.shift_y, before.twist]
+            traction, displacement = traction - before.traction, displacement - before.tangential_displacement
+        works[0, number] = np.array([now.force_x, now.force_y, now.torque]) @ moved
+        works[1, number] = now.dissipated
+        works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
+        before = now
+    return works

@@ -71,8 +71,11 @@ ENERGIES = (
     Quantity("meniscus_work", "J", "part of the external work that menisci do"),
     Quantity("elastic_energy", "J", "elastic energy gained along the path"),
     Quantity("plastic_work", "J", "plastic work along the path"),
-    Quantity("shear_work", "J", "work of the displacement by shear along the path"),
-    Quantity("residual", "J", "external work less all other energies"),
+    Quantity("shear_work", "J", "work of the displacement by the shear of gross sliding along the path"),
+    Quantity("tangential_work", "J", "work of the tangential force along the path, those at the ends of the steps"),
+    Quantity("slip_work", "J", "energy dissipated by slip along the path"),
+    Quantity("step_work", "J", "what the length of the implicit steps takes along the path"),
+    Quantity("residual", "J", "external and tangential work less all other energies"),
 )
 """Entries of an energy balance."""
 

@@ -12,7 +12,6 @@ import numpy as np
 from ..contact.couplings.stick_slip import StickSlip
 from ..contact.fretting import NUMBERS
 from ..contact.laws import FrictionLaw
-from ..core.arrays import RealArray
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
 from .description import describe, rebuild
@@ -88,7 +87,7 @@ def shear_from(source: Mapping[str, Any], law: FrictionLaw, prefix: str = "") ->
         value = source[f"{prefix}{item.name}"]
         return value.item() if isinstance(value, np.generic | np.ndarray) else value
 
-    fields: dict[str, RealArray] = {item.name: np.asarray(source[f"{prefix}{item.name}"]) for item in SHEAR_FIELDS}
+    fields: dict[str, Any] = {item.name: np.asarray(source[f"{prefix}{item.name}"]) for item in SHEAR_FIELDS}
     for item in VECTORS:
         fields[item.name] = np.stack([source[f"{prefix}{item.name}_{axis}"] for axis in "xy"])
     ended = [str(source[f"{prefix}status_{name}"]) for name in ("outcome", "message", "remedy")]
