@@ -20,3 +20,19 @@ HEAVY = (
     "scipy",
     "xarray",
 )
+
+NOT_FOR_COMMANDS = (
+    "SurfaceTopography.IO.NMM",
+    "dask",
+    "jinja2",
+    "joblib",
+    "matplotlib",
+    "pandas",
+    "pint",
+    "requests",
+    "scipy.optimize",
+    "scipy.signal",
+    "scipy.stats",
+    "xarray",
+)
+"""What `info` and `contact` do without as long as no file is to be written."""

@@ -9,8 +9,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from cli.conftest import Runner
-from heavy_imports import HEAVY
+from heavy_imports import HEAVY, NOT_FOR_COMMANDS
+from instrument_file import bcr
 
 from asperity.cli.main import COMMANDS as PROGRAM
 from asperity.cli.main import Program
@@ -43,6 +45,21 @@ def test_help_imports_of_the_library_only_the_commands() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     elsewhere = {module for module in json.loads(done.stderr) if not module.startswith("asperity.cli")}
     assert elsewhere <= LIGHT
+
+
+@pytest.mark.parametrize("command", [("info",), ("contact", "--body", "DLC", "--pressure", "50MPa")])
+def test_commands_without_output_import_only_what_they_need(tmp_path: Path, command: tuple[str, ...]) -> None:
+    scan = tmp_path / "scan.bcr"
+    bcr(scan)
+    code = (
+        "import sys, json\n"
+        "from asperity.cli.main import app\n"
+        f"try: app([{command[0]!r}, {str(scan)!r}, *{command[1:]!r}])\n"
+        "except SystemExit as end: assert end.code in (0, None)\n"
+        f"sys.stderr.write('|' + json.dumps([m for m in {NOT_FOR_COMMANDS!r} if m in sys.modules]))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    assert json.loads(done.stderr.rpartition("|")[2]) == []
 
 
 def test_module_is_the_program() -> None:

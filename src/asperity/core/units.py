@@ -52,9 +52,11 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", r
 _PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
 """Power of ten of each prefix in use; the later of two symbols is the one that is printed."""
 
+_SYMBOLS = {power: symbol for symbol, power in _PREFIXES.items()}
+
 _PREFIXED = ("m", "Pa", "N", "J", "N/m", "Pa/m")
 """Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5 s to import and to set up.
-All others are left to pint."""
+Powers of a length are printed here too; all others are left to pint."""
 
 _DIRECT = {("deg", "rad"): math.pi / 180.0, ("%", "dimensionless"): 0.01}
 """Factors of two more usual units (the contact angle of liquids has a default in degrees)."""
@@ -211,11 +213,21 @@ def show(value: float, unit: str, digits: int = 4) -> str:
         return f"{value:g} {unit}"
     if unit in _PREFIXED and (_FEMTO <= abs(value) < _PETA or value == 0.0):
         power = 3 * math.floor(math.log10(abs(value)) / 3) if value else 0
-        prefix = {power: prefix for prefix, power in _PREFIXES.items()}[power]
-        return f"{value * float(f'1e{power}') ** -1.0:.{digits}g} {prefix}{unit}"
+        return f"{value * _inverse(power):.{digits}g} {_SYMBOLS[power]}{unit}"
+    if unit in _POWERS:
+        power, sign, least = _POWERS[unit]
+        inverse = {symbol: _inverse(_PREFIXES[symbol], power) for symbol in ("", "m", "µ", "n")}
+        large = (symbol for symbol in inverse if symbol == "n" or value == 0.0 or abs(value * inverse[symbol]) >= least)
+        symbol = next(large)
+        return f"{value * inverse[symbol]:.{digits}g} {symbol}m{sign}"
     quantity = _registry().Quantity(value, unit)
-    compact = quantity if value == 0.0 else _compact(quantity, unit)
+    compact = quantity if abs(value) < _SMALLEST else quantity.to_compact()
     return f"{compact.magnitude:.{digits}g} {compact.units:~P}"
+
+
+def _inverse(power: int, times: int = 1) -> float:
+    """One over a prefix to the power ``times``, computed as pint does: 1e-9 is rounded, and 1e9 differs from it in the last bit."""
+    return float(math.pow(float(f"1e{power}"), -times))
 
 
 _PLAIN = re.compile(r"""(?<![\w.'"+-])(\d+(?:\.\d+)?(?:e[+-]\d+)?) (Pa|N|m|J|N/m)\b(?![/*^²³])""")
@@ -236,20 +248,6 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{100.0 * share:.{digits}g} %"
 
 
-_LARGEST_FIRST = {
-    "m**2": (("m**2", "mm**2", "um**2", "nm**2"), 0.01),
-    "m**3": (("m**3", "mm**3", "um**3", "nm**3"), 1e-3),
-    "m**4": (("m**4", "mm**4", "um**4", "nm**4"), 0.01),
-}
-"""For powers of a length, whose prefixes are factors of a million and more apart: the largest unit in which a value is at least
-the number given serves, else the last one."""
-
-
-def _compact(quantity: Any, unit: str) -> Any:
-    """Quantity with a prefix; what is smaller than the prefixes in use, as rounding is, as a power of ten."""
-    if unit not in _LARGEST_FIRST:
-        return quantity if abs(quantity.magnitude) < _SMALLEST else quantity.to_compact()
-    prefixed, least = _LARGEST_FIRST[unit]
-    return next(
-        (found for found in map(quantity.to, prefixed[:-1]) if abs(found.magnitude) >= least), quantity.to(prefixed[-1])
-    )
+_POWERS = {"m**2": (2, "²", 0.01), "m**3": (3, "³", 1e-3), "m**4": (4, "⁴", 0.01)}
+"""For powers of a length, whose prefixes are factors of a million and more apart: the largest unit from m to nm in which a value
+is at least the number given serves, else the smallest."""

@@ -146,3 +146,16 @@ def test_other_factors_are_those_of_pint_to_the_bit():
         assert factor == units._registry().Quantity(1.0, name).to(unit).magnitude
     for unit in units.DIMENSIONS.values():
         assert units._factor(unit, unit) == units._registry().Quantity(1.0, unit).to(unit).magnitude
+
+
+@pytest.mark.parametrize("unit", units._POWERS)
+def test_powers_of_a_length_are_printed_as_by_pint(unit):
+    power, _, least = units._POWERS[unit]
+    names = [f"{prefix}{unit}" for prefix in ("", "m", "u", "n")]
+    assert units.show(0.0, unit) == f"{units._registry().Quantity(0.0, unit):~P}".replace("0.0", "0")
+    for digits in ("0.9999", "0.99999951", "1", "-2.5"):
+        for exponent in range(-12 * power, 4):
+            value = float(f"{digits}e{exponent}")
+            scaled = [units._registry().Quantity(value, unit).to(name) for name in names]
+            wanted = next((found for found in scaled[:-1] if abs(found.magnitude) >= least), scaled[-1])
+            assert units.show(value, unit, 6) == f"{wanted.magnitude:.6g} {wanted.units:~P}"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from instrument_file import bcr
 from refusals import refused
 
 from asperity.core.errors import FileFormatError
@@ -35,17 +36,6 @@ same = [
 order = reader_library._order(SurfaceTopography.IO)
 print(json.dumps([early, same, [r.__name__ for r in SurfaceTopography.IO.readers] == order, SurfaceTopography.__version__]))
 """
-
-
-def bcr(path: Path) -> np.ndarray:
-    """Write a small map in a format of instruments (BCR-STM), the 26th that the library tries; its heights [x, y], y upwards."""
-    steps = np.random.default_rng(3).integers(-500, 500, (6, 9)).astype("<i2")  # top row first
-    header = (
-        "fileformat = bcrstm\nheadersize = 2048\nxpixels = 9\nypixels = 6\nxlength = 90\nylength = 60\nxunit = nm\n"
-    )
-    header += "yunit = nm\nzunit = nm\nbit2nm = 0.5\nxoffset = 0\nyoffset = 0\nintelmode = 1\n"
-    path.write_bytes(header.encode().ljust(2048, b" ") + steps.tobytes())
-    return 0.5e-9 * steps[::-1].T
 
 
 def compared(*files: Path) -> tuple[list[str], list[bool], bool]:
