@@ -1,4 +1,4 @@
-"""FFT pairs of the fast solver for other values of its constants: the figures beside them in ``contact/solvers/active_set``.
+"""FFT pairs of the solver for other values of its constants: figures beside them in ``contact/solvers/active_set`` and ``couplings/position``.
 
 Usage: python benchmarks/constants.py [NAME ...]
 """
@@ -14,6 +14,7 @@ from typing import Any
 from surfaces import BODY, self_affine
 
 import asperity as asp
+from asperity.contact.couplings import position
 from asperity.contact.solvers.active_set import linear_system, solver
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
@@ -41,33 +42,64 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (linear_system, "_DEPTH"): [2, 4],
     (linear_system, "_STEEP"): [1.5, 4.0],
     (cpu, "SQUARE_SIDE"): [8, 32, 64],
+    (position, "TARGET_ERROR"): [1e-11, 1e-7],
+    (position, "_HEIGHT_ERROR"): [0.0, 1e-7],
+    (position, "_LARGEST_SHARE"): [1.0, 10.0, 1e4],
+    (position, "_SOLVER_SHARE"): [1e-3, 0.1],
+    (position, "_FINEST"): [1e-12, 1e-8],
+    (position, "_LOOSE"): [1.0, 10.0, 1e5],
+    (position, "_PERSSON"): [0.2, 0.3, 0.6, 0.9],
+    (position, "_LIGHT"): [0.5, 0.65, 1.0],
+    (position, "_AT_FULL"): [0.0, 0.4, 1.2, 2.0],
+    (position, "_FARTHEST"): [0.69, 1.39, 3.47],
+    (position, "_INSIDE"): [0.0, 0.01, 0.1, 0.3],
+    (position, "_CLOSED"): [0.0, 1e-14, 1e-9],
+    (position, "_TOWARDS"): [0.0, 0.25, 1.0],
 }
 
 
-def cases() -> Iterator[tuple[str, asp.ContactProblem, float, asp.solvers.ActiveSet]]:
-    """Kind, problem, load over E*, and solver."""
+Case = tuple[str, asp.ContactProblem, Any, asp.solvers.ActiveSet]
+
+
+def positions() -> Iterator[Case]:
+    """Kind, problem, position, and solver."""
+    for seed in (1, 2):
+        surface = self_affine(128, seed=seed)
+        top, rms = float(surface.heights.max() - surface.heights.mean()), float(surface.heights.std())
+        film = asp.LiquidFilm(surface_tension=0.01 * rms, thickness=0.3 * rms)
+        elastic, hard = asp.ContactProblem(surface, BODY), asp.ContactProblem(surface, BODY, law=asp.Hardness(0.3))
+        found = [("periodic", elastic, asp.MeanGap(top * (1.0 - share))) for share in (0.02, 0.3, 0.7, 0.97)]
+        found += [("full", elastic, asp.MeanGap(1e-3 * rms)), ("full", elastic, asp.Approach(0.9999 * top))]
+        for share in (0.3, 0.8):
+            found.append(("cap", hard, asp.MeanGap(top * (1.0 - share))))
+            found.append(("wet", asp.ContactProblem(surface, BODY, film=film), asp.Approach(top * share)))
+        yield from ((*case, asp.solvers.ActiveSet()) for case in found)
+
+
+def loads() -> Iterator[Case]:
+    """Kind, problem, mean pressure, which is that over E*, and solver."""
     loose, tight = asp.solvers.ActiveSet(tolerance=1e-6), asp.solvers.ActiveSet(tolerance=1e-10)
     monotone = asp.solvers.ActiveSet(tolerance=1e-6, monotone=True)
     for seed in (1, 2):
         large, small = self_affine(512, seed=seed), self_affine(256, seed=seed)
         for load in (0.01, 0.05, 0.2):
-            yield "elastic", asp.ContactProblem(large, BODY), load, loose
+            yield "elastic", asp.ContactProblem(large, BODY), asp.MeanPressure(load), loose
         for thickness, load in ((4.0, 0.2), (20.0, 0.4)):
             film = asp.Layered([asp.Layer(asp.Elastic(10.0, 0.3), thickness)], base=asp.Elastic(1.0, 0.3))
-            yield "film", asp.ContactProblem(large, film), load, loose
+            yield "film", asp.ContactProblem(large, film), asp.MeanPressure(load), loose
         for load in (0.02, 0.1):
-            yield "free", asp.ContactProblem(small, BODY, boundary=asp.Free()), load, loose
-            yield "cap", asp.ContactProblem(small, BODY, law=asp.Hardness(0.3)), load, loose
-            yield "tight", asp.ContactProblem(small, BODY), load, tight
-            yield "monotone", asp.ContactProblem(small, BODY), load, monotone
+            yield "free", asp.ContactProblem(small, BODY, boundary=asp.Free()), asp.MeanPressure(load), loose
+            yield "cap", asp.ContactProblem(small, BODY, law=asp.Hardness(0.3)), asp.MeanPressure(load), loose
+            yield "tight", asp.ContactProblem(small, BODY), asp.MeanPressure(load), tight
+            yield "monotone", asp.ContactProblem(small, BODY), asp.MeanPressure(load), monotone
 
 
-def pairs() -> str:
-    """Mean pairs of each kind, as one line."""
+def pairs(module: Any) -> str:
+    """Mean pairs of each kind of case on which the constants of ``module`` bear, as one line."""
     found = defaultdict(list)
-    for kind, problem, load, method in cases():
+    for kind, problem, control, method in positions() if module is position else loads():
         keep = asp.Keep(stiffness=False)
-        result = asp.solve(problem, asp.MeanPressure(load), solver=method, keep=keep, engine=asp.CpuEngine(1))
+        result = asp.solve(problem, control, solver=method, keep=keep, engine=asp.CpuEngine(1))
         found[kind].append(result.certificate.fft_pairs)
     return ", ".join(f"{kind} {mean(values):.1f}" for kind, values in found.items())
 
@@ -76,14 +108,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("names", nargs="*", help="constants; all by default")
     names = parser.parse_args().names
-    print("as it is:", pairs())
+    print("loads, as it is:", pairs(solver))
+    print("positions, as it is:", pairs(position))
     for (module, name), values in VALUES.items():
         if names and name not in names:
             continue
         usual = getattr(module, name)
         for value in values:
             setattr(module, name, value)
-            print(f"{name} {usual} -> {value}:", pairs(), flush=True)
+            print(f"{name} {usual} -> {value}:", pairs(module), flush=True)
         setattr(module, name, usual)
 
 
