@@ -52,7 +52,7 @@ def enumerated(qp: ContactQP) -> np.ndarray:
             p[free], at = solution[:count], unit * solution[count]
         else:
             at = -qp.constraint.offset
-            if np.linalg.matrix_rank(matrix[np.ix_(free, free)]) < free.sum():
+            if free.any() and np.linalg.matrix_rank(matrix[np.ix_(free, free)]) < free.sum():
                 continue
             p[free] = np.linalg.solve(matrix[np.ix_(free, free)], right[free] + at)
         gap = matrix @ p - heights - at

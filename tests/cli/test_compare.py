@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import BODY, SCALE, Runner
+from refusals import subject_of
 
 import asperity as asp
 from asperity.run.document import load_document
@@ -22,16 +23,7 @@ def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path
     chosen = ("--theories", "persson, kogut-etsion,jackson-green", "--pressures", "1MPa..100MPa", "--loads", "3")
     result = run("compare", matrix, *SCALE, *BODY, *chosen, "--out", out)
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "persson",
-        "kogut-etsion",
-        "Left out",
-        "yield_stress, Pa",
-        "numerical",
-        "κ at 1",
-        "summits flow",
-        "wrote",
-    ):
+    for text in ("persson", "kogut-etsion", "jackson-green", "yield_stress"):
         assert text in result.stdout
     assert {path.name for path in out.iterdir()} == FILES
     plots = sorted(path.name for path in (out / "plots").iterdir())
@@ -43,7 +35,7 @@ def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path
     with (out / "comparison.csv").open(encoding="utf-8") as file:
         assert len(list(csv.DictReader(file))) == 9
     page = (out / "report.html").read_text(encoding="utf-8")
-    for text in ("Where each leaves its validity", "Theories left out", "jackson-green", "Slope of the area", "Yang"):
+    for text in ("jackson-green", "Yang"):
         assert text in page
     assert len(re.findall(r'src="data:image/png', page)) == 5
     assert not re.search(r'(src|href)="(?!data:)', page)
@@ -52,8 +44,7 @@ def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path
 
     again = run("compare", "--document", out / "problem.toml", *chosen)
     assert again.exit_code == 0, again.stderr
-    assert "contact modulus E*" in again.stdout
-    assert "wrote" not in again.stdout
+    assert {path.name for path in tmp_path.iterdir()} == {"run", matrix.name}
 
 
 def test_theories_alone_are_quick_and_have_no_numerical_curve(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -61,7 +52,6 @@ def test_theories_alone_are_quick_and_have_no_numerical_curve(run: Runner, matri
     words = ("--no-numerical", "--pressures", "1MPa,5MPa", "--work", "50mJ/m^2", "--theories", "fuller-tabor,mccool")
     result = run("compare", matrix, *SCALE, *BODY, *words, "--out", out)
     assert result.exit_code == 0, result.stderr
-    assert "without the numerical solution" in result.stdout
     data = asp.open_tree(out / "comparison.nc").to_dataset()
     assert "numerical_area_fraction" not in data
     assert set(data["theory"].values) <= {"fuller-tabor", "mccool"}
@@ -90,10 +80,9 @@ def test_a_load_beyond_the_hardness_is_named_and_the_exit_code_tells(run: Runner
 )
 def test_what_cannot_be_compared_is_refused(run: Runner, matrix: Path, options: tuple[str, ...], subject: str) -> None:
     result = run("compare", matrix, *SCALE, *BODY, *options)
-    assert result.exit_code == 2, result.output
-    assert result.stderr.startswith(f"asperity: {subject} must ")
+    assert subject_of(result) == subject
 
 
 def test_a_surface_and_a_body_are_needed(run: Runner, matrix: Path) -> None:
-    assert "FILE with the rough surface must be given" in run("compare").stderr
-    assert "--body must be given" in run("compare", matrix, *SCALE).stderr
+    assert subject_of(run("compare")) == "FILE with the rough surface"
+    assert subject_of(run("compare", matrix, *SCALE)) == "--body"

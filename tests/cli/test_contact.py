@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
+from refusals import subject_of
 from study_cases import InProcess
 
 import asperity as asp
 from asperity.io.results import load
 from asperity.run.document import load_document
+from asperity.studies.campaign import open_study
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -20,25 +22,28 @@ pytestmark = pytest.mark.usefixtures("undrawn")
 def test_prints_problem_result_and_status(run: Runner, matrix: Path) -> None:
     result = run("contact", matrix, *SCALE, *BODY, *LOAD)
     assert result.exit_code == 0, result.stderr
-    for text in ("rough.txt: 32 × 24 points, 8 µm × 6 µm", "mean pressure 1 MPa", "109.9 GPa", "Converged:"):
+    for text in ("rough.txt", "32 × 24", "8 µm × 6 µm", "1 MPa", "109.9 GPa"):
         assert text in result.stdout
-    assert "levelled: plane removed" in result.stdout
     assert result.stderr == ""
 
 
 @pytest.mark.parametrize(
-    ("load", "prescribed"),
+    ("control", "prescribed"),
     [
-        (("--pressure", "1MPa"), "mean pressure 1 MPa"),
-        (("--load", "50uN"), "force 50 µN"),
-        (("--approach", "0.5nm"), "approach 500 pm"),
-        (("--mean-gap", "2nm"), "mean gap 2 nm"),
+        (("--pressure", "1MPa"), asp.MeanPressure(1e6)),
+        (("--load", "50uN"), asp.Force(50e-6)),
+        (("--approach", "0.5nm"), asp.Approach(0.5e-9)),
+        (("--mean-gap", "2nm"), asp.MeanGap(2e-9)),
     ],
 )
-def test_loads(run: Runner, matrix: Path, load: tuple[str, str], prescribed: str) -> None:
-    result = run("contact", matrix, *SCALE, *BODY, *load)
+def test_loads(
+    run: Runner, matrix: Path, tmp_path: Path, control: tuple[str, str], prescribed: asp.MeanPressure
+) -> None:
+    result = run("contact", matrix, *SCALE, *BODY, *control, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.stderr
-    assert prescribed in result.stdout
+    solved = load(tmp_path / "run" / "result.nc").control
+    assert type(solved) is type(prescribed)
+    assert solved.value == pytest.approx(prescribed.value, rel=1e-15)
 
 
 def test_out_holds_everything_and_the_document_gives_the_same_answer(
@@ -51,7 +56,7 @@ def test_out_holds_everything_and_the_document_gives_the_same_answer(
     assert {path.name for path in out.iterdir()} == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml"}
     assert [path.name for path in (tmp_path / "deep").iterdir()] == ["run"]
     assert len(list((out / "plots").glob("*.png"))) >= 5
-    assert "wrote deep/run/report.html" in result.stdout
+    assert "deep/run/report.html" in result.stdout
     assert load_document(out / "problem.toml").surface.path == "../../rough.txt"  # type: ignore[union-attr]
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
@@ -71,8 +76,7 @@ def test_single_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0, result.stderr
     assert all(path.stat().st_size > 100 for path in paths.values())
     again = run(*command)
-    assert again.exit_code == 2
-    assert "must not exist yet" in again.stderr
+    assert subject_of(again) == "output file"
     assert "--force" in again.stderr
     assert run(*command, "--force").exit_code == 0
 
@@ -83,8 +87,7 @@ def test_never_overwrites_without_force(run: Runner, matrix: Path, tmp_path: Pat
     (out / "notes.txt").write_text("mine")
     command = ("contact", matrix, *SCALE, *BODY, *LOAD, "--out", out)
     result = run(*command)
-    assert result.exit_code == 2
-    assert "output folder must be new or empty" in result.stderr
+    assert subject_of(result) == "output folder"
     assert "--force" in result.stderr
     assert [path.name for path in out.iterdir()] == ["notes.txt"]
     assert run(*command, "--force").exit_code == 0
@@ -109,8 +112,7 @@ def test_not_converged_is_exit_1_with_the_remedy_and_still_written(run: Runner, 
     out = tmp_path / "run"
     result = run("contact", matrix, *SCALE, *BODY, *LOAD, "--max-iterations", 1, "--out", out)
     assert result.exit_code == 1
-    assert "Iteration limit before the tolerance" in result.stdout
-    assert "Raise max_iterations" in result.stdout
+    assert "max_iterations" in result.stdout
     assert not load(out / "result.nc").converged
 
 
@@ -121,7 +123,8 @@ def test_preparation_steps_in_order(run: Runner, matrix: Path, tmp_path: Path) -
     assert result.exit_code == 0, result.stderr
     steps = [step.step for step in load_document(tmp_path / "p.toml").surface.prepare]
     assert steps == ["crop", "level", "fill", "resample", "taper", "periodise"]
-    assert "20 × 16 points, 4 µm × 5 µm" in result.stdout
+    assert "20 × 16" in result.stdout
+    assert "4 µm × 5 µm" in result.stdout
 
 
 def test_missing_points_are_filled_and_counted(run: Runner, tmp_path: Path) -> None:
@@ -129,12 +132,13 @@ def test_missing_points_are_filled_and_counted(run: Runner, tmp_path: Path) -> N
     heights[3, 4] = heights[8, 8:11] = np.nan
     np.savetxt(tmp_path / "holes.txt", heights)
     command = ("contact", tmp_path / "holes.txt", "--size", "4um", "--height-unit", "nm", *BODY, *LOAD)
-    result = run(*command)
+    result = run(*command, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.stderr
-    assert "filled: 4 points" in result.stdout
-    refused = run(*command, "--fill", "none")
-    assert refused.exit_code == 2
-    assert "4 are missing" in refused.stderr
+    filled = load(tmp_path / "run" / "result.nc").problem.surface
+    assert np.isfinite(filled.heights).all()
+    known = np.isfinite(asp.read(tmp_path / "holes.txt", size=(4e-6, 4e-6), height_unit="nm").heights)
+    assert np.count_nonzero(~known) == 4
+    assert subject_of(run(*command, "--fill", "none")) == "surface"
 
 
 def test_counter_surface_boundary_solver_and_own_material(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -166,44 +170,35 @@ def test_counter_surface_boundary_solver_and_own_material(run: Runner, matrix: P
     )
     result = run("contact", matrix, *SCALE, *bodies, *LOAD, *rest)
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "glass: E = 70 GPa",
-        "DLC: E = 140 GPa",
-        "free, hardness 6 GPa",
-        "steepest_descent",
-        "counter surface",
-    ):
+    for text in ("glass", "70 GPa", "DLC", "140 GPa", "6 GPa", "steepest_descent"):
         assert text in result.stdout
 
 
 def test_options_replace_parts_of_a_document(run: Runner, matrix: Path, tmp_path: Path) -> None:
     document = tmp_path / "p.toml"
     assert run("contact", matrix, *SCALE, *BODY, *LOAD, "--save-document", document).exit_code == 0
-    result = run("contact", "--from", document, "--load", "20uN", "--body", "DLC", "--tolerance", 1e-5)
+    options = ("--load", "20uN", "--body", "DLC", "--tolerance", 1e-5, "--out", tmp_path / "run")
+    result = run("contact", "--from", document, *options)
     assert result.exit_code == 0, result.stderr
-    assert "force 20 µN" in result.stdout
-    assert "DLC: E = 140 GPa" in result.stdout
-    refused = run("contact", matrix, "--from", document)
-    assert refused.exit_code == 2
-    assert "must be left out together with --from" in refused.stderr
+    solved = load(tmp_path / "run" / "result.nc")
+    assert solved.force == pytest.approx(20e-6)
+    assert solved.problem.body.youngs_modulus == asp.material("DLC").youngs_modulus
+    assert (
+        subject_of(run("contact", matrix, "--from", document))
+        == "FILE and the options for reading, preparation and counter surface"
+    )
 
 
 def test_advice_is_printed(run: Runner, matrix: Path) -> None:
     result = run("contact", matrix, *SCALE, *BODY, *LOAD)
-    assert "warning (resolution)" in result.stdout
+    assert "(resolution)" in result.stdout
 
 
 def test_coated_bodies(run: Runner, matrix: Path, tmp_path: Path) -> None:
     bodies = ("--body", "DLC:5nm~/Cr:2nm/steel", "--counter-body", "E=1GPa,nu=0.4:1um/rigid", "--hardness", "body")
     result = run("contact", matrix, *SCALE, *bodies, *LOAD, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "DLC 5 nm (slips) / chromium 2 nm / steel",
-        "(E = 1 GPa, ν = 0.4) 1 µm / rigid base",
-        "hardness 15 GPa (of DLC, the top layer)",
-        "contact modulus E* of the materials at the surfaces",
-        "note (softer layers below)",
-    ):
+    for text in ("DLC 5 nm", "chromium 2 nm", "steel", "1 GPa", "1 µm", "15 GPa"):
         assert text in result.stdout, text
     solved = load(tmp_path / "run" / "result.nc")
     layers = [asp.Layer(asp.material("DLC"), 5e-9, asp.Frictionless()), asp.Layer(asp.material("Cr"), 2e-9)]
@@ -211,9 +206,6 @@ def test_coated_bodies(run: Runner, matrix: Path, tmp_path: Path) -> None:
     again = run("contact", "--from", tmp_path / "run" / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
     np.testing.assert_array_equal(load(tmp_path / "again" / "result.nc").pressure, solved.pressure)
-    html = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
-    assert "5 nm of DLC: E = 140 GPa" in html
-    assert "slips without friction on what is below" in html
 
 
 def test_line_contact_from_a_document(run: Runner, tmp_path: Path) -> None:
@@ -226,10 +218,12 @@ boundary = { kind = "line" }
 control = { force = "1 kN" }
 """
     )
-    result = run("contact", "--from", document)
+    result = run("contact", "--from", document, "--out", tmp_path / "run")
     assert result.exit_code == 0, result.stderr
-    assert "free line, hard wall" in result.stdout
-    assert "force                                                    1 kN" in result.stdout
+    solved = load(tmp_path / "run" / "result.nc")
+    assert solved.problem.boundary == asp.FreeLine()
+    assert solved.force == pytest.approx(1e3)
+    assert "1 kN" in result.stdout
 
 
 def test_many_files_are_one_study_with_a_row_for_each(
@@ -247,9 +241,10 @@ def test_many_files_are_one_study_with_a_row_for_each(
     )
     row = next(line for line in found.stdout.splitlines() if matrix.name in line)
     assert largest.split()[0] in row
-    assert "2 done, 1 failed" in found.stdout
+    state = open_study(out).state()
+    assert (state.done, state.failed) == (2, 1)
     page = (out / "report.html").read_text(encoding="utf-8")
     assert all(file.name in page for file in (matrix, other, broken))
     assert run("status", out).exit_code == 0, "paths start at the folder"
     refused = run("contact", matrix, other, *SCALE, *BODY, *LOAD, "--csv", tmp_path / "a.csv")
-    assert "--csv must be left out with many files" in refused.stderr
+    assert subject_of(refused) == "--csv"

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import Runner
+from refusals import subject_of
 
 import asperity as asp
 from asperity.cli.generate import options
@@ -78,7 +79,8 @@ def test_every_kind_is_generated_and_comes_back(run: Runner, tmp_path: Path, kin
     assert surface.shape == (24, 16)
     assert surface.size == pytest.approx((12e-6, 8e-6))
     assert surface.origin.history[0].startswith("generated: ")
-    assert "24 × 16 points, 12 µm × 8 µm" in result.stdout
+    assert "24 × 16" in result.stdout
+    assert "12 µm × 8 µm" in result.stdout
 
 
 @pytest.mark.parametrize("kind", EXAMPLES)
@@ -111,7 +113,7 @@ def test_two_slopes_from_numbers_with_commas(run: Runner, tmp_path: Path) -> Non
     waves = ("--rolloff-wavelength", "5um", "--crossover-wavelength", "3um")
     result = run("generate", "rough", *GRID, *SEED, *options, *waves, "--out", tmp_path / "a.nc")
     assert result.exit_code == 0, result.stderr
-    assert "q^-6.5 from 5 µm, q^-4.6 from 3 µm" in result.stdout
+    assert [text for text in ("q^-6.5", "5 µm", "q^-4.6", "3 µm") if text not in result.stdout] == []
 
 
 def test_more_like_a_measured_file(run: Runner, tmp_path: Path) -> None:
@@ -120,7 +122,7 @@ def test_more_like_a_measured_file(run: Runner, tmp_path: Path) -> None:
     options = ("--spectrum", "measured", "--spectrum-file", tmp_path / "seen.txt", *scale, "--floor", "1nm**4")
     result = run("generate", "rough", *GRID, *SEED, *options, "--out", tmp_path / "a.nc")
     assert result.exit_code == 0, result.stderr
-    assert "radial spectrum of seen.txt" in " ".join(result.stdout.split())
+    assert "seen.txt" in result.stdout
 
 
 @pytest.mark.parametrize("ending", ["txt", "asc", "npy"])
@@ -163,38 +165,52 @@ def test_gaussian_surface_within_a_memory(run: Runner, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "options", "words"),
+    ("kind", "options", "subject"),
     [
-        ("rough", (*SEED, *SELF_AFFINE), "must give exactly one of rms_height, rms_slope, plateau"),
-        ("rough", (*SEED, *EXPONENTIAL, "--variant", "other"), "--variant must be 'random', 'fixed' or 'nested'"),
-        ("rough", (*SEED, "--spectrum", "exponential", "--rms-height", "5"), "--rms-height must have a unit"),
-        ("rough", (*SEED, "--spectrum", "white"), "must be one of"),
-        ("rough", (*SEED, *EXPONENTIAL, "--hurst", "0.8"), "--hurst is not a known key"),
-        ("rough", EXPONENTIAL, "--seed"),
-        ("sphere", ("--radius", "-3um"), "--radius must be greater than zero"),
-        ("sphere", ("--radius", "1um", "--exact"), "larger radius"),
-        ("digital_filter", (*SEED, *EXPONENTIAL, "--kurtosis", "1"), "kurtosis of the heights"),
-        ("digital_filter", (*SEED, *EXPONENTIAL, "--periodic", "--memory", "1GB"), "--memory must be left out"),
-        ("rough", (*SEED, *EXPONENTIAL, "--no-periodic", "--memory", "1GB"), "--memory must be left out"),
-        ("rough", (*SEED, *EXPONENTIAL, "--memory", "1GB"), "digital_filter, for autocorrelations"),
-        ("dimples", ("--pitch", "4um", "--radius", "1um", "--depth", "1nm"), "--pitch"),
-        ("laser_bumps", (), "--pitch"),
+        ("rough", (*SEED, *SELF_AFFINE), "spectrum"),
+        ("rough", (*SEED, *EXPONENTIAL, "--variant", "other"), "--variant"),
+        (
+            "rough",
+            (*SEED, "--spectrum", "exponential", "--correlation-length", "1um", "--rms-height", "5"),
+            "--rms-height",
+        ),
+        ("rough", (*SEED, "--spectrum", "white"), "spectrum.kind"),
+        ("sphere", ("--radius", "-3um"), "--radius"),
+        ("sphere", ("--radius", "1um", "--exact"), "grid of an exact sphere"),
+        ("digital_filter", (*SEED, *EXPONENTIAL, "--kurtosis", "1"), "kurtosis of the heights at skewness 0"),
+        ("digital_filter", (*SEED, *EXPONENTIAL, "--periodic", "--memory", "1GB"), "--memory"),
+        ("rough", (*SEED, *EXPONENTIAL, "--no-periodic", "--memory", "1GB"), "--memory"),
+        ("rough", (*SEED, *EXPONENTIAL, "--memory", "1GB"), "spectrum of a surface beyond the memory"),
+        ("dimples", ("--pitch", "4um", "--radius", "1um", "--depth", "1nm"), "part 2 of --pitch"),
     ],
 )
-def test_errors_name_the_option(run: Runner, tmp_path: Path, kind: str, options: tuple[str, ...], words: str) -> None:
+def test_errors_name_the_option(run: Runner, tmp_path: Path, kind: str, options: tuple[str, ...], subject: str) -> None:
     out = tmp_path / ("a.npy" if "--memory" in options else "a.nc")
     result = run("generate", kind, *GRID, *options, "--out", out)
-    assert result.exit_code == 2
-    assert words in " ".join(result.stderr.split())
+    assert subject_of(result) == subject
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("kind", "options", "named"),
+    [
+        ("rough", (*SEED, *EXPONENTIAL, "--hurst", "0.8"), "--hurst"),
+        ("rough", EXPONENTIAL, "--seed"),
+        ("laser_bumps", (), "--pitch"),
+    ],
+)
+def test_options_that_are_missing_or_unknown_are_named(
+    run: Runner, tmp_path: Path, kind: str, options: tuple[str, ...], named: str
+) -> None:
+    result = run("generate", kind, *GRID, *options, "--out", tmp_path / "a.nc")
+    assert result.exit_code == 2
+    assert named in result.stderr
+
+
 def test_unknown_kind_and_wrong_files(run: Runner, tmp_path: Path) -> None:
-    assert "No such command 'plane'" in run("generate", "plane", "--out", "x").stderr
-    assert "must end in" in run("generate", "flat", *GRID, "--out", tmp_path / "a.csv").stderr
-    assert "PNG" in run("generate", "flat", *GRID, "--out", tmp_path / "a.nc", "--plot", tmp_path / "a.jpg").stderr
-    assert (
-        "--points must be one or two numbers"
-        in run("generate", "flat", "--points", "4,4", "--size", "1um", "--out", tmp_path / "a.nc").stderr
-    )
+    assert run("generate", "plane", "--out", "x").exit_code == 2
+    assert subject_of(run("generate", "flat", *GRID, "--out", tmp_path / "a.csv")) == "file of a surface"
+    files = ("--out", tmp_path / "a.nc")
+    assert subject_of(run("generate", "flat", *GRID, *files, "--plot", tmp_path / "a.jpg")) == "--plot"
+    assert subject_of(run("generate", "flat", "--points", "4,4", "--size", "1um", *files)) == "--points"
     assert all(kind in run("generate", "--help").stdout for kind in SURFACES)

@@ -8,17 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import SCALE, Runner
+from refusals import subject_of
 
 
 def test_info_says_what_is_in_the_file(run: Runner, matrix: Path) -> None:
     result = run("info", matrix, *SCALE)
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "channel 0 (read)",
-        "32 × 24 points, 8 µm × 6 µm",
-        "250 nm × 250 nm",
-        "Roughness after plane levelling",
-    ):
+    for text in ("rough.txt", "32 × 24", "8 µm × 6 µm", "250 nm × 250 nm"):
         assert text in result.stdout
 
 
@@ -49,12 +45,10 @@ def test_info_keeps_a_periodic_surface_periodic(run: Runner, tmp_path: Path) -> 
 
 
 def test_info_levels_by_a_polynomial(run: Runner, matrix: Path) -> None:
-    assert "Roughness after degree-4 levelling" in run("info", matrix, *SCALE, "--level", "4").stdout
+    assert json.loads(run("info", matrix, *SCALE, "--level", "4", "--json").stdout)["levelled"] == "4"
     again, named = (run("info", matrix, *SCALE, "--level", form, "--json").stdout for form in ("2", "quadratic"))
     assert json.loads(again)["Sq"] == json.loads(named)["Sq"]
-    refused = run("info", matrix, *SCALE, "--level", "sphere")
-    assert refused.exit_code == 2
-    assert "must be one of mean, plane, quadratic" in refused.stderr
+    assert subject_of(run("info", matrix, *SCALE, "--level", "sphere")) == "form to be removed"
 
 
 def test_info_plot(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -68,7 +62,7 @@ def test_info_plot(run: Runner, matrix: Path, tmp_path: Path) -> None:
 def test_materials_are_listed_with_sources(run: Runner) -> None:
     result = run("materials")
     assert result.exit_code == 0
-    for text in ("DLC", "140 GPa", "15 GPa", "Peng 2001", "* assumed"):
+    for text in ("DLC", "140 GPa", "15 GPa", "Peng 2001", "*"):
         assert text in result.stdout
 
 
@@ -92,10 +86,10 @@ def test_liquids_are_listed_with_sources(run: Runner) -> None:
     assert "18.05 cm³/mol" in listed
     assert "24 mN/m *" in listed, "typical values are marked"
     one = run("liquids", "zdol").stdout
-    assert "assumed: typical of perfluoropolyethers" in one
+    assert "perfluoropolyethers" in one
     (found,) = json.loads(run("liquids", "water", "--json").stdout)
     assert found["surface_tension"]["value"] == 0.07274
-    assert "did you mean" in run("liquids", "watr").output
+    assert subject_of(run("liquids", "watr")) == "liquid"
 
 
 def test_own_materials(run: Runner, tmp_path: Path) -> None:

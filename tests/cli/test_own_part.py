@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
+from refusals import subject_of
 from study_cases import PROBLEM, InProcess, plan
 
 import asperity as asp
@@ -87,7 +88,6 @@ def test_it_appears_everywhere(run: Runner, matrix: Path, tmp_path: Path, entry:
     assert "--hot-level" in run("contact", "--help").stdout
     done = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200MPa", "--out", tmp_path / "run")
     assert done.exit_code == 0, done.stderr
-    assert "Hot points" in done.stdout
     outcome = asp.run(tmp_path / "run" / "problem.toml")
     assert outcome.case is not None
     assert outcome.case.asks["hot"].level == 2e8
@@ -104,7 +104,7 @@ def test_it_appears_everywhere(run: Runner, matrix: Path, tmp_path: Path, entry:
     assert run("export", tmp_path / "run" / "result.nc", "--csv", tmp_path / "again.csv").exit_code == 0
     assert f"hot_share,{share!r},1," in (tmp_path / "again.csv").read_text(encoding="utf-8")
     refused = run("contact", matrix, *SCALE, *BODY, *LOAD, "--hot-level", "200nm")
-    assert "--hot-level must be a pressure" in refused.stderr
+    assert subject_of(refused) == "--hot-level"
 
     made = plan(
         problem={**PROBLEM, "hot": {}},

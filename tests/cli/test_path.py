@@ -22,7 +22,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     body = ("--body", "E=100GPa,nu=0.3,H=0.5GPa")
     result = run("contact", matrix, *SCALE, *body, "--hardness", "body", *PATH, "--out", out)
     assert result.exit_code == 0, result.stderr
-    for text in ("Load path", "External work", "30 MPa", "40 MPa", "through 12 steps", "wrote"):
+    for text in ("30 MPa", "40 MPa", "12"):
         assert text in result.stdout
     names = {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "path.csv"}
     assert {path.name for path in out.iterdir()} == names
@@ -41,9 +41,6 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     np.testing.assert_array_equal(last.permanent_indentation, data["permanent_indentation"][-1])
     with (out / "path.csv").open(encoding="utf-8") as file:
         assert len(list(csv.DictReader(file))) == 12
-    page = (out / "report.html").read_text(encoding="utf-8")
-    for text in ("Load path", "Plastic deformation", "area ever plastic", "Where the work goes", "Residual surface"):
-        assert text in page
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
@@ -51,11 +48,19 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     np.testing.assert_array_equal(other["pressure"], data["pressure"])
 
 
-def test_a_path_of_approaches_and_of_forces(run: Runner, matrix: Path) -> None:
-    for path, shown in (("0.2nm,0.1nm", "100 pm"), ("20uN,0", "through 20 steps")):
-        result = run("contact", matrix, *SCALE, *COATED, "--boundary", "free", "--path", path)
-        assert result.exit_code == 0, result.stderr
-        assert shown in result.stdout
+@pytest.mark.parametrize(
+    ("path", "last"), [("0.2nm,0.1nm", asp.Approach(0.1e-9)), ("20uN,0", asp.Unloaded())], ids=["approach", "force"]
+)
+def test_a_path_of_approaches_and_of_forces(
+    run: Runner, matrix: Path, tmp_path: Path, path: str, last: asp.Approach | asp.Unloaded
+) -> None:
+    command = ("contact", matrix, *SCALE, *COATED, "--boundary", "free", "--path", path, "--out", tmp_path / "run")
+    result = run(*command)
+    assert result.exit_code == 0, result.stderr
+    assert asp.open_tree(tmp_path / "run" / "result.nc")["path"].to_dataset().sizes["step"] == 20
+    control = asp.load(tmp_path / "run" / "result.nc").control
+    assert type(control) is type(last)
+    assert vars(control) == pytest.approx(vars(last), rel=1e-15)
 
 
 def test_the_steps_of_a_document_are_replaced(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -63,7 +68,6 @@ def test_the_steps_of_a_document_are_replaced(run: Runner, matrix: Path, tmp_pat
     assert run("contact", matrix, *SCALE, *COATED, *PATH, "--save-document", first).exit_code == 0
     second = run("contact", "--from", first, "--path-steps", "2", "--save-document", tmp_path / "b.toml")
     assert second.exit_code == 0, second.stderr
-    assert "through 8 steps" in second.stdout
     table = load_document(tmp_path / "b.toml").control.path
     assert table is not None
     assert table.steps == 2
@@ -72,8 +76,8 @@ def test_the_steps_of_a_document_are_replaced(run: Runner, matrix: Path, tmp_pat
 def test_effective_hardness(run: Runner, matrix: Path) -> None:
     result = run("contact", matrix, *SCALE, *COATED, "--hardness", "effective", "--pressure", "20MPa")
     assert result.exit_code == 0, result.stderr
-    words = " ".join(result.stdout.split())
-    assert "effective hardness 9 GPa at the surface to 100 MPa deep in the base, by local indentation" in words
+    assert "9 GPa" in result.stdout
+    assert "100 MPa" in result.stdout
 
 
 def test_plots_of_an_indented_surface(run: Runner, matrix: Path, tmp_path: Path, rendered: None) -> None:
@@ -91,6 +95,6 @@ def test_the_plastic_load(run: Runner, matrix: Path, tmp_path: Path) -> None:
     options = ("--hardness", "body", "--pressure", "1MPa", "--plastic-load", "--out", tmp_path / "run")
     result = run("contact", matrix, *SCALE, *body, *options)
     assert result.exit_code == 0, result.stderr
-    words = "first load at which 2 % of the real area is plastic"
-    assert words in " ".join(result.stdout.split())
-    assert words in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    with (tmp_path / "run" / "scalars.csv").open(encoding="utf-8") as file:
+        scalars = {row["name"]: row["value"] for row in csv.DictReader(file)}
+    assert 0.0 < float(scalars["plastic_load_pressure"]) < 0.5e9

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
-from refusals import refused
+from refusals import refused, subject_of
 
 from asperity import InputError
 from asperity.cli.declared import Given
@@ -87,7 +87,7 @@ def test_a_contact_of_a_filtered_scan_writes_its_steps(run: Runner, matrix: Path
     assert result.exit_code == 0, result.stderr
     written = load_document(tmp_path / "a.toml").surface.prepare
     assert [step.step for step in written] == ["despike", "level", "fill", "filter", "periodise"]
-    assert "filtered: short waves from 1 µm" in result.stdout
+    assert "1 µm" in result.stdout
 
 
 def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
@@ -99,8 +99,7 @@ def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
         (("--common-grid",), "--common-grid"),
     ):
         result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options)
-        assert result.exit_code == 2
-        assert result.stderr.startswith(f"asperity: {subject} must "), options
+        assert subject_of(result) == subject, options
 
 
 def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -111,7 +110,7 @@ def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: P
     assert placed is not None
     assert (placed.shift, placed.angle) == ((1e-6, 0.0), pytest.approx(math.pi / 2))
     wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--shift", "1um")
-    assert "--shift must be" in wrong.stderr
+    assert subject_of(wrong) == "--shift"
 
 
 def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -123,10 +122,10 @@ def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: 
     assert result.problem.surface.shape == (24, 1)
     assert result.problem.surface.size == pytest.approx((6e-6, 1.0))
     assert result.force == pytest.approx(0.5)
-    assert "sliced: line at x = 3.125 µm (24 points)" in found.stdout
+    assert "3.125 µm" in found.stdout
     assert load_document(tmp_path / "run" / "problem.toml").surface.prepare[-1].x == pytest.approx(3e-6)
     per_length = run("contact", matrix, *SCALE, *BODY, "--load", "1N/m")
-    assert "force per length must be given together with the boundary line only" in per_length.stderr
+    assert subject_of(per_length) == "force per length"
     path = run(
         "contact",
         matrix,
@@ -141,9 +140,9 @@ def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: 
         "--path-steps",
         "1",
     )
-    assert "force                                                    500 mN" in path.stdout, path.stderr
+    assert "500 mN" in path.stdout, path.stderr
     refused = run("contact", matrix, *SCALE, *BODY, *line)
     assert refused.exit_code == 2
     assert "--line y=middle" in refused.stderr
-    for text, words in (("3um", "--line must be a position"), ("y=9um", "must lie on the map, between 0 and 6 µm")):
-        assert words in " ".join(run("contact", matrix, *SCALE, *BODY, *line, "--line", text).stderr.split())
+    for text, subject in (("3um", "--line"), ("y=9um", "y of a line")):
+        assert subject_of(run("contact", matrix, *SCALE, *BODY, *line, "--line", text)) == subject

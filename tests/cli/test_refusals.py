@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
+from refusals import subject_of
 
+from asperity.core.errors import AsperityError
 from asperity.core.units import prefixed
 
 
@@ -21,9 +23,8 @@ def refused(run: Runner, *arguments: object) -> str:
 
 def test_all_problems_at_once(run: Runner, matrix: Path) -> None:
     text = refused(run, "contact", matrix, *SCALE, "--body", "E=-1GPa,nu=0.7", "--pressure", "5", "--boundary", "open")
-    assert text.splitlines()[0] == "asperity: command line has 4 problems:"
-    for name in ("E of --body", "nu of --body", "--pressure", "--boundary"):
-        assert f"\n  {name} must" in text
+    found = {AsperityError(line.strip()).subject for line in text.splitlines()[1:]}
+    assert found == {"E of --body", "nu of --body", "--pressure", "--boundary"}
 
 
 def test_document_problems_at_once(run: Runner, tmp_path: Path) -> None:
@@ -32,7 +33,6 @@ def test_document_problems_at_once(run: Runner, tmp_path: Path) -> None:
         'version = 1\n[surface]\nkind = "cube"\n[body]\nmaterial = "DLC"\n[control]\nforce = "1 nm"\n[extra]\n'
     )
     text = refused(run, "contact", "--from", path)
-    assert "has 3 problems:" in text
     assert [line.split()[0] for line in text.splitlines()[1:]] == ["surface.kind", "control.force", "extra"]
 
 
@@ -44,12 +44,12 @@ def test_truncated_instrument_file(run: Runner, shared_data: Path, tmp_path: Pat
 
 def test_grids_that_do_not_match(run: Runner, matrix: Path, tmp_path: Path) -> None:
     np.savetxt(tmp_path / "other.txt", np.eye(5))
-    text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", tmp_path / "other.txt")
-    assert "equal numbers of points" in text
+    other = ("--counter-surface", tmp_path / "other.txt")
+    assert subject_of(run("contact", matrix, *SCALE, *BODY, *LOAD, *other)) == "the two surfaces of a pair"
 
 
 def test_neither_file_nor_document(run: Runner) -> None:
-    assert "FILE with the rough surface must be given" in refused(run, "contact", *BODY, *LOAD)
+    assert subject_of(run("contact", *BODY, *LOAD)) == "FILE with the rough surface"
 
 
 @pytest.mark.parametrize("arguments", [("--nonsense",), ("nonsense",), ("info",), ("contact", "--nonsense")])
@@ -60,22 +60,18 @@ def test_usage_errors_are_exit_2(run: Runner, arguments: tuple[str, ...]) -> Non
 
 
 def test_picture_must_be_a_png(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    text = refused(run, "info", matrix, *SCALE, "--plot", tmp_path / "map.jpg")
-    assert "--plot must be the name of a PNG file" in text
+    assert subject_of(run("info", matrix, *SCALE, "--plot", tmp_path / "map.jpg")) == "--plot"
     assert not (tmp_path / "map.jpg").exists()
 
 
 def test_two_outputs_of_one_name(run: Runner, matrix: Path, tmp_path: Path) -> None:
     both = tmp_path / "both.out"
-    text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--csv", both, "--vtk", both)
-    assert "output files must differ" in text
+    assert subject_of(run("contact", matrix, *SCALE, *BODY, *LOAD, "--csv", both, "--vtk", both)) == "output files"
     assert not both.exists()
 
 
 def test_result_that_is_a_folder(run: Runner, tmp_path: Path) -> None:
-    text = refused(run, "cite", tmp_path)
-    assert "is a folder" in text
-    assert str(tmp_path) in text.replace("\n", "")
+    assert str(tmp_path) in refused(run, "cite", tmp_path).replace("\n", "")
 
 
 def test_messages_name_what_to_do(run: Runner, matrix: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -83,9 +79,9 @@ def test_messages_name_what_to_do(run: Runner, matrix: Path, monkeypatch: pytest
     assert "asperity info" in refused(run, "plot", matrix)
     monkeypatch.setattr("asperity.core.status.free_memory", lambda: 2.0**30)
     text = refused(run, "contact", matrix, *SCALE, *BODY, *LOAD, "--resample", "100000")
-    assert "1e+10 need about 931 GiB where 1 GiB are free" in text
+    assert [value for value in ("1e+10", "931 GiB", "1 GiB") if value not in text] == []
     text = refused(run, "contact", matrix, *SCALE, *BODY, "--pressure", "15GPa", "--hardness", "body")
-    assert "mean hardness 5 GPa (force: hardness times nominal area), but is 15 GPa" in text
+    assert [value for value in ("5 GPa", "15 GPa") if value not in text] == []
 
 
 def test_prefixes_in_messages() -> None:
@@ -104,9 +100,7 @@ def test_an_output_never_replaces_the_input(run: Runner, matrix: Path, tmp_path:
         (("contact", matrix, *SCALE, *BODY, *LOAD), matrix, "--csv"),
     ):
         before = file.read_bytes()
-        refused = run(*command, option, file, "--force")
-        assert refused.exit_code == 2
-        assert "must not be the input" in refused.stderr
+        assert subject_of(run(*command, option, file, "--force")) == "output file"
         assert file.read_bytes() == before
 
 

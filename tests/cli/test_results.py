@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from cli.conftest import BODY, LOAD, SCALE, Runner
+from refusals import subject_of
 
 from asperity.io.results import load
 from asperity.plots import PLOTS
@@ -37,7 +38,7 @@ def test_help_names_every_figure(run: Runner) -> None:
 
 
 def test_plot_refusals(run: Runner, result_file: Path, tmp_path: Path) -> None:
-    assert "--kind must be one of all, heights" in run("plot", result_file, "--kind", "cake").stderr
+    assert subject_of(run("plot", result_file, "--kind", "cake")) == "--kind"
     assert run("plot", tmp_path / "none.nc").exit_code == 2
     assert run("plot", result_file, "--kind", "gap", "--out", result_file / "below").exit_code == 2
 
@@ -48,7 +49,7 @@ def test_export(run: Runner, result_file: Path, tmp_path: Path) -> None:
     assert (tmp_path / "f.vti").read_text().startswith("<?xml")
     assert run("export", result_file, *files).exit_code == 2
     assert run("export", result_file, *files, "--force").exit_code == 0
-    assert "give --csv FILE or --vtk FILE" in run("export", result_file).stderr
+    assert subject_of(run("export", result_file)) == "export"
 
 
 def test_cite_result_and_document(run: Runner, result_file: Path) -> None:
@@ -56,7 +57,7 @@ def test_cite_result_and_document(run: Runner, result_file: Path) -> None:
     from_document = run("cite", result_file.with_name("problem.toml"))
     assert from_result.exit_code == from_document.exit_code == 0, from_document.stderr
     for result in (from_result, from_document):
-        assert "[Polonsky1999] Polonsky, I. A., Keer, L. M. (1999)." in result.stdout
+        assert "[Polonsky1999]" in result.stdout
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89HDF\r\n\x1a\n cut", b"nothing like it"])
@@ -64,8 +65,7 @@ def test_damaged_results(run: Runner, tmp_path: Path, content: bytes) -> None:
     (tmp_path / "bad.nc").write_bytes(content)
     for command in (("plot",), ("cite",), ("export", "--csv", tmp_path / "x.csv")):
         result = run(command[0], tmp_path / "bad.nc", *command[1:])
-        assert result.exit_code == 2
-        assert result.stderr.startswith("asperity: result file must be")
+        assert subject_of(result) == "result file"
     assert not (tmp_path / "x.csv").exists()
 
 
@@ -73,19 +73,11 @@ def test_demo(run: Runner, tmp_path: Path) -> None:
     out = tmp_path / "demo"
     result = run("demo", "--out", out)
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "256 × 256 points, 10 µm × 10 µm",
-        "mean pressure 4 MPa",
-        "hardness 10 GPa (of coating",
-        "Converged:",
-    ):
+    for text in ("256 × 256", "10 µm × 10 µm", "4 MPa", "10 GPa", "200 nm"):
         assert text in result.stdout
-    for text in ("coating, 0 to 200 nm", "coating / disk, 200 nm", "Onset of yield"):
-        assert text in result.stdout
-    html = (out / "report.html").read_text(encoding="utf-8")
-    assert "<html" in html.lower()
-    assert "Stresses inside the body" in html
+    assert "<html" in (out / "report.html").read_text(encoding="utf-8").lower()
     solved = load(out / "result.nc")
+    assert solved.converged
     assert solved.mean_pressure == pytest.approx(4e-5 * 100e9, rel=1e-9)
     again = run("contact", "--from", out / "problem.toml")
     assert again.exit_code == 0
@@ -96,5 +88,5 @@ def test_demo_without_a_folder_only_prints(run: Runner, tmp_path: Path, monkeypa
     monkeypatch.chdir(tmp_path)
     result = run("demo")
     assert result.exit_code == 0
-    assert "Add --out DIR" in result.stdout
+    assert "--out" in result.stdout
     assert list(tmp_path.iterdir()) == []

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from cli.conftest import LOAD, SCALE, Runner
 from contact_cases import slid
+from refusals import subject_of
 
 import asperity as asp
 from asperity.core.units import show
@@ -25,18 +26,8 @@ def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
     more = ("--section", "x=2um", "--profile", "x=max", "--tensile-strength", "1GPa")
     result = run("contact", matrix, *SCALE, *COATED, *LOAD, *wanted, *more, "--out", out)
     assert result.exit_code == 0, result.stderr
-    for text in (
-        "Largest stresses inside",
-        "film, 0 to 100 nm",
-        "base, below 100 nm",
-        "shear (σ1 − σ3)/2",
-        "film / base, 100 nm",
-        "7.143 GPa (H/2.8)",
-        "Given strengths",
-        "wrote " + str(out / "stress.csv"),
-    ):
+    for text in ("film", "base", "100 nm", "(σ1 − σ3)/2", "7.143 GPa", "H/2.8", str(out / "stress.csv")):
         assert text in result.stdout, text
-    assert "yield" in result.stdout.split("Given strengths")[1]
     names = {path.name for path in out.iterdir()}
     assert names == {"report.html", "result.nc", "scalars.csv", "plots", "problem.toml", "stress.csv"}
     fields = sorted(open_tree(out / "result.nc")["stress"].children)
@@ -55,9 +46,7 @@ def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
         rows = {(row["name"], row["quantity"]): float(row["value"]) for row in csv.DictReader(file)}
     assert rows["film", "max_von_mises"] >= field.within("film").von_mises.max() * (1.0 - 1e-12)
     html = (out / "report.html").read_text(encoding="utf-8")
-    assert "Stresses inside the body" in html
-    assert "90° from x towards y" in html
-    assert "does not change the pressure" in html
+    assert "90°" in html
     assert "[Burmister1945]" in html
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
@@ -84,10 +73,9 @@ def test_stresses_are_computed_only_where_asked_for(
     result = run("contact", matrix, *SCALE, *COATED, *LOAD, "--out", out)
     assert result.exit_code == 0
     assert computed == []
-    assert "Largest stresses" not in result.stdout
     assert not (out / "stress.csv").exists()
     assert load_document(out / "problem.toml").stress is None
-    assert "Stresses inside" not in (out / "report.html").read_text(encoding="utf-8")
+    assert "stress" not in open_tree(out / "result.nc").children
     run("contact", matrix, *SCALE, *COATED, *LOAD, "--depths", "10nm,20nm")
     assert len(computed) == 2
 
@@ -105,8 +93,7 @@ def test_volume_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     command = ("contact", matrix, *SCALE, *COATED, *LOAD, *files, "--stress-precision", "single", "--deepest", "300nm")
     result = run(*command)
     assert result.exit_code == 0, result.stderr
-    assert f"wrote {tmp_path / 'v.vtr'}" in result.stdout
-    assert "Largest stresses inside" in result.stdout
+    assert str(tmp_path / "v.vtr") in result.stdout
     volume = open_tree(tmp_path / "v.nc")["field"].to_dataset()
     assert volume["zz"].dims == ("plane", "x", "y")
     assert volume["zz"].dtype == np.float32
@@ -114,9 +101,7 @@ def test_volume_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     header = (tmp_path / "v.vtr").read_bytes()[:3000].decode("ascii", errors="replace")
     assert 'type="RectilinearGrid"' in header
     assert f'WholeExtent="0 31 0 23 0 {volume.sizes["plane"] - 1}"' in header
-    refused = run(*command)
-    assert refused.exit_code == 2
-    assert "must not exist yet" in refused.stderr
+    assert subject_of(run(*command)) == "output file"
 
 
 def test_coupling_changes_the_pressure(run: Runner, matrix: Path, tmp_path: Path) -> None:
@@ -130,7 +115,6 @@ def test_coupling_changes_the_pressure(run: Runner, matrix: Path, tmp_path: Path
     direct = slid(plain.problem, plain.control, 0.8)
     np.testing.assert_allclose(coupled.pressure, direct.pressure, rtol=1e-9, atol=1e-9 * plain.max_pressure)
     html = (tmp_path / "coupled" / "report.html").read_text(encoding="utf-8")
-    assert "changes the pressure (coupled)" in html
     assert "[Dundurs1969]" in html
 
 
@@ -151,7 +135,6 @@ def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
     result = run("contact", matrix, *SCALE, *bodies, *LOAD, "--stress-in", "counter")
     assert result.exit_code == 0, result.stderr
     assert "seal" in result.stdout
-    assert "No strength of any part of the body is known" in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -168,8 +151,7 @@ def test_stresses_in_the_counter_body(run: Runner, matrix: Path) -> None:
 def test_refusals(run: Runner, matrix: Path, tmp_path: Path, options: tuple[str, ...], subject: str) -> None:
     body = () if "--body" in options else COATED
     result = run("contact", matrix, *SCALE, *body, *LOAD, *options, "--out", tmp_path / "run")
-    assert result.exit_code == 2, result.output
-    assert result.stderr.startswith(f"asperity: {subject} must ")
+    assert subject_of(result) == subject
     assert not (tmp_path / "run").exists()
 
 
@@ -185,7 +167,6 @@ def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> Non
     scale = solved.max_pressure
     np.testing.assert_allclose(planes["zz"][0], -solved.pressure, atol=1e-9 * scale)
     np.testing.assert_allclose(planes["xz"][0], -0.3 * solved.pressure, atol=1e-9 * scale)
-    assert "The body yields" in result.stdout
 
 
 def test_places_in_the_table_are_those_of_the_screen(run: Runner, matrix: Path, tmp_path: Path) -> None:

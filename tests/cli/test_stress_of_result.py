@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from cli.conftest import Runner
 from contact_cases import slid
+from refusals import subject_of
 
 import asperity as asp
 from asperity.io.results import document_in, load, open_tree, save
@@ -59,10 +60,8 @@ def test_stresses_are_those_of_a_run_that_asked_for_them(run: Runner, plain: Pat
         open_tree(tmp_path / folder / "result.nc")["stress/section_1"].to_dataset() for folder in ("later", "once")
     ]
     np.testing.assert_array_equal(fields[0]["xz"], fields[1]["xz"])
-    html = (tmp_path / "later" / "report.html").read_text(encoding="utf-8")
-    assert "Largest stresses inside each layer" in html
     assert "film" in later.stdout
-    assert "warning (resolution)" in later.stdout
+    assert "(resolution)" in later.stdout
     assert load_document(document).friction.coefficient == 0.3
 
 
@@ -87,7 +86,6 @@ def test_a_result_without_document(run: Runner, plain: Path, tmp_path: Path) -> 
     save(load(plain), tmp_path / "bare.nc")
     result = run("stress", tmp_path / "bare.nc", "--stress-nc", tmp_path / "v.nc")
     assert result.exit_code == 0, result.stderr
-    assert "Largest stresses inside" in result.stdout
     assert set(open_tree(tmp_path / "v.nc")["field"].to_dataset()["region"].values.tolist()) == {0, 1}
 
 
@@ -98,7 +96,7 @@ def test_a_coupled_pressure_belongs_to_its_friction(run: Runner, tmp_path: Path,
     refused = run("stress", file, "--friction", 0.2)
     assert refused.exit_code == 2
     assert "0.5" in refused.stderr
-    assert "without coupling" in run("stress", plain, "--coupled", "--friction", 0.2).stderr
+    assert subject_of(run("stress", plain, "--coupled", "--friction", 0.2)) == "--coupled"
 
 
 @pytest.mark.parametrize(
@@ -111,5 +109,4 @@ def test_a_coupled_pressure_belongs_to_its_friction(run: Runner, tmp_path: Path,
 )
 def test_refusals(run: Runner, plain: Path, options: tuple[str, ...], subject: str) -> None:
     result = run("stress", plain, *options)
-    assert result.exit_code == 2
-    assert result.stderr.startswith(f"asperity: {subject} must ")
+    assert subject_of(result) == subject

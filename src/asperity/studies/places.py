@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -197,9 +198,10 @@ def _content(value: Any, folder: Path) -> Any:
 
 def _file_content(key: Key, value: Any, folder: Path) -> Any:
     """The digest of the file that ``value`` names; the name where there is none, which the case will report."""
-    if key not in FILES or not isinstance(value, str) or not (folder / value).is_file():
+    if key not in FILES or not isinstance(value, str):
         return value
-    return file_digest(folder / value)
+    file = Path(os.path.normpath(folder / value))  # ".." leads nowhere from a folder that is made later
+    return file_digest(file) if file.is_file() else value
 
 
 def _si(value: Any, kind: str, what: str) -> Any:
