@@ -62,6 +62,19 @@ def slipping_wave_like_lines(share: float) -> float:
     return max(apart(answer.stick_half_width, sticking), apart(1e-6 * answer.dissipation, loop))
 
 
+def much_friction(friction: float) -> float:
+    """Load of a sphere with ``friction`` beside that without slip."""
+    ball = make("frictional-indenter", E, 0.5 / R, 2.0, 0.25, friction)
+    return apart(ball.load_gain, make("sticking-indenter", E, 0.5 / R, 2.0, 0.25).load_gain)
+
+
+def stuck_without_coupling(_: float) -> float:
+    """Pressure under a cylinder that sticks on bodies without coupling."""
+    one, other = make("sticking-indenter-line", E, 0.5 / R, 2.0, 0.0), make("hertz-line", E, R)
+    x = np.linspace(0.0, 0.99, 7) * float(other.at_load(1.0).radius)
+    return apart(one.pressure(x, 1.0), other.pressure(x, 1.0))
+
+
 def first_twist(share: float) -> float:
     """Stiffness of a twisted sphere at a ``share`` of the largest torque beside that of a disc without slip."""
     ball = make("lubkin", E, R, 0.4 * E, 0.3)
@@ -194,6 +207,24 @@ SINGLE_CONTACTS = (
         (1e-2, 1e-4, 1e-6),
         1e-6,
         "arcsin departs from its argument by its square over 6, the load over that of full contact over 6",
+    ),
+    Agreement(
+        "frictional-indenter",
+        "sticking-indenter",
+        "friction to infinity",
+        much_friction,
+        (0.3, 1.0),
+        1e-4,
+        "the slipping annulus takes 4e-5 of the load at μ = 1, β = 0.25",
+    ),
+    Agreement(
+        "sticking-indenter-line",
+        "hertz-line",
+        "exponent 2, no coupling",
+        stuck_without_coupling,
+        (),
+        ROUNDING,
+        "the same contact",
     ),
     Agreement(
         "lubkin",

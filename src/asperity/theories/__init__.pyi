@@ -4,10 +4,13 @@ from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.restitution import rebound
 from .friction.coated import CoatedLine, CoatedLineSlip, CoatedTwist, CoatedTwistSlip
+from .friction.finite_friction import FrictionalIndenter, FrictionalPunch, GoodmanLine, friction_of_stick
+from .friction.full_stick import StickingIndenter, StickingIndenterLine, StickingPunch, StickingPunchLine
 from .friction.histories import PartialSlip, SlipMemory, SlipPath
 from .friction.kalker import kalker_coefficients
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave, tangential_modulus
 from .friction.rolling import CarterRolling, CreepForces, Fastsim, KalkerLinear, ShenHedrickElkins
+from .friction.sliding import SlidingCylinder, SlidingPunch
 from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
@@ -47,7 +50,6 @@ from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
-from .single.friction import SlidingCylinder, SlidingPunch, StickingIndenter, StickingPunch, StickingPunchLine
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
@@ -133,8 +135,11 @@ __all__ = [
     "FittedGreenwoodWilliamson",
     "Flamant",
     "FlatPunch",
+    "FrictionalIndenter",
+    "FrictionalPunch",
     "FullerTabor",
     "GaussianHeights",
+    "GoodmanLine",
     "GreenwoodElliptic",
     "GreenwoodTripp",
     "GreenwoodWilliamson",
@@ -192,6 +197,7 @@ __all__ = [
     "StackHardness",
     "StatisticalMeniscus",
     "StickingIndenter",
+    "StickingIndenterLine",
     "StickingPunch",
     "StickingPunchLine",
     "StickingTwist",
@@ -213,6 +219,7 @@ __all__ = [
     "evaluate",
     "flamant_normal",
     "flamant_tangential",
+    "friction_of_stick",
     "hardness_coefficient",
     "hertz_ellipse_normal",
     "hertz_line_normal",

@@ -8,8 +8,11 @@ from types import MappingProxyType
 from ..core.errors import InputError
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
+from .friction.finite_friction import FrictionalIndenter, FrictionalPunch, GoodmanLine
+from .friction.full_stick import StickingIndenter, StickingIndenterLine, StickingPunch, StickingPunchLine
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave
 from .friction.rolling import CarterRolling, Fastsim, KalkerLinear, ShenHedrickElkins
+from .friction.sliding import SlidingCylinder, SlidingPunch
 from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
@@ -36,7 +39,6 @@ from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
-from .single.friction import SlidingCylinder, SlidingPunch, StickingIndenter, StickingPunch, StickingPunchLine
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
@@ -111,6 +113,10 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             StickingIndenter,
             StickingPunch,
             StickingPunchLine,
+            StickingIndenterLine,
+            FrictionalPunch,
+            FrictionalIndenter,
+            GoodmanLine,
             JKR,
             DMT,
             MaugisDugdale,

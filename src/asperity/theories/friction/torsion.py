@@ -18,7 +18,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.parameters import Help
-from ...core.quadrature import gauss
+from ...core.quadrature import geometric
 from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
 from ..ask import Way, asked
@@ -29,15 +29,7 @@ from .partial_slip import Friction
 Torsional: TypeAlias = Annotated[Pressure, Help("torsional modulus G of both bodies, 1/G = 1/G1 + 1/G2", of="bodies")]
 
 TORQUE = asked("torque", "N*m", "torque")
-_PANELS, _NODES = 12, 24  # towards the axis, where the elliptic integrals have a logarithm
-
-
-def geometric(low: RealArray, high: RealArray) -> tuple[RealArray, RealArray]:
-    """Nodes and weights (…, n) between ``low`` and ``high`` on panels that grow with the distance from zero."""
-    start = np.maximum(low, 1e-9 * high)[..., None]
-    breaks = start * (high[..., None] / start) ** (np.arange(_PANELS + 1) / _PANELS)
-    breaks[..., 0] = low
-    return gauss(breaks, _NODES)
+_SERIES = 0.1  # k² below which K - E would lose more than a digit
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +173,9 @@ class LubkinSphere(Theory):
 
     def _answer(self, load: float, share: RealArray) -> TwistAnswer:
         normal = self.normal.at_load(require.positive(load, "load (N)"))
-        rotation = 0.5 * self.friction * normal.max_pressure / self.G_torsion * elliptic_difference(share**2)
+        rotation = (
+            0.5 * self.friction * normal.max_pressure / self.G_torsion * (1.0 - share**2) * elliptic_ratio(share**2)
+        )
         # dM/dc and dθ/dc hold the same E(k)
         stiffness = 16.0 / 3.0 * self.G_torsion * (share * normal.radius) ** 3
         return TwistAnswer(share * normal.radius, rotation, stiffness, normal)
@@ -199,11 +193,16 @@ def _second(n: RealArray) -> RealArray:
     return np.asarray(ellipe(1.0 - n))
 
 
-def elliptic_difference(n: RealArray) -> RealArray:
-    """K - E of the complementary parameter n = 1 - k², as (k²/3) R_D(0, n, 1), in which nothing cancels."""
-    from scipy.special import elliprd
+def elliptic_ratio(n: RealArray) -> RealArray:
+    """(K - E)/k² of the complementary parameter 0 < n <= 1, n = 1 - k²; a series where K and E cancel."""
+    from scipy.special import ellipe, ellipkm1
 
-    return np.asarray((1.0 - n) / 3.0 * elliprd(0.0, n, 1.0))
+    m = 1.0 - n
+    small = m < _SERIES
+    order = np.arange(1.0, 18.0)  # 0.1^17
+    coefficients = np.cumprod((1.0 - 0.5 / order) ** 2) * 2.0 * order / (2.0 * order - 1.0)
+    series = 0.5 * np.pi * np.polynomial.polynomial.polyval(np.where(small, m, 0.0), coefficients)
+    return np.where(small, series, (ellipkm1(n) - ellipe(m)) / np.where(small, 1.0, m))
 
 
 def slip_transform(pressure: Callable[[RealArray], RealArray], x: RealArray, a: float) -> RealArray:
@@ -212,8 +211,6 @@ def slip_transform(pressure: Callable[[RealArray], RealArray], x: RealArray, a: 
     P(x) - (2x/π) ∫ P(t) (K - E)/(k²t²) dt over x < t < a, k² = 1 - x²/t²: the traction of a slipping annulus over μ, of
     torsion as well as of radial friction.
     """
-    from scipy.special import elliprd
-
     t, weight = geometric(x, np.full_like(x, a))
-    kernel = elliprd(0.0, (x[:, None] / t) ** 2, 1.0) / (3.0 * t**2)
+    kernel = elliptic_ratio((x[:, None] / t) ** 2) / t**2
     return np.asarray(pressure(x) - 2.0 * x / np.pi * np.sum(weight * kernel * pressure(t), axis=-1))

@@ -1,10 +1,11 @@
-"""Contacts of dissimilar bodies with friction: a cylinder and a punch that slide, and indenters that stick."""
+"""Indentation without slip, round and in plane strain (Mossakovskii 1954, 1963; Spence 1968)."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,138 +13,26 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.quadrature import gauss
+from ...core.quadrature import gauss, geometric
 from ...core.quantity import Quantity
 from ...core.values import Length, Number
 from ..ask import LINE_LOAD, Way
-from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, checked, small_slope
-from .indenters import LineFlatPunch, PowerLawIndenter
+from ..protocol import Bound, ContactAnswer, Modulus, Theory, checked, small_slope
+from ..single.indenters import Exponent, LineFlatPunch, LinePowerLawIndenter, PowerLawIndenter
 
 Beta = Annotated[
     float,
     Number(above=-1.0, below=1.0),
     "Dundurs' second parameter β, (1 - 2ν)/2(1 - ν) of a rigid indenter on a body of Poisson's ratio ν",
 ]
-Coefficient = Annotated[float, Number(least=0.0), "friction coefficient μ"]
 
-# Sliding in plane strain (Galin 1961; Johnson 1985, secs. 2.8 and 7.1). With the traction μp along +x on the body
-# ∫ p(s)/(x - s) ds + π tan(πγ) p = (πE*/2) f'(x), tan πγ = -βμ: the surface rises behind the contact, which moves there.
+ProfileCoefficient: TypeAlias = Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B r^n"]
 
-
-def shift_exponent(beta: float, friction: float) -> float:
-    """γ of tan πγ = -βμ, in -1/2 < γ < 1/2; negative where the contact moves against the direction of sliding."""
-    return -math.atan(beta * friction) / math.pi
-
-
-@dataclass(frozen=True)
-class SlidingCylinder(Theory):
-    """Cylinder that slides along +x with friction.
-
-        p = (E* cos(π γ)/(2 R)) (a + x)^(1/2 + γ) (a - x)^(1/2 - γ),  tan(π γ) = -β μ,
-        P = π E* a² (1 - 4 γ²)/(4 R).
-
-    x counts from the middle of the contact, which lies at 2γa from the axis of the cylinder. The traction on the body is μp
-    along +x, the direction in which the cylinder moves.
-
-    Examples
-    --------
-    A rigid cylinder on a body of ν = 0.3 (β = 2/7) at μ = 0.5 touches 0.4 % more than without friction:
-
-    >>> slides = SlidingCylinder(E_star=1e9, radius=1e-2, beta=2 / 7, friction=0.5)
-    >>> stands = SlidingCylinder(E_star=1e9, radius=1e-2, beta=2 / 7, friction=0.0)
-    >>> print(f"{float(slides.at_load(1e3).radius / stands.at_load(1e3).radius):.4f}, {slides.shift:.4f}")
-    1.0041, -0.0903
-    """
-
-    E_star: Modulus
-    radius: Radius
-    beta: Beta
-    friction: Coefficient
-    name: ClassVar[str] = "sliding-cylinder"
-    title: ClassVar[str] = "Cylinder sliding with friction"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
-    limits: ClassVar[tuple[Bound, ...]] = (CONTACT_RADIUS,)
-    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-    numbers: ClassVar[tuple[Quantity, ...]] = (
-        Quantity("shift", "1", "place of the middle of the contact over its half-width"),
-    )
-
-    @property
-    def exponent(self) -> float:
-        """γ."""
-        return shift_exponent(self.beta, self.friction)
-
-    @property
-    def shift(self) -> float:
-        """Place of the middle of the contact along +x from the axis of the cylinder over the half-width, 2γ."""
-        return 2.0 * self.exponent
-
-    def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; approach and stiffness depend on the supports (NaN)."""
-        P, gamma = checked(load, "load per length (N/m)"), self.exponent
-        a = np.sqrt(4.0 * P * self.radius / (np.pi * self.E_star * (1.0 - 4.0 * gamma**2)))
-        peak = self._scale * a * (1.0 + 2.0 * gamma) ** (0.5 + gamma) * (1.0 - 2.0 * gamma) ** (0.5 - gamma)
-        unknown = np.full_like(a, np.nan)
-        return ContactAnswer(P, unknown, a, 2.0 * a, peak, unknown)
-
-    def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x`` in m (any shape) from the axis of the cylinder under ``load`` in N/m, > 0."""
-        a, gamma = float(self.at_load(require.positive(load, "load per length (N/m)")).radius), self.exponent
-        place = np.asarray(x, dtype=float) - 2.0 * gamma * a
-        front, back = np.maximum(a - place, 0.0), np.maximum(a + place, 0.0)
-        return self._scale * back ** (0.5 + gamma) * front ** (0.5 - gamma)
-
-    @property
-    def _scale(self) -> float:
-        return self.E_star * math.cos(math.pi * self.exponent) / (2.0 * self.radius)
-
-
-@dataclass(frozen=True)
-class SlidingPunch(Theory):
-    """Flat rigid punch that slides along +x without tilting, in plane strain with P per length.
-
-        p = (P cos(π γ)/π) (a + x)^(γ - 1/2) (a - x)^(-γ - 1/2),  tan(π γ) = -β μ.
-
-    The traction on the body is μp along +x.
-    """
-
-    E_star: Modulus
-    half_width: Annotated[Length, "half the width of the punch a"]
-    beta: Beta
-    friction: Coefficient
-    name: ClassVar[str] = "sliding-punch"
-    title: ClassVar[str] = "Flat punch sliding with friction, plane strain"
-    citation_keys: ClassVar[tuple[str, ...]] = ("Galin1961", "Johnson1985")
-    limits: ClassVar[tuple[Bound, ...]] = LineFlatPunch.limits
-    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-    numbers: ClassVar[tuple[Quantity, ...]] = (
-        Quantity("centre", "1", "place of the resultant pressure over the half-width"),
-    )
-
-    @property
-    def centre(self) -> float:
-        """Place of the resultant of the pressure along +x over the half-width, 2γ: where the force must act."""
-        return 2.0 * shift_exponent(self.beta, self.friction)
-
-    def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; as without friction but for the pressure."""
-        return LineFlatPunch(self.E_star, self.half_width).at_load(load)
-
-    def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0; infinite at the edges."""
-        P, gamma = require.positive(load, "load per length (N/m)"), shift_exponent(self.beta, self.friction)
-        place, a = np.asarray(x, dtype=float), self.half_width
-        outside = np.abs(place) > a
-        front, back = np.where(outside, 1.0, a - place), np.where(outside, 1.0, a + place)
-        with np.errstate(divide="ignore"):
-            shape = back ** (gamma - 0.5) * front ** (-gamma - 0.5)
-        return np.where(outside, 0.0, P * math.cos(math.pi * gamma) / math.pi * shape)
-
-
-# Indentation without slip (Mossakovskii 1954, 1963; Spence 1968). A point of the surface is held from the moment at
+# A point of the surface is held from the moment at
 # which it is touched; every increment is that of a sticking flat punch. κ = ln((1 + β)/(1 - β))/2π.
 
 
+_REACH = 18.0  # of quadratures over hyperbolic angles, where exp(-2y) is rounding
 _NODES = 96  # of the quadratures in y and t below, whose integrands fall off like exp(-2y): 1e-12 up to κ = 0.3
 
 
@@ -287,8 +176,8 @@ class StickingIndenter(Theory):
     """
 
     E_star: Modulus
-    coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B r^n"]
-    exponent: Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
+    coefficient: ProfileCoefficient
+    exponent: Exponent
     beta: Beta
     name: ClassVar[str] = "sticking-indenter"
     title: ClassVar[str] = "Power-law indenter without slip"
@@ -323,6 +212,57 @@ class StickingIndenter(Theory):
         """The contact of the ``contact_radius`` a in m, >= 0, of any shape; as ``at_load``."""
         return self._with_stick(self._free.at_radius(contact_radius))
 
+    def pressure(self, r: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under ``load`` in N, > 0.
+
+        Punches of growing radius add up to -P'(x) = A x^(n-1) [cos 2κη + 2κ ∫ (coth^n y - 1) sin 2κy dy] over y > η of
+        P = ∫ rp/sqrt(r² - x²) dr, with tanh η = x/a. Infinite at the apex of a cone.
+        """
+        x, eta, rule = self._inverse(r, load)
+        tail = self._tail(eta, np.sin)
+        values = np.sum(rule * x ** (self.exponent - 1.0) * (np.cos(2.0 * self._kappa * eta) + tail), axis=-1)
+        at_apex = (np.asarray(r) == 0.0) & (self.exponent == 1.0)
+        return np.where(at_apex, np.inf, values)
+
+    def traction(self, r: ArrayLike, load: float) -> RealArray:
+        """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0 and a); as ``pressure``.
+
+        From -(Q/x)' = A x^(n-2) [(coth^n η + (n - 1)) sin 2κη - (n - 1) 2κ ∫ (coth^n y - 1) cos 2κy dy]/n, with
+        Q = x ∫ q/sqrt(r² - x²) dr.
+        """
+        x, eta, rule = self._inverse(r, load)
+        n = self.exponent
+        sine = (np.tanh(eta) ** -n + (n - 1.0)) * np.sin(2.0 * self._kappa * eta)
+        terms = x ** (n - 2.0) * (sine - (n - 1.0) * self._tail(eta, np.cos)) / n
+        return np.asarray(np.abs(np.asarray(r, dtype=float)) * np.sum(rule * terms, axis=-1))
+
+    @property
+    def _kappa(self) -> float:
+        return oscillation(self.beta)
+
+    def _tail(self, eta: RealArray, wave: Callable[[RealArray], RealArray]) -> RealArray:
+        """2κ ∫ (coth^n y - 1) f(2κy) dy over y > ``eta`` of a sine or cosine f = ``wave``."""
+        y, weight = geometric(eta, eta + _REACH)
+        decay = np.expm1(-self.exponent * np.log(np.tanh(y)))
+        return np.asarray(2.0 * self._kappa * np.sum(weight * decay * wave(2.0 * self._kappa * y), axis=-1))
+
+    def _inverse(self, r: ArrayLike, load: float) -> tuple[RealArray, RealArray, RealArray]:
+        """x = sqrt(r² + (a² - r²) s²) at nodes of s = tanh t, artanh(x/a), and the rule of (2/π) A ∫ dx/sqrt(x² - r²)."""
+        answer = self.at_load(require.positive(load, "load (N)"))
+        a, distance = float(answer.radius), np.abs(np.asarray(r, dtype=float))
+        if np.any(distance >= a):
+            raise InputError(
+                f"distance from the axis must be less than the radius of the contact, {a:g} m, but is {float(distance.max()):g} m."
+            )
+        t, weight = geometric(np.asarray(0.0), np.asarray(_REACH))
+        rest = 1.0 / np.cosh(t) ** 2  # 1 - s²
+        width = np.sqrt(a**2 - distance**2)[..., None]
+        x = np.sqrt(distance[..., None] ** 2 + (width * np.tanh(t)) ** 2)
+        eta = np.log(a + x) - 0.5 * np.log(width**2 * rest)  # (a + x)/(a - x) = (a + x)²/(a² - x²)
+        grown = self.exponent * float(answer.approach) / a**self.exponent
+        amplitude = 0.5 * self.E_star * grown / math.sqrt(1.0 - self.beta**2)
+        return x, eta, 2.0 / np.pi * amplitude * weight * rest * width / x
+
     @property
     def _free(self) -> PowerLawIndenter:
         return PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
@@ -336,3 +276,80 @@ class StickingIndenter(Theory):
             max_pressure=np.full_like(free.load, np.nan),
             stiffness=free.stiffness * sticking_gain(self.beta),
         )
+
+
+@dataclass(frozen=True)
+class StickingIndenterLine(Theory):
+    """Profile f = B |x|^n in plane strain without slip; the contact of half-width a carries P = P_0 I_0/I_κ.
+
+        I_κ = ∫_0^1 t^(n - 1) cos(κ ln((1 + t)/(1 - t)))/sqrt(1 - t²) dt,  κ = ln((1 + β)/(1 - β))/(2 π).
+
+    P_0 is the load without friction. A wedge (n = 1) carries P_0 cosh(πκ).
+
+    Examples
+    --------
+    >>> wedge = StickingIndenterLine(E_star=1e9, coefficient=0.1, exponent=1.0, beta=2 / 7)
+    >>> print(f"{wedge.load_gain:.6f}")
+    1.043498
+    """
+
+    E_star: Modulus
+    coefficient: Annotated[float, Number("m^(1-n)", above=0.0), "B of the profile B |x|^n"]
+    exponent: Exponent
+    beta: Beta
+    name: ClassVar[str] = "sticking-indenter-line"
+    title: ClassVar[str] = "Power-law indenter without slip, plane strain"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Spence1968")
+    limits: ClassVar[tuple[Bound, ...]] = LinePowerLawIndenter.limits
+    ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("load_gain", "1", "load over that without friction at the same half-width"),
+    )
+
+    @property
+    def load_gain(self) -> float:
+        """P/P_0 at the same half-width."""
+        n, kappa = self.exponent, oscillation(self.beta)
+        y, weight = geometric(np.asarray(0.0), np.asarray(2.0 * _REACH))
+        density = weight * np.tanh(y) ** (n - 1.0) / np.cosh(y)
+        return float(np.sum(density) / np.sum(density * np.cos(2.0 * kappa * y)))
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under ``load`` in N/m, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
+        return self.at_half_width(self._free.at_load(checked(load, "load per length (N/m)") / self.load_gain).radius)
+
+    def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
+        """The contact of the ``half_width`` a in m, >= 0, of any shape; as ``at_load``."""
+        free = self._free.at_half_width(half_width)
+        unknown = np.full_like(free.load, np.nan)
+        return ContactAnswer(free.load * self.load_gain, unknown, free.radius, free.area, unknown, unknown)
+
+    def pressure(self, x: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at ``x`` in m (any shape, inside the contact) from the middle under ``load`` in N/m, > 0.
+
+        Punches of growing width: p + iq = (nP cosh πκ/πa) ∫ (ξ coth y)^(n-1) csch y exp(2iκy) dy over tanh y > ξ = |x|/a.
+        """
+        return self._superposed(x, load, np.cos)
+
+    def traction(self, x: ArrayLike, load: float) -> RealArray:
+        """Shear traction on the body along +x in Pa at ``x`` in m (any shape), outwards; as ``pressure``."""
+        return np.asarray(np.sign(np.asarray(x, dtype=float)) * self._superposed(x, load, np.sin))
+
+    @property
+    def _free(self) -> LinePowerLawIndenter:
+        return LinePowerLawIndenter(self.E_star, self.coefficient, self.exponent)
+
+    def _superposed(self, x: ArrayLike, load: float, wave: Callable[[RealArray], RealArray]) -> RealArray:
+        n, kappa = self.exponent, oscillation(self.beta)
+        P = require.positive(load, "load per length (N/m)")
+        a = float(self.at_load(P).radius)
+        xi = np.abs(np.asarray(x, dtype=float)) / a
+        if np.any(xi >= 1.0):
+            raise InputError(f"place must be within the contact, {a:g} m wide, but is {float(xi.max() * a):g} m.")
+        inside = np.maximum(xi, 1e-7)
+        eta = np.arctanh(inside)
+        y, weight = geometric(eta, eta + 2.0 * _REACH)
+        kernel = (inside[..., None] / np.tanh(y)) ** (n - 1.0) / np.sinh(y) * wave(2.0 * kappa * y)
+        scale = n * P / (np.pi * a * math.sqrt(1.0 - self.beta**2))
+        middle = 0.0 if wave is np.sin else 1.0 / (n - 1.0) if n > 1.0 else np.inf
+        return np.where(xi == 0.0, scale * middle, scale * np.sum(weight * kernel, axis=-1))
