@@ -16,7 +16,7 @@ ABOUT = (
     "The lectures (Yastrebov 2016) name frictional indentation, circular punches with full stick among it, after Mossakovskii (1954) and Spence (1968, 1975), without numbers. "
     "Theirs: their closed form P = 4Gaδ ln(3 − 4ν)/(1 − 2ν) over that without friction, 4Gaδ/(1 − ν). Ours: the three tractions on the pixels of a circle, {points} along its diameter, "
     "that displace all of them by δ downwards and not sideways, found with nothing but displacements of `asperity.stress` under prescribed tractions, over the same "
-    "with pressure alone. No parameter is chosen. Finite friction (Spence 1975) is not among the theories here."
+    "with pressure alone. No parameter is chosen. Finite friction (Spence 1975) is the theory `frictional-punch`."
 )
 
 WORDS = """* The gain of the closed form, which is that of the theory `sticking-punch`, is found within the error of the pixels at the edge, where tractions are singular; it falls
