@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from refusals import refused
 
+import asperity as asp
 from asperity import Grid, InputError, NoSolutionError
 from asperity.contact.operators import PeriodicOperator
 from asperity.contact.solvers import SOLVERS as CLASSES
@@ -28,6 +29,7 @@ from asperity.contact.solvers import (
     solver_by_name,
 )
 from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
+from asperity.contact.solvers.reference import nnls
 from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -270,3 +272,28 @@ def test_solvers_are_found_by_name(name: str) -> None:
 def test_bad_settings_are_refused(arguments: tuple[object, ...], subject: str) -> None:
     with refused(InputError, subject):
         solver_by_name(*arguments)
+
+
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
+@pytest.mark.parametrize("cap", [np.inf, 2e8], ids=["elastic", "capped"])
+def test_nnls_from_a_coarser_grid_gives_the_same_answer(boundary, cap, monkeypatch) -> None:
+    """Spikes of one pixel lie outside the coarse contact at first; the answer is that of all points at once."""
+    heights = 1e-9 * np.random.default_rng(3).standard_normal((16, 20))
+    heights[::7, ::5] += 4e-9
+    law = asp.HardWall() if np.isinf(cap) else asp.Hardness(cap)
+    problem = asp.ContactProblem(asp.Surface(heights, 1e-7), asp.Elastic(1e10, 0.3), boundary=boundary, law=law)
+    sizes: list[int] = []
+    least_squares = nnls._least_squares
+
+    def counting(qp, heights, taken):
+        sizes.append(int(np.count_nonzero(taken)))
+        return least_squares(qp, heights, taken)
+
+    monkeypatch.setattr(nnls, "_least_squares", counting)
+    found = {}
+    for small in (40, 10**6):
+        monkeypatch.setattr(nnls, "SMALL", small)
+        sizes.clear()
+        found[small] = asp.solve(problem, asp.MeanPressure(2e6), solver=nnls.NonNegativeLeastSquares())
+        assert (max(sizes) < heights.size) == (small == 40)
+    np.testing.assert_allclose(found[40].pressure, found[10**6].pressure, rtol=1e-9, atol=1e-9 * 1e8)

@@ -11,7 +11,8 @@ from ...core.errors import InputError
 from .active_set.solver import ActiveSet
 from .protocol import Solver
 from .reference.conjugate_gradient import ConjugateGradient
-from .reference.dense import DenseActiveSet, Lemke, NonNegativeLeastSquares
+from .reference.dense import DenseActiveSet, Lemke
+from .reference.nnls import NonNegativeLeastSquares
 from .reference.quasi_newton import QuasiNewton
 from .reference.steepest_descent import SteepestDescent
 
