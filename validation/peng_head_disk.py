@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import head_disk_unfed
 import numpy as np
-from page import Claim, Page, Table, write_page
+from page import Claim, Page, Published, Table, write_page
 from ready_studies import PIXEL, axis, ready, results, without
 
 from asperity.studies.critical_thickness import CriticalThickness, critical_thickness
@@ -29,10 +30,18 @@ UNITS = {"area_fraction": (100.0, " %"), "max_displacement": (1e9, " nm"), "max_
 """Factor from SI and the unit shown."""
 
 ABOUT_FIVE = (1.5, 15.0)
-"""Within a factor of about three of the published floor, nm: read from curves by eye, and ours scatter by pixels."""
+"""Within a factor of about three of the published floor, nm: read from curves by eye, and those of four surfaces scatter by pixels."""
+
+ABOUT_THREE = (2.0, 5.0)
+"""Floors in nm of contacts without fed-back menisci, means over many surfaces."""
 
 ALIKE = 0.02
 """Silicon and disk have different X at the same load, which changes the ratios this much (from the pₘₐₓ law X^m)."""
+
+SMOOTH = ("max_displacement", "max_pressure", "relative_meniscus_force")
+"""Quantities that do not change by whole pixels."""
+
+CEILINGS_OF = ("area_fraction", "relative_meniscus_force", "max_pressure")
 
 FLOOR = 5e-9
 CEILINGS = {"area_fraction": 1e-5, "max_pressure": 1e-7, "relative_meniscus_force": 1e-5}
@@ -45,7 +54,7 @@ ABOUT = (
     "Peng (2001, ch. 4, fig. 4.3; also Peng & Bhushan 2000b): a slider of Al₂O₃-TiC (450 GPa) on a magnetic disk (E₂ = 200 GPa) under "
     "diamond-like carbon of the thickness h with E₁/E₂ = 0.1, 0.75, 1.75 and 10 and hardness 0.1 E₁; σ = 1 nm, β* = 0.5 µm, film and "
     "menisci 2σ high, γ = 25 mN/m, θ = 10°, pₙ = 50 kPa. Ours: `examples/campaigns/head_disk_interface.toml` on {points} × {points} pixels of "
-    "{pixel:.0f} nm, means over {seeds} surfaces; critical thicknesses are those of the means. The figure itself is not in the text at hand: "
+    "{pixel:.0f} nm, means over {seeds} surfaces (first table: {unfed}); critical thicknesses are those of the means. The figure itself is not in the text at hand: "
     "published here are the critical thicknesses and what the text says of the curves."
 )
 
@@ -56,6 +65,7 @@ class Curves:
 
     data: xarray.Dataset
     base: float
+    points: int = 256
 
     @property
     def ratios(self) -> list[float]:
@@ -77,6 +87,31 @@ class Curves:
         values = self.mean(quantity, ratio)
         return critical_thickness(self.thickness[1:-1], values[1:-1], float(values[0]), float(values[-1]))
 
+    @property
+    def pixels(self) -> tuple[float, float]:
+        """Mean and deviation of the area without the layer, in pixels; the cell has ``points`` a side."""
+        area = np.asarray(self.data["area_fraction"].isel(modulus=0, thickness=0)) * self.points**2
+        return float(area.mean()), float(area.std(ddof=1))
+
+    def scattered(self, quantities: Sequence[str], name: str, draws: int = 200) -> tuple[float, float]:
+        """Geometric mean in nm of a critical thickness ("floor" or "ceiling") over ``quantities`` and moduli of the overcoat.
+
+        And how much it scatters: the deviation over samples of as many surfaces, drawn from them with replacement.
+        """
+        count, draw = self.data["surface"].size, np.random.default_rng(0)
+
+        def middle(surfaces: np.ndarray) -> float:
+            drawn = Curves(self.data.isel(surface=surfaces), self.base, self.points)
+            return 1e9 * _middle([getattr(drawn.critical(one, r), name) for one in quantities for r in (0.75, 1.75)])
+
+        samples = [middle(draw.integers(count, size=count)) for _ in range(draws)]
+        return middle(np.arange(count)), float(np.nanstd(samples, ddof=1))
+
+    def each(self, quantity: str, name: str) -> np.ndarray:
+        """A critical thickness in nm on every surface and modulus of the overcoat; NaN where there is none."""
+        single = [Curves(self.data.isel(surface=[number]), self.base) for number in range(self.data["surface"].size)]
+        return np.array([[1e9 * getattr(one.critical(quantity, r), name) for r in (0.75, 1.75)] for one in single])
+
     def effect(self, quantity: str, ratio: float) -> float:
         """Value with endless carbon over that without."""
         values = self.mean(quantity, ratio)
@@ -96,8 +131,9 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Studies:
-    """The contact as published, and with something changed."""
+    """The contact with menisci that are not fed back, with steady ones as in the ready study, and with something changed."""
 
+    unfed: Curves
     disk: Curves
     dry: Curves
     free: Curves
@@ -105,11 +141,17 @@ class Studies:
     silicon: Curves
 
 
-def compare(seeds: int = 4, points: int = 256, count: int = 16) -> Page:
-    """Ours on ``seeds`` surfaces of ``points`` a side for ``count`` thicknesses; the free boundary on half as many."""
-    found = _solved(seeds, points, count)
+def compare(seeds: int = 4, points: int = 256, count: int = 16, unfed: int = 64, unfed_points: int = 256) -> Page:
+    """Ours on ``seeds`` surfaces of ``points`` a side for ``count`` thicknesses; the free boundary on half as many.
+
+    The contact with menisci that are not fed back on ``unfed`` surfaces of ``unfed_points`` a side.
+    """
+    alone = Curves(head_disk_unfed.solved(unfed, unfed_points, count), DISK, unfed_points)
+    found = Studies(alone, *_steady(seeds, points, count))
+    approaches = 1e9 * head_disk_unfed.rigid_approaches(unfed, unfed_points)
     parts = (
-        _critical_table("With menisci, as in the ready study:", found.disk),
+        _headline(found.unfed, unfed),
+        _critical_table("With steady menisci, as in the ready study:", found.disk),
         _curves(found.disk),
         _critical_table("The same contact without liquid:", found.dry),
         _critical_table("With menisci, on a cell with nothing around it (free boundary):", found.free),
@@ -118,11 +160,40 @@ def compare(seeds: int = 4, points: int = 256, count: int = 16) -> Page:
         _critical_table("Beside it the disk under a rigid slider:", found.rigid),
         MEMS,
     )
-    about = ABOUT.format(points=points, pixel=1e9 * PIXEL, seeds=seeds)
-    return Page("Critical thickness of carbon: head-disk interface and silicon", about, parts, tuple(_claims(found)))
+    about = ABOUT.format(points=points, pixel=1e9 * PIXEL, seeds=seeds, unfed=unfed)
+    title, claims = "Critical thickness of carbon: head-disk interface and silicon", tuple(_claims(found))
+    return Page(title, about, parts, claims, tuple(_published(found.unfed, approaches)))
 
 
-def _solved(seeds: int, points: int, count: int) -> Studies:
+def _headline(unfed: Curves, surfaces: int) -> Table:
+    about = (
+        f"**As published: menisci in the gap of the contact under the external load, not fed back**; means over {surfaces} surfaces, of which every one "
+        f"has {unfed.pixels[0]:.1f} ± {unfed.pixels[1]:.1f} pixels of contact without carbon:"
+    )
+    return _critical_table(about, unfed)
+
+
+def _published(unfed: Curves, approaches: np.ndarray) -> Iterable[Published]:
+    """The printed critical thicknesses beside those of unfed menisci, and the one printed approach."""
+    source, digits = "Peng 2001, sec. 4.1.3", "read off curves as a power of ten"
+    for text, theirs, quantities, name in (
+        ("floor (nm), geometric mean of u_z, pₘₐₓ and Fₘ/W", "5", SMOOTH, "floor"),
+        ("ceiling of Aᵣ/Aₙ (nm)", "10000", ("area_fraction",), "ceiling"),
+        ("ceiling of Fₘ/W (nm)", "10000", ("relative_meniscus_force",), "ceiling"),
+        ("ceiling of pₘₐₓ (nm)", "100", ("max_pressure",), "ceiling"),
+    ):
+        ours, spread = unfed.scattered(quantities, name)
+        what = f"{text}, E₁/E₂ = 0.75 and 1.75"
+        yield Published(source, what, theirs, ours, spread=spread, reason="" if name == "floor" else digits)
+    rough = f"rigid approach (nm), σ = {1e9 * head_disk_unfed.ROUGH:g} nm, E₁/E₂ = {head_disk_unfed.SOFT:g}, h = {1e9 * head_disk_unfed.THIN:g} nm"
+    spread = float(approaches.std(ddof=1))
+    yield Published(
+        source, rough, "3", float(approaches.mean()), spread=spread, reason="two or three pixels touch: a weak check"
+    )
+
+
+def _steady(seeds: int, points: int, count: int) -> Iterator[Curves]:
+    """Contacts of the ready studies: disk, without liquid, free boundary, rigid slider, silicon."""
     disk, silicon = (ready(name, points=points, seeds=seeds) for name in ("head_disk_interface", "carbon_on_silicon"))
     for table in (disk, silicon):
         table["critical_thickness"]["count"] = count
@@ -135,7 +206,7 @@ def _solved(seeds: int, points: int, count: int) -> Studies:
         table["axes"] = [dict(item) for item in table["axes"]]
         axis(table, "modulus")["values"] = list(OVERCOATS)
     tables = ((disk, DISK), (without(disk, "film"), DISK), (free, DISK), (disk_alone, DISK), (silicon, SILICON))
-    return Studies(*(Curves(results(table), base) for table, base in tables))
+    return (Curves(results(table), base) for table, base in tables)
 
 
 def _nanometres(thickness: float) -> str:
@@ -181,14 +252,25 @@ def _curves(curves: Curves) -> Table:
 
 
 def _reading(found: Studies) -> str:
-    disk, dry, free = found.disk, found.dry, found.free
+    disk, dry, free, unfed = found.disk, found.dry, found.free, found.unfed
+    area, force, peak = (unfed.each(name, "ceiling") for name in CEILINGS_OF)
+    sizes = [f"{low:.0f} and {high:.0f}" for low, high in ((np.nanmin(x), np.nanmax(x)) for x in (area, force, peak))]
+    alone, pull = 1e9 * float(unfed.mean("max_displacement", 0.75)[0]), unfed.mean("relative_meniscus_force", 0.75)[0]
     at = disk.near(FLOOR)
     wet_depth, dry_depth = (1e9 * float(one.mean("max_displacement", 0.75)[at]) for one in (disk, dry))
-    force = disk.mean("relative_meniscus_force", 0.75)[0]
+    steady = disk.mean("relative_meniscus_force", 0.75)[0]
+    floor, known = unfed.scattered(SMOOTH, "floor")
     sticking = disk.data["thickness"].size * disk.data["surface"].size - disk.answered(0.1)
     return f"""## Reading the tables
 
-* **Floor.** About 5 nm, as published, for every quantity: below it the carbon has no effect.
+* **Which menisci.** Those of the first table are what the printed sizes speak for: a largest displacement below 0.3 h = 1.5 nm at h = 5 nm (ours is {alone:.2g} nm), and
+  curves for all four E₁/E₂, where steady menisci run away with the softest carbon. They pull with {pull:.0f} times the external force.
+* **Floor.** Published about 5 nm for every quantity: below it the carbon has no effect. Ours are 2 to 6 nm; of displacement, pressure and force of the first
+  table it is {floor:.2f} ± {known:.2f} nm (geometric mean for E₁/E₂ = 0.75 and 1.75, scatter of the mean of all surfaces), that of the area is known to a factor for want of pixels.
+* **Ten pixels.** Without fed-back menisci {unfed.pixels[0]:.0f} pixels touch on a surface like the published one. Its area changes by whole pixels, so that its ceiling is the thickness at
+  which the last of them joins or leaves: on single surfaces of ours (E₁/E₂ = 0.75 and 1.75) anywhere between {sizes[0]} nm. A ceiling of 10⁴ nm of the area is within
+  reach of one surface, then, and says nothing of another. Those of the meniscus force lie between {sizes[1]} nm, those of the largest pressure between
+  {sizes[2]} nm: neither 10⁴ nor 10² nm is found there.
 * **Ceiling.** Published are 10⁴ nm for area and meniscus force and 10² nm for the largest pressure, ours are between {_range(disk)} nm
   for all of them; that of the pressure is the lowest in ours, too. Waves of the surface of length λ reach about λ/2π down, and the longest with much
   power have some β* = 500 nm: on a periodic cell a depth of 10⁴ nm has no influence. On an isolated cell (free boundary) the load makes a dent as
@@ -199,7 +281,7 @@ def _reading(found: Studies) -> str:
   some ten pixels, and its area changes by whole ones.
 * **Stiffness.** A stiff overcoat lowers area, displacement and meniscus force and raises the pressure, a compliant one does the
   opposite, as published.
-* **Menisci.** They pull with {force:.0f} times the external force: films of 2σ cover much of the area, and closing the gap enlarges the menisci
+* **Menisci.** They pull with {steady:.0f} times the external force: films of 2σ cover much of the area, and closing the gap enlarges the menisci
   further. With E₁/E₂ = 0.1 they run away in {sticking} cases, all with thick layers: such a disk sticks. The published largest displacement stays
   below 0.3 h, 1.5 nm at h = 5 nm; ours at that h and E₁/E₂ = 0.75 is {wet_depth:.1f} nm with the menisci and {dry_depth:.1f} nm without. This and
   fig. 3.20 (see [peng_menisci](peng_menisci.md)) speak for menisci that were not, or not fully, fed back into the published loads."""
@@ -220,7 +302,17 @@ counter face."""
 
 
 def _claims(found: Studies) -> Iterable[Claim]:
-    disk = found.disk
+    disk, unfed = found.disk, found.unfed
+    for quantity in SMOOTH:
+        middle = _middle([unfed.critical(quantity, ratio).floor for ratio in (0.75, 1.75)])
+        yield Claim(
+            f"{QUANTITIES[quantity]}: floor (nm) without feedback, geometric mean of E₁/E₂ = 0.75 and 1.75",
+            1e9 * middle,
+            *ABOUT_THREE,
+        )
+    area, force, _ = (unfed.each(name, "ceiling") for name in CEILINGS_OF)
+    yield Claim("Aᵣ/Aₙ: largest over smallest ceiling on one surface", float(np.nanmax(area) / np.nanmin(area)), 10.0)
+    yield Claim("Fₘ/W: largest ceiling on one surface (nm), far below 10⁴", float(np.nanmax(force)), high=3e3)
     for quantity, name in QUANTITIES.items():
         floors = [disk.critical(quantity, ratio).floor for ratio in (0.75, 1.75)]
         yield Claim(f"{name}: floor (nm), geometric mean of E₁/E₂ = 0.75 and 1.75", 1e9 * _middle(floors), *ABOUT_FIVE)

@@ -17,7 +17,6 @@ from page import PUBLISHED_TITLE
 FOLDER = Path(__file__).parent
 UNCOUNTED = {
     "bhushan_film": "the load was chosen freely",
-    "peng_head_disk": "the same three printed thicknesses in every row",
     "peng_load": "rows of table 3.1 again",
 }
 """Pages whose numbers are listed but not counted, and why."""
