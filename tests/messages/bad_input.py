@@ -296,6 +296,9 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a theory asked nothing": lambda: _asked("hertz", radius=1.0, E_star=1.0),
     "a theory asked what it does not know": lambda: _asked("hertz", radius=1.0, E_star=1.0, pressure=1e6),
     "a theory asked a negative load": lambda: _asked("hertz", radius=1.0, E_star=1.0, load=-1.0),
+    "a pressure beyond what a theory is evaluated for": lambda: asp.theories.GreenwoodWilliamson(
+        1e11, 1e13, 1e-6, 1e-9
+    ).at_pressure([1e6, 1e20]),
     "a concave tip": lambda: asp.theories.PowerLawIndenter(1.0, 1.0, 0.5),
     "a contact wider than the sphere": lambda: asp.theories.SphericalIndenter(1.0, 1.0).at_radius(1.0),
     "kurtosis that no heights have": lambda: asp.generate.HeightMoments(2.0, 3.0),

@@ -231,19 +231,20 @@ def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> 
 
 
 def _named(ax: Axes, curves: list[_Curve]) -> Axes:
-    """Name every curve at its right end, in its colour and line; names are moved apart, in the order of the ends."""
+    """Name every curve where it ends or leaves the axes, in its colour and line; names are moved apart, in the order of the ends."""
     curves = [curve for curve in curves if np.isfinite(curve.y).any()]
     if curves:
         ax.set_xlim(right=max(float(curve.x.max()) for curve in curves))  # curves end where their names begin
     to_axes = ax.transData + ax.transAxes.inverted()
     ends = []
     for curve in curves:
-        last = np.flatnonzero(np.isfinite(curve.y))[-1]
-        x, y = np.clip(to_axes.transform((curve.x[last], curve.y[last])), 0.0, 1.0)
-        ends.append((float(y), float(x), curve))
-    ends.sort(key=lambda end: end[0])
+        finite = np.isfinite(curve.y)
+        x, y = _last_inside(to_axes.transform(np.column_stack([curve.x[finite], curve.y[finite]])))
+        ends.append((y, x, curve))
+    # of curves that leave through the bottom the last one is the highest there, through the top the lowest
+    ends.sort(key=lambda end: (end[0], end[1] if end[0] < 0.5 else -end[1]))
     for (y, x, curve), place in zip(ends, apart([end[0] for end in ends], LABEL_ROOM), strict=True):
-        line = {"arrowstyle": "-", "color": curve.color, "linewidth": 0.9, "linestyle": curve.linestyle}
+        line = {"arrowstyle": "-", "color": curve.color, "linewidth": 0.5, "linestyle": curve.linestyle}
         ax.annotate(
             curve.name,
             (x, y),
@@ -255,6 +256,24 @@ def _named(ax: Axes, curves: list[_Curve]) -> Axes:
             va="center",
         )
     return ax
+
+
+def _last_inside(points: RealArray) -> tuple[float, float]:
+    """Last place of a line through ``points`` (n, 2) within the unit square; where it is all outside, its end moved to the border."""
+    for start, end in zip(points[-2::-1], points[:0:-1], strict=True):
+        step = end - start
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ways = np.sort(
+                np.stack([-start / step, (1.0 - start) / step]), axis=0
+            )  # where it crosses, as shares of the step
+        within = (start >= 0.0) & (start <= 1.0)
+        enters = np.where(step == 0.0, np.where(within, -np.inf, np.inf), ways[0]).max(initial=0.0)
+        leaves = np.where(step == 0.0, np.inf, ways[1]).min(initial=1.0)
+        if enters <= leaves:
+            x, y = np.clip(start + leaves * step, 0.0, 1.0)
+            return float(x), float(y)
+    x, y = np.clip(points[-1], 0.0, 1.0)
+    return float(x), float(y)
 
 
 def _pressure(data: xarray.Dataset) -> RealArray:

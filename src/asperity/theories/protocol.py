@@ -417,6 +417,7 @@ _TABLE = 65  # separations at which the pressure is tabulated for a start
 _STEPS = 60  # bisections alone would find a double in these
 _SQUARED = 1e-8  # a Newton step so small leaves its square, which is rounding
 _ROUNDING = 4e-15
+_NO_PRESSURE = 1e-12  # Pa, below which messages say that there is none
 
 
 def separation_at(
@@ -432,9 +433,10 @@ def separation_at(
     logs = _log(law(table)[0])
     wanted = np.log(pressure)
     if wanted.max() > logs[0] or wanted.min() < logs[-1]:
+        least = np.exp(logs[-1])
         raise InputError(
-            f"pressures must lie between {np.exp(logs[-1]):.4g} and {np.exp(logs[0]):.4g} Pa, where this theory is "
-            f"evaluated, but go from {pressure.min():.4g} to {pressure.max():.4g} Pa."
+            f"pressures must lie between {least if least >= _NO_PRESSURE else 0.0:.4g} Pa and {np.exp(logs[0]):.4g} Pa, where this "
+            f"theory is evaluated, but go from {pressure.min():.4g} Pa to {pressure.max():.4g} Pa."
         )
     cell = np.clip(np.searchsorted(-logs, -wanted) - 1, 0, _TABLE - 2)
     below, above = table[cell], table[cell + 1]
