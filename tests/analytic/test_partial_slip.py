@@ -210,6 +210,22 @@ def test_small_amplitudes_dissipate_as_their_cube():
         assert w is None or found == pytest.approx(w, rel=1e-12)
 
 
+def test_any_path_of_a_wave():
+    wave = MindlinWave(1.0, 0.01, 1.0, 0.4, 1.2)
+    contact = PartialSlip(wave.contact, 0.4, 1.2)
+    p = 0.6 * wave.normal.full_contact_pressure
+    answer = wave.at_pressure(p, 0.2 * p)
+    assert contact.cycle_dissipation(p, 0.2 * p) == pytest.approx(float(answer.dissipation), rel=1e-9)
+    path = contact.under_forces([p, p, 0.5 * p, p], [0.0, 0.2 * p, 0.1 * p, 0.2 * p])
+    assert path.shift[1] == pytest.approx(float(answer.displacement), rel=1e-12)
+    same = contact.under_shifts(path.approach[:2], path.shift[:2])
+    assert same.tangential[1] == pytest.approx(0.2 * p, rel=1e-9)
+    x = np.linspace(0.0, 0.49, 9)
+    assert contact.traction(x, path.memories[1]) == pytest.approx(wave.traction(x, p, 0.2 * p), rel=1e-12)
+    with refused(InputError, "approach (m)"):
+        contact.under_shifts([0.02], [0.0])
+
+
 def test_line_and_light_wave_are_one():
     """Crests of a lightly pressed wave are cylinders, also in the slip and the loop."""
     line = MindlinLine(1.0, 1.0 / (4.0 * np.pi**2 * 0.01), 0.4, 1.2)

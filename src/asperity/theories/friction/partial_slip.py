@@ -22,7 +22,7 @@ from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Positive, Pressure
 from ..ask import Way, asked
-from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, checked, small_slope
+from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, bisected, checked, small_slope
 from ..single.hertz import HertzLine, HertzPoint
 from ..single.waves import Amplitude, Wavelength, Westergaard
 
@@ -293,6 +293,35 @@ class WaveSlipAnswer:
 
 
 @dataclass(frozen=True)
+class WaveContact:
+    """A ``wave`` as a contact: its load is the mean pressure in Pa, at most that of full contact, its radius a half-width."""
+
+    wave: Westergaard
+
+    def at_load(self, load: ArrayLike) -> ContactAnswer:
+        """The contact under mean pressures in Pa, >= 0, of any shape."""
+        p = checked(load, "mean pressure (Pa)")
+        a = 0.5 * self.wave.wavelength * self.wave.area_fraction(p)
+        return ContactAnswer(
+            p, self.wave.approach(p), a, 2.0 * a, self.wave.max_pressure(p), np.asarray(self.wave.stiffness(p))
+        )
+
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact at approaches of the mean planes in m, from 0 to the amplitude of the wave, of any shape."""
+        delta = checked(approach, "approach (m)")
+        if np.any(delta > self.wave.amplitude):
+            raise InputError(
+                f"approach (m) must be at most the amplitude of the wave, {self.wave.amplitude:g}, but is {float(delta.max()):g}."
+            )
+        full = np.full_like(delta, self.wave.full_contact_pressure)
+        return self.at_load(bisected(lambda p: self.wave.approach(p) - delta, 0.0 * full, full))
+
+    def pressure(self, x: ArrayLike, load: float) -> RealArray:
+        """Pressure in Pa at ``x`` in m (any shape) from a crest under the mean pressure ``load``."""
+        return self.wave.pressure(x, load)
+
+
+@dataclass(frozen=True)
 class MindlinWave(Theory):
     """Gap Δ(1 - cos 2πx/λ) pressed by the mean pressure p̄, then sheared by q̄; it sticks within |x| < c.
 
@@ -339,6 +368,11 @@ class MindlinWave(Theory):
     def normal(self) -> Westergaard:
         """The contact under the pressure alone."""
         return Westergaard(self.E_star, self.amplitude, self.wavelength)
+
+    @property
+    def contact(self) -> WaveContact:
+        """The normal contact for ``PartialSlip``, on any path of mean pressure and mean shear stress."""
+        return WaveContact(self.normal)
 
     def at_pressure(self, pressure: float, tangential: ArrayLike) -> WaveSlipAnswer:
         """Under mean ``pressure`` p̄ in Pa, > 0, and mean shear stress ``tangential`` q̄, 0 <= q̄ <= μp̄, of any shape."""
