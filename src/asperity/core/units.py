@@ -49,12 +49,15 @@ EXAMPLES = {
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
-_PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
+_PREFIXES = {
+    **{"z": -21, "a": -18, "f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3},
+    **{"": 0, "k": 3, "M": 6, "G": 9, "T": 12, "P": 15, "E": 18},
+}
 """Power of ten of each prefix in use; the later of two symbols is the one that is printed."""
 
 _SYMBOLS = {power: symbol for symbol, power in _PREFIXES.items()}
 
-_PREFIXED = ("m", "Pa", "N", "J", "N/m", "Pa/m")
+_PREFIXED = ("m", "Pa", "N", "J", "s", "B", "N/m", "Pa/m")
 """Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5 s to import and to set up.
 Powers of a length are printed here too; all others are left to pint."""
 
@@ -201,8 +204,8 @@ def parse_size(text: str | tuple[float, float], what: str = "size") -> tuple[flo
 _SMALLEST = 1e-19
 """SI value below which prefixes are of no help."""
 
-_FEMTO, _PETA = 1e-15, 1e15
-"""SI values between which the prefixes of ``_PREFIXES`` serve."""
+_LARGEST = 1e21
+"""SI value up to which the prefixes of ``_PREFIXES`` serve."""
 
 
 def show(value: float, unit: str, digits: int = 4) -> str:
@@ -211,8 +214,8 @@ def show(value: float, unit: str, digits: int = 4) -> str:
         return f"{value:.{digits}g}"
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
-    if unit in _PREFIXED and (_FEMTO <= abs(value) < _PETA or value == 0.0):
-        power = 3 * math.floor(math.log10(abs(value)) / 3) if value else 0
+    if unit in _PREFIXED and abs(value) < _LARGEST:
+        power = 0 if abs(value) < _SMALLEST else 3 * math.floor(math.log10(abs(value)) / 3)
         return f"{value * _inverse(power):.{digits}g} {_SYMBOLS[power]}{unit}"
     if unit in _POWERS:
         power, sign, least = _POWERS[unit]

@@ -134,7 +134,7 @@ def test_prefixes_are_those_of_pint_to_the_bit(unit):
     registry = units._registry()
     for prefix in units._PREFIXES:
         assert units._factor(prefix + unit, unit) == registry.Quantity(1.0, prefix + unit).to(unit).magnitude
-    edges = [float(f"{digits}e{power}") for power in range(-17, 17) for digits in ("0.9999", "0.99999951", "1", "-2.5")]
+    edges = [float(f"{digits}e{power}") for power in range(-22, 22) for digits in ("0.9999", "0.99999951", "1", "-2.5")]
     for value in (0.0, -0.0, *edges):
         quantity = registry.Quantity(value, unit)
         compact = quantity if value == 0.0 or abs(value) < units._SMALLEST else quantity.to_compact()
