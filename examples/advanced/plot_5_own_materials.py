@@ -32,7 +32,8 @@ coating, resin = (asp.material(name, library=library) for name in ("coating A", 
 print(coating, resin, sep="\n")
 
 # %%
-# Press the same surface into both, over three decades of load. The areas differ by orders of magnitude …
+# Press the same surface into both, over three decades of load. The areas differ by orders of magnitude, and fall on one curve
+# when the pressure is divided by the contact modulus E*.
 grid = asp.Grid((128, 128), (50e-9, 50e-9))
 surface = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(10e-9, 1e-6), seed=1)
 ratios = np.geomspace(1e-4, 1e-2, 6)  # mean pressure / E*
@@ -44,9 +45,6 @@ for body, style in ((coating, "o-"), (resin, "x--")):
     areas[body.name] = path.area_fraction_corrected
     axes[0].loglog(path.mean_pressure / 1e6, 100 * path.area_fraction_corrected, style, label=body.name)
     axes[1].loglog(path.mean_pressure / modulus, 100 * path.area_fraction_corrected, style, label=body.name)
-
-# %%
-# … and fall on one curve when the pressure is divided by the contact modulus E*.
 axes[0].set(xlabel="mean pressure (MPa)", ylabel="real area (% of nominal)")
 axes[1].set(xlabel="mean pressure / E*")
 axes[0].legend()
