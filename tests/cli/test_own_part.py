@@ -24,6 +24,7 @@ from asperity.parts import registry
 from asperity.parts.part import Found, Part, Solved, Table, Words
 from asperity.plots.picture import Figure, png
 from asperity.run import document as documents
+from asperity.run.stored import save_outcome
 from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
 
@@ -175,3 +176,26 @@ def test_an_installed_package_adds_one(tmp_path: Path, monkeypatch: pytest.Monke
     finally:
         registry.parts.cache_clear()
         sys.modules.pop("cold_spots", None)
+
+
+def test_run_takes_parts_that_no_package_adds(tmp_path: Path) -> None:
+    document = {**PROBLEM, "hot": {"level": "200 MPa"}}
+    with pytest.raises(asp.InputError):
+        asp.run(document)
+    found = asp.run(document, parts=[Hot])
+    pressure = found.result.pressure
+    assert found.values["hot_share"] == (pressure >= 2e8).sum() / (pressure > 0.0).sum()
+    assert [part.name for part, _ in found.sections][-1] == "hot"
+    assert [figure.name for figure in found.figures["hot"]] == ["hot_map"]
+    save_outcome(found, tmp_path / "result.nc")
+    assert float(asp.open_tree(tmp_path / "result.nc")["hot/hot_share"]) == found.values["hot_share"]
+    assert "hot_share" not in asp.run(PROBLEM, parts=[Hot]).values  # known, not asked for
+    twice = asp.run({**PROBLEM, "hot": {}}, parts=[Hot()]).values["hot_share"]
+    assert twice >= found.values["hot_share"]
+
+
+@pytest.mark.parametrize("own", [object(), [Hot, Hot], type("Taken", (Hot,), {"name": "stress", "table": "stress"})])
+def test_run_refuses_parts_that_cannot_be_used(own: object) -> None:
+    with pytest.raises(asp.InputError) as caught:
+        asp.run(PROBLEM, parts=own if isinstance(own, list) else [own])
+    assert caught.value.subject == "part of one's own"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import functools
 import warnings
+from collections.abc import Iterable
 from importlib import metadata
 
+from ..core.errors import InputError
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .film import Friction, Menisci, WetTheory
 from .part import Part
@@ -34,7 +36,7 @@ def parts() -> tuple[Part, ...]:
     found = list(BUILT_IN)
     for entry in sorted(metadata.entry_points(group=GROUP), key=lambda item: item.name):
         try:
-            found.append(_usable(entry.load(), found, entry))
+            found.append(usable(entry.load(), found))
         except Exception as error:
             text = f"part {entry.name!r} of {_package(entry)} is left out: {' '.join(str(error).split())}"
             warnings.warn(text, stacklevel=2)
@@ -51,8 +53,25 @@ def versions() -> dict[str, str]:
     return dict(sorted(used.items()))
 
 
-def _usable(loaded: object, known: list[Part], entry: metadata.EntryPoint) -> Part:
-    """The part that an entry point has ``loaded``.
+def with_own(own: Iterable[object]) -> tuple[Part, ...]:
+    """All parts, and after them ``own`` ones that no package adds, each a ``Part``, the class or an instance of it.
+
+    Raises
+    ------
+    InputError
+        If one is no part, or has a name, a table or a quantity of another one.
+    """
+    found = list(parts())
+    for item in own:
+        try:
+            found.append(usable(item, found))
+        except ValueError as error:
+            raise InputError(f"part of one's own must be usable, but of {item!r} {error}.") from None
+    return tuple(found)
+
+
+def usable(loaded: object, known: list[Part]) -> Part:
+    """The part that ``loaded`` is.
 
     Raises
     ------

@@ -39,6 +39,7 @@ from ..io.schemas.problem import (
     SolverTable,
 )
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
+from ..parts.part import Part
 from ..parts.registry import parts
 from ..solids.elastic import Elastic, Rigid, Strength
 from ..solids.layers import (
@@ -80,6 +81,8 @@ class Case:
         Method with its settings.
     asks
         What is asked of each part, by its name.
+    parts
+        The parts that are known.
     """
 
     document: ProblemDocument
@@ -88,6 +91,7 @@ class Case:
     path: tuple[Control, ...]
     solver: Solver
     asks: Mapping[str, Any]
+    parts: tuple[Part, ...]
 
     @property
     def threads(self) -> int | None:
@@ -102,7 +106,7 @@ class Case:
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers that its numbers will rest on."""
-        asked = [part for part in parts() if part.name in self.asks]
+        asked = [part for part in self.parts if part.name in self.asks]
         planned = {key for part in asked for key in part.citations(self.asks[part.name], self.problem)}
         return tuple(sorted({*citation_keys(self.solver), *planned}))
 
@@ -112,8 +116,8 @@ class Case:
         return replace(self, document=document, control=control, path=path)
 
 
-def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
-    """Objects described by ``document``; its relative file paths start at ``base_folder``.
+def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple[Part, ...] = ()) -> Case:
+    """Objects described by ``document``; its relative file paths start at ``base_folder``; ``known`` parts, by default the installed ones.
 
     Raises
     ------
@@ -132,19 +136,20 @@ def build(document: ProblemDocument, base_folder: str | Path = ".") -> Case:
         build_boundary(document.boundary),
         build_law(document.law, (body, counter_body)),
     )
-    asks = {part.name: ask for part in parts() if (ask := part.asked(document, folder)) is not None}
-    for part in parts():
+    known = known or parts()
+    asks = {part.name: ask for part in known if (ask := part.asked(document, folder)) is not None}
+    for part in known:
         if part.name in asks:
             part.check(asks[part.name], problem)
-    problem = _with_physics(problem, asks)
+    problem = _with_physics(problem, asks, known)
     control, path = build_load(document.control, surface.size[1])
-    return Case(document, problem, control, path, build_solver(document.solver, problem), asks)
+    return Case(document, problem, control, path, build_solver(document.solver, problem), asks, known)
 
 
-def _with_physics(problem: ContactProblem, asks: Mapping[str, Any]) -> ContactProblem:
+def _with_physics(problem: ContactProblem, asks: Mapping[str, Any], known: tuple[Part, ...]) -> ContactProblem:
     """``problem`` with the film and the friction by which the parts join it."""
     joined: dict[str, Any] = {}
-    for part in parts():
+    for part in known:
         joined |= part.coupling(asks[part.name]) if part.name in asks else {}
     return replace(problem, **joined)
 

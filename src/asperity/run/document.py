@@ -24,6 +24,7 @@ from ..core.settings import Settings, validated
 from ..core.text import read_text
 from ..io.atomic import atomic_file
 from ..io.schemas.problem import ProblemDocument
+from ..parts.part import Part
 from ..parts.registry import parts
 
 __all__ = [
@@ -63,18 +64,19 @@ RENAMED = MappingProxyType(
 """Keys of version 1, and where version 2 has them."""
 
 
-@functools.cache
-def document_model() -> type[ProblemDocument]:
-    """Model of the document: the core, and the table of every part."""
-    made: Any = create_model("ProblemDocument", __base__=ProblemDocument, __doc__=ProblemDocument.__doc__, **_tables())
+@functools.lru_cache(maxsize=8)
+def document_model(known: tuple[Part, ...] = ()) -> type[ProblemDocument]:
+    """Model of the document: the core, and the table of every part, of those ``known`` or all that are installed."""
+    tables = _tables(known or parts())
+    made: Any = create_model("ProblemDocument", __base__=ProblemDocument, __doc__=ProblemDocument.__doc__, **tables)
     model: type[ProblemDocument] = made
     return model
 
 
-def _tables() -> dict[str, Any]:
-    """Type and default of the table of each part that declares settings."""
+def _tables(known: tuple[Part, ...]) -> dict[str, Any]:
+    """Type and default of the table of each ``known`` part that declares settings."""
     made: dict[str, Any] = {}
-    for part in parts():
+    for part in known:
         settings: Any = part.settings
         if settings is not None:
             optional = (Optional[settings], None)  # noqa: UP045  (a value here, no annotation)
@@ -121,7 +123,10 @@ def read_table(path: str | os.PathLike[str], what: str = "problem document") -> 
 
 
 def checked(
-    table: Mapping[str, Any], where: str = "problem document", names: Mapping[str, str] | None = None
+    table: Mapping[str, Any],
+    where: str = "problem document",
+    names: Mapping[str, str] | None = None,
+    known: tuple[Part, ...] = (),
 ) -> ProblemDocument:
     """Document made of the nested ``table``.
 
@@ -133,18 +138,20 @@ def checked(
         What is checked, for the message.
     names
         What to call a dotted key in messages instead, for example ``{"control.force": "--load"}``.
+    known
+        Parts whose tables it may hold; all that are installed by default.
 
     Raises
     ------
     InputError
         If anything is missing, unknown or out of range; the message has one line for each problem.
     """
-    return validated(document_model(), upgraded(table), where, names)
+    return validated(document_model(() if known == parts() else known), upgraded(table), where, names)
 
 
 def checked_parts(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> Any:
     """The tables of parts in ``table``, which has no others; arguments and errors as for :func:`checked`."""
-    model: type[Settings] = create_model("Parts", __base__=Settings, **_tables())
+    model: type[Settings] = create_model("Parts", __base__=Settings, **_tables(parts()))
     return validated(model, table, where, names)
 
 

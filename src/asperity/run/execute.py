@@ -23,7 +23,7 @@ from ..core.status import Outcome as Ended
 from ..parts.contact import STIFFNESS
 from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
-from ..parts.registry import parts
+from ..parts.registry import parts, with_own
 from ..parts.stress import Stress, Yielding, stress_request
 from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
@@ -75,9 +75,14 @@ class Outcome:
         return self.status.converged and (self.path is None or self.path.converged)
 
     @property
+    def parts(self) -> tuple[Part, ...]:
+        """The parts that were known: those that are installed, and those that ``run`` was given."""
+        return parts() if self.case is None else self.case.parts
+
+    @property
     def scalars(self) -> list[Labelled]:
         """Every scalar with its quantity."""
-        found = ((part, self.found[part.name].values) for part in parts() if part.name in self.found)
+        found = ((part, self.found[part.name].values) for part in self.parts if part.name in self.found)
         return [
             Labelled(q, values[q.name])
             for part, values in found
@@ -93,7 +98,7 @@ class Outcome:
     @property
     def sections(self) -> Iterator[tuple[Part, Words]]:
         """Every part with words, and these."""
-        for part in parts():
+        for part in self.parts:
             if part.name in self.found and (
                 words := self.found[part.name].words or part.words(self.found[part.name], self.solved)
             ):
@@ -103,7 +108,9 @@ class Outcome:
     def figures(self) -> dict[str, tuple[Figure, ...]]:
         """Figures of each part, by its name; drawn once."""
         return {
-            part.name: part.figures(self.found[part.name], self.solved) for part in parts() if part.name in self.found
+            part.name: part.figures(self.found[part.name], self.solved)
+            for part in self.parts
+            if part.name in self.found
         }
 
     @cached_property
@@ -133,6 +140,7 @@ def run(
     document: ProblemDocument | Mapping[str, Any] | str | os.PathLike[str],
     base_folder: str | os.PathLike[str] | None = None,
     *,
+    parts: Iterable[object] = (),
     stage: Stage = no_stage,
     on_failure: Literal["raise", "return"] = "raise",
 ) -> Outcome:
@@ -145,6 +153,9 @@ def run(
         ``[tractions]`` it prescribes loads on a body, without any contact, and the ``result`` is a ``LoadedBody``.
     base_folder
         Where relative paths in the document start; by default the folder of the file, or the working folder.
+    parts
+        Parts of your own that no installed package adds, each a ``Part``: their tables may stand in the document, and their values are
+        in the outcome as those of other parts are.
     stage
         Gives the progress of the stage of that name.
     on_failure
@@ -153,7 +164,7 @@ def run(
     Raises
     ------
     InputError
-        If the document has problems, or requests something that its problem does not have.
+        If the document has problems, or requests something that its problem does not have, or a part cannot be used.
     NoSolutionError
         If the load has no solution.
     ConvergenceError
@@ -166,9 +177,10 @@ def run(
         document = read_table(document)
     if isinstance(document, Mapping) and TRACTIONS in document:
         return run_tractions(checked_tractions(document, where), folder, stage=stage)
+    known = with_own(parts)
     if not isinstance(document, ProblemDocument):
-        document = checked(document, where)
-    return execute(build(document, folder), stage=stage, on_failure=on_failure)
+        document = checked(document, where, known=known)
+    return execute(build(document, folder, known), stage=stage, on_failure=on_failure)
 
 
 def execute(
@@ -202,7 +214,7 @@ def execute(
     solving = _Solving(case, warm or Warm(), threads or case.threads, names, lines, stage, on_failure)
     solved = solving.solved()
     status = solved.result.status
-    found, failed = _found(case.asks, solved)
+    found, failed = _found(case.asks, solved, case.parts)
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     statuses = [item.status for item in found.values() if item.status is not None]
     worst = next((item for item in statuses if not item.converged), next(iter(statuses), status))
@@ -237,16 +249,18 @@ def analysed(
     ``options`` are fields of ``Solved``.
     """
     solved = Solved(result.problem, result.control, result, path, **options)
-    found, failed = _found(asks, solved)
+    found, failed = _found(asks, solved, parts())
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     return Outcome(None, replace(solved, found=found), found, findings, result.status)
 
 
-def _found(asks: Mapping[str, Any], solved: Solved) -> tuple[dict[str, Found], tuple[Advice, ...]]:
+def _found(
+    asks: Mapping[str, Any], solved: Solved, known: tuple[Part, ...]
+) -> tuple[dict[str, Found], tuple[Advice, ...]]:
     """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no other."""
     found: dict[str, Found] = {}
     failed: list[Advice] = []
-    for part in parts():
+    for part in known:
         if part.name in asks and _is_wanted(part, solved.wanted):
             try:
                 found[part.name] = part.compute(asks[part.name], replace(solved, found=found))

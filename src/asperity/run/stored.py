@@ -65,7 +65,7 @@ def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
 def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "") -> Node:
     """Tree of ``outcome``."""
     groups = dict(result_tree(outcome.path or outcome.result).children)
-    for part in parts():
+    for part in outcome.parts:
         if part.name in outcome.found:
             groups[part.name] = part_group(part, outcome, groups.get(part.name, Node()))
     attributes = root_attributes(outcome.result, document, versions()) | status_attributes(outcome.status)
