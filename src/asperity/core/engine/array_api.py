@@ -123,6 +123,10 @@ class _ArrayFreeSet:
     def zeros(self) -> Any:
         return self.library.xp.zeros_like(self.start)
 
+    def empty(self) -> Any:
+        """The residual, since nothing is changed in place."""
+        return self.start
+
     def copy(self, vector: Any) -> Any:
         """``vector``, which nothing changes in place."""
         return vector

@@ -122,6 +122,9 @@ class _CpuFreeSet:
     def zeros(self) -> RealArray:
         return np.zeros_like(self.start)
 
+    def empty(self) -> RealArray:
+        return np.empty_like(self.start)
+
     def copy(self, vector: RealArray) -> RealArray:
         return vector.copy()
 

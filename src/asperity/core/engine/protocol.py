@@ -144,6 +144,9 @@ class FreeSet(Protocol):
     def zeros(self) -> Any:
         """Vector of zeros."""
 
+    def empty(self) -> Any:
+        """Vector of any values, to be written over."""
+
     def copy(self, vector: Any) -> Any:
         """Copy of ``vector`` that may be overwritten."""
 

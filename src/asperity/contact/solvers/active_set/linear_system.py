@@ -112,7 +112,7 @@ def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, Rea
     cell, points, sides, numbers = list(grid.spacing), 1.0, [], []
     for x, y in (*merges, merges[-1]):
         merged = [side for side, pairs in zip(cell, (x, y), strict=True) if pairs] or cell
-        sides.append(float(np.prod(merged)) ** (1.0 / len(merged)))
+        sides.append(math.prod(merged) ** (1.0 / len(merged)))
         numbers.append(points)
         for axis, pairs in enumerate((x, y)):
             if pairs:
@@ -466,7 +466,7 @@ def conjugate_gradients(
         d, r, first = _combined_step(system, inverse, r, pending, on_step)
         taken = 1
         pairs = scaled.operator.pairs_per_application + (inverse.pairs if first else 0.0)
-    z = free.zeros()
+    z = free.empty()
     while taken < stopping.max_steps:
         preconditioned = inverse.solve(r, r if last is None else last.kt, z)
         z, product = preconditioned.vector, preconditioned.first
@@ -478,7 +478,7 @@ def conjugate_gradients(
         t, slope = _next_direction(system, r, preconditioned, last)
         scaled.product.apply(scaled.field, scaled.response)
         pairs += scaled.operator.pairs_per_application
-        kt, total, curvature, _ = free.gather_products(scaled.response, t, t, free.zeros() if last is None else last.kt)
+        kt, total, curvature, _ = free.gather_products(scaled.response, t, t, free.empty() if last is None else last.kt)
         if curvature <= 0.0:
             break
         last = _Direction(t, kt, curvature, total)
@@ -527,13 +527,13 @@ def _combined_step(
     if predicted is None:
         t = free.zeros()
     else:
-        z = inverse.solve(predicted, predicted, free.zeros())
+        z = inverse.solve(predicted, predicted, free.empty())
         t, _ = _next_direction(system, r, z, None)
         product = z.first
     pending.free.scatter_add(pending.values, 1.0 / length, scaled.field)
     scaled.product.apply(scaled.field, scaled.response)
     scaled.engine.clear_field(pending.free, scaled.field)
-    response = free.gather_products(scaled.response, t, t, free.zeros())
+    response = free.gather_products(scaled.response, t, t, free.empty())
     if on_step is not None:
         on_step(length)
     d, r = free.update_solution(length, t, response.vector, system.mean(response.total), free.zeros(), r)

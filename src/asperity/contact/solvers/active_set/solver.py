@@ -224,7 +224,7 @@ def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float)
         change, along = free.scatter_change(old, p, r, scaled.field)
         scaled.product.apply(scaled.field, scaled.response)
         products += 1
-        reaction = free.gather_products(scaled.response, change, change, free.zeros()).first
+        reaction = free.gather_products(scaled.response, change, change, free.empty()).first
         slope, curvature = -along * qp.height_scale, reaction * scaled.scale
         if slope + 0.5 * curvature <= 0.0:
             return _Clipping(clipped, 1.0, products)
