@@ -5,7 +5,7 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 13.9, 22.8, 43.8, 19.6, 23.2 and 20.5 pairs.
+elastic, 256², every iterate within its bounds. The constants as they are take 13.9, 22.8, 43.8, 16.0, 23.2 and 20.5 pairs.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _relative_error(work: Workspace, totals: Totals) -> float:
 
 _PRIOR = 4.0
 """Loaded points as which the mean over the wider square counts in that of a square, so that few points do not decide alone.
-Pairs for 1, 2, 8, 16: elastic 13.9 and free 43.8 for all; film 22.2, 22.8, 22.8, 23.0; cap 20.1, 19.6, 19.6, 19.3."""
+Pairs for 1, 2, 8, 16: elastic 13.9 and free 43.8 for all; film 22.2, 22.8, 22.8, 23.0; cap 16.1, 16.0, 16.0, 16.0."""
 
 _SCATTER_SHARE = 0.5
 """Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 14.1, 13.9, 13.9, 14.4; film
@@ -154,7 +154,7 @@ _SETTLED = 0.003
 
 _REDUCTION = 0.3
 """Reduction of the residual while the set changes; conjugate gradients gain a factor of 4 a step, so mostly one step. Pairs for
-0.1, 0.2, 0.5: elastic 16.4, 14.4, 13.9; film 24.0, 23.2, 21.5; free 54.1, 43.8, 43.8; cap 22.7, 20.1, 21.8."""
+0.1, 0.2, 0.5: elastic 16.4, 14.4, 13.9; film 24.0, 23.2, 21.5; free 54.1, 43.8, 43.8; cap 16.7, 16.0, 17.5."""
 
 _UNSETTLED_STEPS = 3
 """Most steps while the set changes, doubled with every fallback. Pairs for 2, 4, 6: film 21.7, 22.9, 22.9, all others the same;
@@ -508,7 +508,7 @@ def _compute_from_scratch(memory: _Memory) -> None:
 
 
 COARSEST = 64
-"""Points per side at which there is no coarser grid. Pairs for 32, 128: elastic 13.8, 14.2; free 43.1, 47.6; cap 19.8, 21.0."""
+"""Points per side at which there is no coarser grid. Pairs for 32, 128: elastic 13.8, 14.2; free 43.1, 47.6; cap 15.3, 18.8."""
 
 _COARSE_ITERATIONS = 30
 """Most steps on a coarse grid; four to eight are the rule. Pairs for 3, 10, 100: the same from 10 on."""
@@ -523,7 +523,8 @@ _LOOSEST = 0.03
 _FINE_STIFFNESS = 0.15
 """Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer).
 Saves a tenth of the pairs at 1024² and a quarter at 2048². Pairs for 0, 0.1, 0.2, 0.3: elastic 15.2, 15.1, 13.9, 14.0; film
-22.9, 22.1, 23.5, 24.0; cap 16.0, 19.6, 20.8, 27.3 (under a cap none would be better)."""
+22.9, 22.1, 23.5, 24.0. Under a cap there is none: crests that it would load beyond the cap yield. With it, cap 19.6 instead of 16.0
+pairs; at a hardness of 0.1 E* 36 instead of 17, of 1 E* 21 instead of 18; at 512² 19.3 instead of 15.1, where elastic contact takes 14.2."""
 
 
 class Adjustable(Solver, Protocol):
@@ -545,7 +546,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
     """Feasible pressure (Pa) prolonged from the solution of ``solver`` on the coarser grid, and its FFT pairs.
 
     The coarse problem is solved to a fraction of the roughness that its grid cannot show. Its pressures are constant on
-    2 x 2 points; to what stands out of them pressure is added in proportion. Pairs are counted in pairs of the grid of
+    2 x 2 points; without a cap, pressure is added in proportion to what stands out of them. Pairs are counted in pairs of the grid of
     ``qp``: those of half as many points per side count a quarter.
     """
     if min(qp.profile.shape) <= COARSEST:
@@ -556,7 +557,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
     state = run(solver.loosened(tolerance), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
     share = coarse.profile.size / qp.profile.size
-    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid)
+    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid) if qp.elastic else 0.0
     start = qp.operator.engine.prolonged(state.pressure, coarse.profile, qp.profile, stiffness)
     if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
         return feasible_start(qp, start), pairs * share
