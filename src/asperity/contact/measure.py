@@ -57,15 +57,26 @@ def _within(mask: BoolArray, *, diagonal: bool) -> tuple[Labels, int]:
 
 def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
     """Number from 0 of the island to which each of the ``count`` labels belongs across the border, and of islands."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     first, last = _across(labels, wraps, diagonal=diagonal)
     joined = (first > 0) & (last > 0)
-    rows, columns = first[joined] - 1, last[joined] - 1
-    links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
-    merged_count, merged = connected_components(links, directed=False)
-    return np.asarray(merged, dtype=np.int64), int(merged_count)
+    parent: dict[int, int] = {}  # an island joined to one of a smaller label; those without are on their own
+
+    def root(island: int) -> int:
+        while island in parent:
+            parent[island] = parent.get(parent[island], parent[island])  # the next search is half as long
+            island = parent[island]
+        return island
+
+    for one, other in np.unique(np.stack([first[joined], last[joined]], axis=1) - 1, axis=0).tolist():
+        low, high = sorted((root(one), root(other)))
+        if low != high:
+            parent[high] = low
+    alone = np.ones(count, dtype=bool)
+    alone[list(parent)] = False
+    whole = np.cumsum(alone) - 1
+    for island in parent:
+        whole[island] = whole[root(island)]
+    return whole, count - len(parent)
 
 
 def _across(labels: Labels, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, Labels]:

@@ -475,6 +475,8 @@ def scaled_to_load(pressure: RealArray, cap: float | RealArray, mean: float) -> 
     """
     if mean >= (1.0 - LOAD_ROUNDING) * np.mean(cap):
         return np.array(np.broadcast_to(cap, pressure.shape), dtype=np.float64)
+    if not isinstance(cap, np.ndarray) and cap == np.inf and (total := float(pressure.sum())) > 0.0:
+        return np.asarray(pressure * (mean * pressure.size / total), dtype=np.float64)
     p = np.minimum(pressure, cap)
     target = mean * p.size
     for _ in range(LOAD_SWEEPS):
