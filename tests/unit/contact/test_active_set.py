@@ -19,7 +19,7 @@ from asperity.contact.solvers.active_set import linear_system
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.solver import COARSEST, coarsened, nested_start
 from asperity.contact.solvers.protocol import relative_error
-from asperity.core.engine import SQUARE_SIDE
+from asperity.core.engine import SQUARE_SIDE, cpu
 from asperity.solids.compliance.halfspace import HalfSpace
 
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -183,6 +183,37 @@ def test_work_on_coarser_grids_is_counted_in_pairs_of_the_fine_one() -> None:
     assert pairs == pytest.approx((coarse.applications + coarse.extra_pairs) / 4.0)
     assert start.mean() == pytest.approx(0.05, rel=1e-12)
     assert start.min() >= 0.0
+
+
+@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=["elastic", "capped"])
+def test_a_result_takes_no_product_beyond_those_of_the_solver(law: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    products: list[str] = []
+    for kind in ("apply", "solve"):
+
+        def counting(self: Any, *given: Any, do: Any = getattr(cpu._Convolution, kind), kind: str = kind) -> Any:
+            products.append(kind)
+            return do(self, *given)
+
+        monkeypatch.setattr(cpu._Convolution, kind, counting)
+    result = asp.solve(asp.ContactProblem(rough((64, 48), 21), elastic(1.0), law=law), asp.MeanPressure(0.05))
+    assert len(products) == result.certificate.fft_pairs > 5
+
+
+def test_a_cap_costs_at_most_a_fifth_more_pairs() -> None:
+    """Mean of two surfaces at the loads of the table in ``benchmarks``, where a third of the contact yields."""
+    pairs = dict.fromkeys((asp.HardWall(), asp.Hardness(0.3)), 0.0)
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=64.0, shortest_wavelength=8.0
+    )
+    for seed in (1, 2):
+        surface = asp.generate.gaussian(asp.Grid((256, 256), (1.0, 1.0)), spectrum, seed=seed)
+        for law in pairs:
+            for load in (0.02, 0.1):
+                problem = asp.ContactProblem(surface, elastic(1.0), law=law)
+                found = asp.solve(problem, asp.MeanPressure(load), solver=ActiveSet(tolerance=1e-6))
+                pairs[law] += found.certificate.fft_pairs
+    free, capped = pairs.values()
+    assert capped <= 1.2 * free
 
 
 @pytest.mark.parametrize("shape", [(131, 97), (65, 300), (128, 66)])
