@@ -125,6 +125,45 @@ COMPARE: tuple[tuple[str, ...], ...] = (
 )
 """Options of ``asperity compare`` on a matrix of stated size."""
 
+FILM: tuple[tuple[str, ...], ...] = (
+    ("--film", "2nm"),
+    ("--liquid", "water"),
+    ("--liquid", "water", "--humidity", "120%"),
+    ("--liquid", "watr", "--film", "1nm"),
+    ("--liquid", "PFPE", "--humidity", "50%"),
+    ("--surface-tension", "30mN/m", "--humidity", "50%"),
+    ("--liquid", "water", "--humidity", "50%", "--meniscus-height", "1nm"),
+    ("--liquid", "water", "--film", "1nm", "--contact-angle", "1deg,2deg,3deg"),
+    ("--liquid", "water", "--film", "1nm", "--contact-angle", "120deg,80deg"),
+    ("--liquid", "PFPE", "--film", "1nm", "--speed", "1mm/s"),
+)
+"""Options of a liquid film."""
+
+_HERTZ = ("hertz", "--E-star", "115GPa", "--radius")
+THEORY: tuple[tuple[str, ...], ...] = (
+    (),
+    ("gw",),
+    ("hertz", "--radius", "5mm", "--load", "1N"),
+    (*_HERTZ, "5s", "--load", "1N"),
+    (*_HERTZ, "5 furlongz", "--load", "1N"),
+    (*_HERTZ, "5mm", "--load", "-1N"),
+    (*_HERTZ, "5mm", "--load", "1N..2N..3N"),
+    (*_HERTZ, "5mm"),
+    (*_HERTZ, "5mm", "--load", "1N", "--approach", "1nm"),
+    ("nayak", "--m0", "1nm**2", "--m2", "1", "--m4", "1um**-2"),
+    ("mccool", "--surface", "rough.txt", "--body", "DLC", "--m0", "1nm**2"),
+)
+"""Words after ``asperity theory``."""
+
+GENERATE: tuple[tuple[str, ...], ...] = (
+    ("sphere", "--radius", "-3um"),
+    ("sphere", "--radius", "1um", "--exact"),
+    ("rough", "--seed", "3", "--spectrum", "white"),
+    ("rough", "--seed", "3", "--spectrum", "exponential", "--correlation-length", "1um"),
+    ("dimples", "--pitch", "4um", "--radius", "1um", "--depth", "1nm"),
+)
+"""Words after ``asperity generate``, before the grid and the file."""
+
 INFO: tuple[tuple[str, ...], ...] = (
     (),
     ("--size", "1e-299um"),

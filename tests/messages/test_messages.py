@@ -1,7 +1,8 @@
-"""What users read when their input is wrong: one file of messages, compared as a whole.
+"""What users read when their input is wrong, and what they read else: two files, compared as a whole.
 
-Tests elsewhere check kinds of exceptions and their fields; the words stand in messages.txt alone. After a change that is meant,
-``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages`` writes the file anew, and the difference is read like any other.
+Tests elsewhere check kinds of exceptions and their fields, exit codes, files and numbers; the words stand in messages.txt and
+printed.txt alone. After a change that is meant, ``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages`` writes both anew, and the
+difference is read like any other.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,7 +18,7 @@ import numpy as np
 import pytest
 from cli.conftest import BODY, LOAD, SCALE
 from messages.bad_documents import DOCUMENTS, GOOD
-from messages.bad_input import CALLS, COMPARE, CONTACT, FILES, INFO
+from messages.bad_input import CALLS, COMPARE, CONTACT, FILES, FILM, GENERATE, INFO, THEORY
 from typer.testing import CliRunner
 
 import asperity as asp
@@ -24,6 +26,27 @@ from asperity.cli.main import app
 from asperity.run.document import checked
 
 WRITTEN = Path(__file__).with_name("messages.txt")
+PRINTED = Path(__file__).with_name("printed.txt")
+GRID = ("--points", "24x16", "--size", "12um x 8um")
+COATED = ("--body", "DLC:5nm~/Cr:2nm/steel", "--counter-body", "E=1GPa,nu=0.4:1um/rigid", "--hardness", "body")
+ANSWERS: tuple[tuple[str, ...], ...] = (
+    ("info", "rough.txt", *SCALE),
+    ("info", "rough.txt", *SCALE, "--full"),
+    ("materials", "DLC"),
+    ("liquids", "zdol"),
+    ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm", "--load", "1N,2N"),
+    ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--out", "run"),
+    ("contact", "rough.txt", *SCALE, *COATED, *LOAD),
+    ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--friction", "0.3", "--depths", "0nm"),
+    ("contact", "rough.txt", *SCALE, *BODY, "--hardness", "body", "--path", "30MPa,0", "--path-steps", "2"),
+    ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--liquid", "PFPE", "--film", "1nm", "--friction", "0.3"),
+    ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--max-iterations", "1"),
+    ("compare", "rough.txt", *SCALE, *BODY, "--theories", "persson,jackson-green", "--pressures", "1MPa,2MPa"),
+    ("cite", "run/result.nc"),
+)
+"""Commands that answer, on the map of the messages."""
+
+NUMBER = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 JARGON = (
     "Traceback",
     "Input should",
@@ -53,6 +76,9 @@ def commands() -> Iterator[tuple[str, ...]]:
     yield from (("contact", "rough.txt", *SCALE, *options) for options in CONTACT)
     yield from (("info", "rough.txt", *options) for options in INFO)
     yield from (("compare", "rough.txt", *SCALE, *options) for options in COMPARE)
+    yield from (("contact", "rough.txt", *SCALE, *BODY, *LOAD, *options) for options in FILM)
+    yield from (("theory", *words) for words in THEORY)
+    yield from (("generate", *words, *GRID, "--out", "a.nc") for words in GENERATE)
     for name in FILES:
         scale = () if name.startswith("noise") else SCALE
         yield "info", name, *scale
@@ -101,3 +127,22 @@ def test_messages_are_those_of_the_file(folder: Path) -> None:
     if os.environ.get("ASPERITY_WRITE_MESSAGES"):
         WRITTEN.write_text(text, encoding="utf-8")
     assert text == WRITTEN.read_text(encoding="utf-8"), "read the difference; ASPERITY_WRITE_MESSAGES=1 accepts it"
+
+
+def words(arguments: tuple[str, ...]) -> str:
+    """What the program prints, numbers as #, rules of tables left out, the rest in lines of one width."""
+    result = CliRunner().invoke(app, list(arguments))
+    assert result.exit_code in {0, 1}, result.output
+    text = re.sub(r"# (?:[µm]s|min)\b", "# s", NUMBER.sub("#", re.sub(r"[─━│]", " ", result.stdout)))
+    text = re.sub(
+        r"# [yzafpnµmkMGTP](J|Pa|N)\b", r"# \1", text
+    )  # rounding decides on the prefix of what is nearly zero
+    return textwrap.fill(" ".join(text.split()), 120, initial_indent="    ", subsequent_indent="    ")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_answers_are_worded_as_in_the_file(folder: Path) -> None:
+    text = "\n\n".join(f"asperity {' '.join(command)}\n{words(command)}" for command in ANSWERS) + "\n"
+    if os.environ.get("ASPERITY_WRITE_MESSAGES"):
+        PRINTED.write_text(text, encoding="utf-8")
+    assert text == PRINTED.read_text(encoding="utf-8"), "read the difference; ASPERITY_WRITE_MESSAGES=1 accepts it"
