@@ -189,7 +189,7 @@ def _quiet() -> Iterator[None]:
 
 
 def _reason(exc: Exception) -> str:
-    """Short reason for a failure; a failed detection lists every reader it tried, which helps nobody."""
+    """Short reason for a failure; of a failed detection without the list of readers that were tried."""
     if type(exc).__name__ == "CannotDetectFileFormat":
         return "no reader recognises its content"
     text = " ".join(str(exc).split())[:160].rstrip(".")
