@@ -65,13 +65,14 @@ def test_table_of_kalker(row):
 
 
 def test_coefficients_are_smooth_between_the_rows():
-    """Ratios of neighbours at a fifth of the distance of rows change slowly: no wiggles of the splines."""
-    s = np.linspace(np.log(0.1), np.log(10.0), 400)
-    for nu in (0.0, 0.1, 0.25, 0.3, 0.5):
+    """Slopes at places a fifth of the distance of rows apart change slowly: no wiggles of the splines."""
+    s = np.linspace(np.log(0.1), np.log(10.0), 120)
+    for nu in (0.0, 0.1, 0.3, 0.5):
+        found = [kalker_coefficients(float(np.exp(at)), nu) for at in s]
         for name in ("C11", "C22", "C23", "C33"):
-            logs = np.log([getattr(kalker_coefficients(float(np.exp(at)), nu), name) for at in s])
+            logs = np.log([getattr(one, name) for one in found])
             slope = np.diff(logs) / np.diff(s)
-            assert np.abs(np.diff(slope)).max() < 0.05
+            assert np.abs(np.diff(slope)).max() < 0.15
             assert np.all(slope < 0.0) if name == "C33" else np.all(slope > -0.05)
     assert pytest.approx(kalker_coefficients(2.0, 0.0).C22) == kalker_coefficients(2.0, 0.0).C11
 

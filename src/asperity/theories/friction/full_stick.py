@@ -242,9 +242,12 @@ class StickingIndenter(Theory):
 
     def _tail(self, eta: RealArray, wave: Callable[[RealArray], RealArray]) -> RealArray:
         """2κ ∫ (coth^n y - 1) f(2κy) dy over y > ``eta`` of a sine or cosine f = ``wave``."""
-        y, weight = geometric(eta, eta + _REACH)
-        decay = np.expm1(-self.exponent * np.log(np.tanh(y)))
-        return np.asarray(2.0 * self._kappa * np.sum(weight * decay * wave(2.0 * self._kappa * y), axis=-1))
+        found = np.empty_like(eta)
+        for place in np.ndindex(eta.shape[:-1]):  # one at a time stays in the cache
+            y, weight = geometric(eta[place], eta[place] + _REACH)
+            decay = np.expm1(-self.exponent * np.log(np.tanh(y)))
+            found[place] = 2.0 * self._kappa * np.sum(weight * decay * wave(2.0 * self._kappa * y), axis=-1)
+        return found
 
     def _inverse(self, r: ArrayLike, load: float) -> tuple[RealArray, RealArray, RealArray]:
         """x = sqrt(r² + (a² - r²) s²) at nodes of s = tanh t, artanh(x/a), and the rule of (2/π) A ∫ dx/sqrt(x² - r²)."""
