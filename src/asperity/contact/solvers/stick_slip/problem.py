@@ -59,11 +59,11 @@ class Deviation:
     def of(cls, points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> Deviation:
         """Deviation of ``traction`` (2, n) with its ``displacement`` and slip ``s``.
 
-        Where the bound is infinite the residual counts times the size of the traction.
+        Where the bound is infinite the residual counts times the size of the traction, and of what it would still take.
         """
         size, finite = np.hypot(*s), np.isfinite(points.bound)
         strength = np.hypot(*traction)
-        limit = np.where(finite, points.bound, strength + strength.mean())
+        limit = np.where(finite, points.bound, strength + strength.mean() + size.mean() / points.largest)
         gap = float(np.sum(limit * size - np.einsum("ij,ij->j", traction, s)))
         error = float(np.sum(np.hypot(*(limit * s - size * traction))))
         scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float((limit * size)[finite].sum())
@@ -106,8 +106,9 @@ class TangentialSolution:
     def at_bound(self, bound: RealArray) -> RealArray:
         """The traction (2, nx, ny) with that of slipping points at another ``bound`` (nx, ny)."""
         size = np.hypot(*self.traction)
-        turned = self.traction * (bound / np.where(size > 0.0, size, 1.0))
-        return np.where(self.slipping, turned, self.traction)
+        slips = self.slipping
+        factor = np.where(slips, bound, 1.0) / np.where(slips, size, 1.0)
+        return self.traction * factor
 
 
 class TangentialSolver(Protocol):
@@ -123,17 +124,21 @@ class TangentialSolver(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """A ``TangentialQP`` on the points of its contact: vectors (2, n) and (n,) in the order of the flat ``index``."""
+    """A ``TangentialQP`` on the points of its contact: vectors (2, n) and (n,) in the order of the flat ``index``.
+
+    ``largest`` is the largest compliance of a wave, m/Pa.
+    """
 
     index: np.ndarray[tuple[int], np.dtype[np.int64]]
     bound: RealArray
     target: RealArray
+    largest: float
 
     @classmethod
     def of(cls, qp: TangentialQP) -> Points:
         """Points of ``qp`` with a positive bound."""
         index = np.flatnonzero(qp.bound.ravel() > 0.0)
-        return cls(index, qp.bound.ravel()[index], qp.target.reshape(2, -1)[:, index])
+        return cls(index, qp.bound.ravel()[index], qp.target.reshape(2, -1)[:, index], qp.operator.largest)
 
     def gathered(self, field: RealArray) -> RealArray:
         """Values (2, n) of a field (2, nx, ny)."""
