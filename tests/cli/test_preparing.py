@@ -95,7 +95,7 @@ def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
         (("--short-cutoff", "1"), "--short-cutoff"),
         (("--short-cutoff", "2nm"), "short cut-off of a filter"),
         (("--tip-radius", "-1nm"), "--tip-radius"),
-        (("--shift", "1um,0um"), "--shift"),
+        (("--counter-shift", "1um,0um"), "--counter-shift"),
         (("--common-grid",), "--common-grid"),
     ):
         result = run("contact", matrix, *SCALE, *BODY, *LOAD, *options)
@@ -103,14 +103,14 @@ def test_errors_name_the_option(run: Runner, matrix: Path) -> None:
 
 
 def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    place = ("--counter-surface", matrix, "--shift", "1um,0um", "--rotate", "90deg")
+    place = ("--counter-surface", matrix, "--counter-shift", "1um,0um", "--rotate", "90deg")
     result = run("contact", matrix, *SCALE, *BODY, *LOAD, *place, "--save-document", tmp_path / "a.toml")
     assert result.exit_code == 0, result.stderr
     placed = load_document(tmp_path / "a.toml").counter_surface.place  # type: ignore[union-attr]
     assert placed is not None
     assert (placed.shift, placed.angle) == ((1e-6, 0.0), pytest.approx(math.pi / 2))
-    wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--shift", "1um")
-    assert subject_of(wrong) == "--shift"
+    wrong = run("contact", matrix, *SCALE, *BODY, *LOAD, "--counter-surface", matrix, "--counter-shift", "1um")
+    assert subject_of(wrong) == "--counter-shift"
 
 
 def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: Path) -> None:

@@ -40,6 +40,19 @@ DOCUMENTS = {
     "layered": document(body=PROBLEM["body"]),
     "hardness": document(law={"kind": "hardness", "hardness": "0.5 GPa"}),
     "layered hardness": document(body=PROBLEM["body"], law={"kind": "hardness", "hardness": "effective"}),
+    "shift": document(friction={"coefficient": 0.3}, shear={"shift": "0.5 nm"}),
+    "fretting cycle": document(
+        friction={"coefficient": 0.3, "direction": "30 deg", "limit": "0.2 GPa"},
+        shear={"shift": "0.5 nm", "cycles": 1, "steps": 2},
+    ),
+    "tangential force": document(friction={"law": "full stick"}, shear={"force": ["1 uN", "-1 uN"], "steps": 1}),
+    "list of steps": document(
+        counter_body=BODY,
+        friction={"law": "tresca", "strength": "50 MPa"},
+        shear={
+            "history": [{"mean_pressure": "10 MPa", "shift": "0 nm"}, "20 MPa, 0.2 nm, 0.1 nm", {"shift": "0.4 nm"}]
+        },
+    ),
     "path": document(
         law={"kind": "hardness", "hardness": "0.5 GPa"},
         control={"path": {"mean_pressure": ["20 MPa", "0", "30 MPa"], "steps": 3}},

@@ -36,7 +36,18 @@ COUNTER, LOAD, SOLVER, OUTPUT = "Counter surface", "Load: one of", "Solver", "Ou
 
 BASIC = (
     *("--from", "--size", "--height-unit", "--level", "--periodise", "--body", "--counter", "--hardness", "--boundary"),
-    *("--pressure", "--load", "--approach", "--mean-gap", "--path", "--friction", "--liquid", "--humidity", "--film"),
+    *(
+        "--pressure",
+        "--load",
+        "--approach",
+        "--mean-gap",
+        "--path",
+        "--friction",
+        "--shift",
+        "--liquid",
+        "--humidity",
+        "--film",
+    ),
     *("--section", "--depths", "--threads"),
 )
 """Options of `contact` that its page shows first."""
@@ -137,7 +148,7 @@ def body_options() -> tuple[Option, ...]:
         own_option(
             "--common-grid",
             (*counter, "common"),
-            "bring both surfaces on one grid; so do --shift and --rotate",
+            "bring both surfaces on one grid; so do --counter-shift and --rotate",
             COUNTER,
             "",
             Flag(),
@@ -315,7 +326,9 @@ def _place(counter: Mapping[str, Any]) -> dict[str, Any]:
     if "shift" in place:
         place["shift"] = [part.strip() for part in place["shift"].split(",")]
         if len(place["shift"]) != 2:
-            raise InputError(f'--shift must be two lengths, such as "1um,0um", but is {counter["place"]["shift"]!r}.')
+            raise InputError(
+                f'--counter-shift must be two lengths, such as "1um,0um", but is {counter["place"]["shift"]!r}.'
+            )
     return {"place": place}
 
 

@@ -57,6 +57,11 @@ class Step:
             )
 
 
+def as_step(step: Step | Control) -> Step:
+    """``step``, or that of a control along the normal alone."""
+    return step if isinstance(step, Step) else Step(step)
+
+
 @dataclass(frozen=True, init=False)
 class History:
     """Sequence of steps, each from the interface that the last one left.
@@ -93,7 +98,7 @@ class History:
                     f"step {number} of a history must be a MeanPressure, Force, Approach, MeanGap or Unloaded, "
                     f"but is {control!r}. Write for example MeanPressure(50e3)."
                 )
-        object.__setattr__(self, "steps", tuple(s if isinstance(s, Step) else Step(s) for s in ordered))
+        object.__setattr__(self, "steps", tuple(map(as_step, ordered)))
 
     @classmethod
     def ramps(cls, kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> Self:

@@ -15,10 +15,11 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from ..contact.fretting import SHEAR_SCALARS, shear_numbers
 from ..contact.history import HistoryResult
 from ..contact.result import SCALARS, WET_SCALARS, ContactResult
 from ..core.errors import InputError
-from ..core.quantity import Labelled
+from ..core.quantity import Labelled, Quantity
 from ..stress.field import Peak, StressField
 from ..stress.survey import StressSurvey
 from .atomic import atomic_file
@@ -61,6 +62,7 @@ def _table(result: ContactResult, scalars: Iterable[Labelled]) -> Iterator[tuple
     yield ("name", "value", "unit", "label")
     known = [Labelled(q, getattr(result, q.name)) for q in SCALARS]
     known += [Labelled(q, getattr(result.menisci, q.name)) for q in WET_SCALARS if result.menisci is not None]
+    known += [Labelled(q, value) for q, value in _shear(result)]
     values = {item.quantity.name: item for item in (*scalars, *known)}
     first = dict.fromkeys(item.quantity.name for item in known)
     for q, value in ((values[name].quantity, values[name].values) for name in first | dict.fromkeys(values)):
@@ -73,10 +75,20 @@ def _table(result: ContactResult, scalars: Iterable[Labelled]) -> Iterator[tuple
 def _step_table(path: HistoryResult) -> Iterator[tuple[Any, ...]]:
     balance = path.energies
     names = [f"{item.name} ({item.unit})" for item in SCALARS]
+    names += [f"{item.name} ({item.unit})" for item, _ in _shear(path.last)]
     yield ("step", "converged", *names, *(f"path_{item.name} ({item.unit})" for item in ENERGIES))
     for number, result in enumerate(path.steps):
         energies = [float(getattr(balance, item.name)[number]) for item in ENERGIES]
-        yield (number + 1, result.converged, *(getattr(result, item.name) for item in SCALARS), *energies)
+        shear = [value for _, value in _shear(result)]
+        yield (number + 1, result.converged, *(getattr(result, item.name) for item in SCALARS), *shear, *energies)
+
+
+def _shear(result: ContactResult) -> list[tuple[Quantity, float]]:
+    """Scalars of stick and slip, if the result has any."""
+    if result.stick_slip is None:
+        return []
+    numbers = shear_numbers(result)
+    return [(item, numbers[item.name]) for item in SHEAR_SCALARS]
 
 
 def _stress_table(survey: StressSurvey) -> Iterator[tuple[Any, ...]]:

@@ -16,6 +16,7 @@ from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import (
     Angle,
+    Choice,
     Humidity,
     Length,
     NonEmpty,
@@ -29,7 +30,7 @@ from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.couplings.menisci import Menisci as SolvedMenisci
-    from ..contact.laws import Coulomb
+    from ..contact.laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
     from ..contact.problem import Control
     from ..contact.wet_theory import WetTheory as SolvedTheory
     from ..contact.wetting import LiquidFilm
@@ -38,24 +39,69 @@ if TYPE_CHECKING:
 Coefficient = Annotated[float, Number(least=0.0, fix="Turn the direction by 180 deg instead.")]
 
 
-class FrictionSettings(Settings):
-    """Friction of a sliding contact; stresses, menisci and, if it is ``coupled``, the pressure take it from here."""
+LAWS = ("coulomb", "tresca", "full stick")
+"""Laws of friction in documents."""
 
+Law = Annotated[str, Choice({name: name for name in LAWS})]
+
+
+class FrictionSettings(Settings):
+    """Friction of the contact; stresses, menisci and, if it is ``coupled``, the pressure take it from here.
+
+    Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else all points slide.
+    """
+
+    law: Law = setting("coulomb", option="--friction-law", help="Largest shear traction of a point")
     coefficient: Coefficient = setting(0.0, option="--friction", help="Shear traction over pressure: 0.3")
     direction: Angle = setting(
         "0 deg", option="--direction", help="Of the shear traction on the body, from x towards y: 90deg"
     )
-    coupled: bool = setting(False, option="--coupled", help="Let the shear traction change the pressure")
+    coupled: bool | None = setting(
+        None,
+        option="--coupled",
+        help="Let the shear traction change the pressure; so it does where surfaces stick and slip",
+    )
+    limit: Pressure | None = setting(
+        None, option="--friction-limit", help="Largest shear traction whatever the pressure, for stick and slip: 200MPa"
+    )
+    strength: Pressure | None = setting(
+        None, option="--friction-strength", help="Shear traction of the law tresca: 20MPa"
+    )
     speed: Speed | None = setting(
         None, option="--speed", help="Sliding speed, for the viscous part of the friction of a film: 1mm/s"
     )
 
+    @model_validator(mode="after")
+    def _fitting(self) -> FrictionSettings:
+        if (self.strength is None) != (self.law != "tresca"):
+            raise InputError(
+                f" must give the strength (--friction-strength) for the law tresca and for no other, but the law is {self.law} "
+                f'{"with" if self.strength else "without"} one. Give both, such as law = "tresca" and strength = "20 MPa".'
+            )
+        if self.law != "coulomb" and (self.coefficient or self.limit):
+            raise InputError(
+                f" must give no coefficient and limit for the law {self.law}, but does: they are those of Coulomb friction."
+            )
+        return self
 
-def coulomb(settings: FrictionSettings) -> Coulomb:
-    """Friction of the problem with these ``settings``."""
-    from ..contact.laws import Coulomb
 
-    return Coulomb(settings.coefficient, settings.direction, settings.speed or 0.0, settings.coupled)
+def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulomb | TrescaFriction | FullStick:
+    """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and slip."""
+    from ..contact.laws import Coulomb, FullStick, TrescaFriction
+
+    if settings.law == "tresca":
+        return TrescaFriction(settings.strength or 0.0)
+    if settings.law == "full stick":
+        return FullStick()
+    coupled = sheared if settings.coupled is None else settings.coupled
+    limit = math.inf if settings.limit is None else settings.limit
+    return Coulomb(settings.coefficient, settings.direction, settings.speed or 0.0, coupled, limit)
+
+
+def sticks(document: Any) -> bool:
+    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's."""
+    table: FrictionSettings = document.friction
+    return document.shear is not None or table.law != "coulomb" or table.limit is not None
 
 
 class Friction(Part):
@@ -67,14 +113,15 @@ class Friction(Part):
     settings = FrictionSettings
     in_every_document = True
 
-    def asked(self, document: Any, folder: Path) -> FrictionSettings | None:
-        """The settings, where the friction takes part in the solve."""
+    def asked(self, document: Any, folder: Path) -> FrictionLaw | None:
+        """The law, where the friction takes part in the solve."""
         table: FrictionSettings = document.friction
-        return table if table.coupled and table.coefficient else None
+        sheared = sticks(document)
+        return friction_law(table, sheared=sheared) if sheared or (table.coupled and table.coefficient) else None
 
-    def coupling(self, ask: FrictionSettings) -> Mapping[str, Any]:
-        """Sliding joins the solve."""
-        return {"friction": coulomb(ask)}
+    def coupling(self, ask: FrictionLaw) -> Mapping[str, Any]:
+        """Sliding, or stick and slip, joins the solve."""
+        return {"friction": ask}
 
 
 # A liquid film.
@@ -131,7 +178,7 @@ class Wetted:
     """The film that is asked for, and its friction."""
 
     film: LiquidFilm
-    friction: Coulomb
+    friction: FrictionLaw
 
 
 class Menisci(Part):
@@ -153,7 +200,8 @@ class Menisci(Part):
         """The film of the table [film], with the friction of the table [friction]."""
         if document.film is None:
             return None
-        return Wetted(_film(document.film, folder), coulomb(document.friction))
+        law = friction_law(document.friction, sheared=sticks(document))
+        return Wetted(_film(document.film, folder), law)
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""

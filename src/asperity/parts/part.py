@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 from ..core.status import NoProgress, Progress
 
 if TYPE_CHECKING:
-    from ..contact.history import HistoryResult
+    from ..contact.history import HistoryResult, Step
     from ..contact.problem import ContactProblem, Control
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
@@ -175,6 +175,10 @@ class Part:
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
+
+    def course(self, ask: Any, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """The steps that are solved, for those that the load and the parts before this one ask for."""
+        return controls
 
     def coupling(self, ask: Any) -> Mapping[str, Any]:
         """By what this part joins the solve, by name; nothing for an analysis."""

@@ -11,6 +11,7 @@ from ..core.errors import InputError
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .film import Friction, Menisci, WetTheory
 from .part import Part
+from .stick_slip import StickSlip
 from .stress import Stress, Yielding
 
 GROUP = "asperity.parts"
@@ -19,6 +20,7 @@ GROUP = "asperity.parts"
 BUILT_IN: tuple[Part, ...] = (
     Contact(),
     Friction(),
+    StickSlip(),
     Menisci(),
     WetTheory(),
     LoadPath(),

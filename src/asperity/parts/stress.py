@@ -303,7 +303,8 @@ def stress_request(table: StressSettings, friction: FrictionSettings) -> StressR
     return StressRequest(
         friction=friction.coefficient if table.shear else 0.0,
         direction=friction.direction,
-        coupled=friction.coupled,
+        coupled=bool(friction.coupled),
+        sheared=table.shear,
         of="counter_body" if table.inside == "counter_body" else "body",
         depths=table.depths,
         sections=sections if sections or profiles or table.depths else StressRequest().sections,

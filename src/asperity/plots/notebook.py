@@ -22,6 +22,7 @@ from .comparison import comparison_plots
 from .contact import MENISCI, PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
+from .shear import LOOP_PLOTS, SHEAR_PLOTS
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import SURFACE_PLOTS, plot_surface_view
 
@@ -99,9 +100,10 @@ def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
     if isinstance(thing, Characterisation):
         return "a characterisation", "distribution", SURFACE_PLOTS
     if isinstance(thing, ContactResult):
-        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, MENISCI)
+        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, MENISCI, *SHEAR_PLOTS)
     if isinstance(thing, HistoryResult):
-        return "a load history", "load_loop", PATH_PLOTS
+        first = "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
+        return "a load history", first, (*PATH_PLOTS, *LOOP_PLOTS)
     return "a comparison", "area", comparison_plots(thing)
 
 

@@ -12,10 +12,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
-from ..contact.history import Ramped, ramps
+from ..contact.history import Ramped, Step, as_step, ramps
 from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
 from ..contact.problem import Approach, ContactProblem, Control, Flat, Force, MeanGap, MeanPressure
-from ..contact.solve import default_solver
+from ..contact.solve import default_solver, sticks
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.protocol import Solver
 from ..core import units
@@ -76,7 +76,7 @@ class Case:
     problem
         Surfaces, bodies, boundary and law.
     control, path
-        The load, and the load path that ends with it; empty for a single load.
+        The load, and the steps that end with it; empty for a single load.
     solver
         Method with its settings.
     asks
@@ -88,7 +88,7 @@ class Case:
     document: ProblemDocument
     problem: ContactProblem
     control: Control
-    path: tuple[Control, ...]
+    path: tuple[Step | Control, ...]
     solver: Solver
     asks: Mapping[str, Any]
     parts: tuple[Part, ...]
@@ -112,7 +112,7 @@ class Case:
 
     def under(self, document: ProblemDocument) -> Case:
         """The same case with the load of ``document``, which differs in nothing else."""
-        control, path = build_load(document.control, self.problem.surface.size[1])
+        control, path = build_course(document, self.asks, self.parts, self.problem.surface.size[1])
         return replace(self, document=document, control=control, path=path)
 
 
@@ -142,8 +142,9 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
         if part.name in asks:
             part.check(asks[part.name], problem)
     problem = _with_physics(problem, asks, known)
-    control, path = build_load(document.control, surface.size[1])
-    return Case(document, problem, control, path, build_solver(document.solver, problem), asks, known)
+    control, path = build_course(document, asks, known, surface.size[1])
+    solver = build_solver(document.solver, problem, sticks=sticks(problem, [as_step(item) for item in path], None))
+    return Case(document, problem, control, path, solver, asks, known)
 
 
 def _with_physics(problem: ContactProblem, asks: Mapping[str, Any], known: tuple[Part, ...]) -> ContactProblem:
@@ -181,6 +182,21 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
     hardness, softer = min(known, key=lambda item: item[0])
     coated_softer = table.hardness == EFFECTIVE and isinstance(softer, Layered) and softer.reduced.layers
     return LayeredHardness(softer) if coated_softer and isinstance(softer, Layered) else Hardness(hardness)
+
+
+def build_course(
+    document: ProblemDocument, asks: Mapping[str, Any], known: tuple[Part, ...], length: float
+) -> tuple[Control, tuple[Step | Control, ...]]:
+    """The last control of ``document``, and the steps to it, with what the ``known`` parts that are asked for add; none for one load.
+
+    ``length`` is that of a line contact in m.
+    """
+    control, path = build_load(document.control, length)
+    found: tuple[Step | Control, ...] = path or (control,)
+    for part in known:
+        if part.name in asks:
+            found = part.course(asks[part.name], found)
+    return as_step(found[-1]).normal, () if not path and found == (control,) else found
 
 
 def build_load(table: ControlTable, length: float = 1.0) -> tuple[Control, tuple[Control, ...]]:
@@ -239,9 +255,9 @@ def _per_length(force: float | str, length: float) -> float:
     return length if isinstance(force, PerLength) else 1.0
 
 
-def build_solver(table: SolverTable, problem: ContactProblem) -> Solver:
-    """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``."""
-    chosen = default_solver(problem)
+def build_solver(table: SolverTable, problem: ContactProblem, *, sticks: bool = False) -> Solver:
+    """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``, whose surfaces may stick."""
+    chosen = default_solver(problem, sticks=sticks)
     name, tolerance = table.method or chosen.name, table.tolerance
     if tolerance is None and name == chosen.name:
         tolerance = chosen.tolerance

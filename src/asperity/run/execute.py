@@ -24,6 +24,7 @@ from ..parts.contact import STIFFNESS
 from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts, with_own
+from ..parts.stick_slip import StickSlip
 from ..parts.stress import Stress, Yielding, stress_request
 from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
@@ -329,8 +330,9 @@ class _Solving:
         case = self.case
         with self.stage(f"solving {len(case.path)} steps") as progress:
             stream = steps(case.problem, case.path, progress=progress, **self._options())
-            results = list(deque(stream, maxlen=None if self.lines else 1))
+            results = list(deque(stream, maxlen=None if self.lines or StickSlip.name in case.asks else 1))
         last = results[-1]
-        if self._stiffness and last.sliding is None:
+        shear = last.sliding or last.stick_slip
+        if self._stiffness and (shear is None or not shear.shear_displacement.any()):
             results[-1] = replace(last, normal_stiffness=stiffness_of(last, operator=self.warm.operator))
-        return (HistoryResult(tuple(results)) if self.lines else None), results[-1]
+        return (HistoryResult(tuple(results)) if len(results) == len(case.path) else None), results[-1]

@@ -96,6 +96,8 @@ class StressRequest:
         What decides on yield, and strengths beside those of the materials.
     dtype
         Type of the numbers.
+    sheared
+        Whether the shear traction of a contact with stick and slip, which takes the place of ``friction``, loads the body.
     """
 
     friction: float = 0.0
@@ -109,6 +111,7 @@ class StressRequest:
     criterion: Criterion = VonMises()
     strengths: Strengths = Strengths()
     dtype: str = "float64"
+    sheared: bool = True
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -402,7 +405,9 @@ def _keeping(fields: Iterable[StressField], wanted: frozenset[Plane], kept: list
 def _planes(
     request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None
 ) -> Iterator[StressField]:
-    own: Any = {} if isinstance(result, LoadedBody) else {"friction": request.friction, "direction": request.direction}
+    own: Any = {"friction": request.friction, "direction": request.direction}
+    if isinstance(result, LoadedBody) or (request.sheared and getattr(result, "stick_slip", None) is not None):
+        own = {}  # they bring their own
     return stress_planes(
         result,
         [float(depth) for depth in depths],

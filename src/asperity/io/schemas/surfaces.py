@@ -159,7 +159,9 @@ class Place(Settings):
     """
 
     shift: tuple[SignedLength, SignedLength] | None = setting(
-        None, help="place of the counter surface's middle from that of the surface: 1um,0um"
+        None,
+        option="--counter-shift",
+        help="place of the counter surface's middle from that of the surface: 1um,0um",
     )
     angle: Angle | None = setting(
         None, option="--rotate", help="angle of the counter surface from +x towards +y: 30deg"
