@@ -346,9 +346,12 @@ def setting_rows(survey: StressSurvey) -> Rows:
     """What the stresses are those of, and where they were computed."""
     request, depths = survey.request, survey.depths
     rows = [("inside", "the body" if request.of == "body" else "the counter body")]
-    if not _prescribed(survey):
+    own = request.sheared and getattr(survey.result, "stick_slip", None) is not None
+    if own:
+        rows.append(("shear traction", "that found with stick and slip"))
+    elif not _prescribed(survey):
         rows.append(("friction coefficient", f"{request.friction:g}"))
-    if request.friction:
+    if request.friction and not own:
         rows.append(
             ("direction of the shear traction on the body", f"{math.degrees(request.direction):g}° from x towards y")
         )

@@ -392,7 +392,14 @@ def test_deep_keys_are_named() -> None:
 
 def test_schema_is_json_and_names_every_table() -> None:
     schema = json.loads(json.dumps(json_schema()))
-    assert set(schema["properties"]) == {*ProblemDocument.model_fields, "friction", "shear", "film", "stress", "plastic_load"}
+    assert set(schema["properties"]) == {
+        *ProblemDocument.model_fields,
+        "friction",
+        "shear",
+        "film",
+        "stress",
+        "plastic_load",
+    }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]
     assert {"type": "string"} in body["anyOf"], "a body may be one line of text"
