@@ -36,7 +36,7 @@ def test_the_surface_bears_the_traction(result: asp.ContactResult) -> None:
 
 @pytest.mark.parametrize("of", ["body", "counter_body"])
 def test_it_is_the_shear_given_by_hand(result: asp.ContactResult, of: Any) -> None:
-    """To the bit; and yield and fracture are judged by it, not by the pressure alone."""
+    """To the bit; and yield is judged by it, not by the pressure alone."""
     shear = result.stick_slip
     assert shear is not None
     own = asp.stress(result, DEPTHS, of=of)
