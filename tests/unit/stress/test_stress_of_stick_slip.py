@@ -18,7 +18,7 @@ DEPTHS = (0.0, 0.5, 2.0)
 @pytest.fixture(scope="module")
 def result() -> asp.ContactResult:
     problem = asp.ContactProblem(rough((24, 20), 4), COATED, counter_body=SOFT, friction=asp.Coulomb(0.4))
-    return asp.solve(problem, asp.Step(asp.MeanPressure(0.02), asp.Shift(0.02, 0.01)))
+    return asp.solve(problem, asp.Step(asp.MeanPressure(0.1), asp.Shift(0.06, 0.03)))
 
 
 def test_the_surface_bears_the_traction(result: asp.ContactResult) -> None:
@@ -36,7 +36,7 @@ def test_the_surface_bears_the_traction(result: asp.ContactResult) -> None:
 
 @pytest.mark.parametrize("of", ["body", "counter_body"])
 def test_it_is_the_shear_given_by_hand(result: asp.ContactResult, of: Any) -> None:
-    """To the bit; and yield is judged by it, not by the pressure alone."""
+    """To the bit; yield and fracture are judged by it, not by the pressure alone."""
     shear = result.stick_slip
     assert shear is not None
     own = asp.stress(result, DEPTHS, of=of)
@@ -47,6 +47,8 @@ def test_it_is_the_shear_given_by_hand(result: asp.ContactResult, of: Any) -> No
     yields, without = asp.first_yield(own), asp.first_yield(smooth)
     assert yields.regions[0].peak.value == asp.first_yield(given).regions[0].peak.value
     assert yields.regions[0].load_factor < without.regions[0].load_factor
+    torn, pressed = asp.fracture_indicators(own), asp.fracture_indicators(smooth)
+    assert torn[0].peak.value > 1.2 * pressed[0].peak.value
 
 
 def test_a_document_takes_it_unless_told_otherwise() -> None:
