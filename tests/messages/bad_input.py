@@ -114,6 +114,7 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--crop", "0um:99um,"),
     (*BODY, *LOAD, "--resample", "many"),
     (*BODY, *LOAD, "--humidity", "60"),
+    (*BODY, *LOAD, "--humidity", "60%"),
     (*BODY, "--pressure", "50mpa"),
     (*BODY, *LOAD, "--taper", "0.9"),
     (*BODY, *LOAD, "--mirror", "x"),

@@ -116,7 +116,8 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
     """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, against the pixel."""
     wavelengths = {axis: pixels for axis in "xy" if (pixels := _shortest_wavelength(profile, axis)) < PIXELS_PER_WAVE}
     if wavelengths:
-        found = " and ".join(f"{pixels:.1f} pixels along {name}" for name, pixels in wavelengths.items())
+        shown = {axis: math.floor(10.0 * pixels) / 10.0 for axis, pixels in wavelengths.items()}  # 5.97 is not 6.0
+        found = " and ".join(f"{pixels:.1f} pixels along {axis}" for axis, pixels in shown.items())
         yield Advice(
             "warning",
             "resolution",

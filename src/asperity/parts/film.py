@@ -163,11 +163,17 @@ class FilmSettings(Settings):
                 f'.contact_angle must be one or two angles, such as "10 deg" or ["60 deg", "60 deg"], but is {len(self.contact_angle)}.'
             )
         if self.liquid is None and self.surface_tension is None:
-            raise InputError(' must give a liquid, such as "water", or its surface_tension, but gives neither.')
+            raise InputError(
+                ' must give a liquid, such as "water" (--liquid), or its surface_tension (--surface-tension), but gives neither.'
+            )
         if self.liquid is None and self.humidity is not None:
-            raise InputError(" must name its liquid beside a humidity, which needs the molar volume, but does not.")
+            raise InputError(
+                " must name its liquid (--liquid) beside a humidity, which needs the molar volume, but does not."
+            )
         if self.humidity is None and self.thickness is None:
-            raise InputError(' must give the thickness of the film, such as "2 nm", or a humidity, but gives neither.')
+            raise InputError(
+                ' must give the thickness of the film, such as "2 nm" (--film), or a humidity (--humidity), but gives neither.'
+            )
         if self.humidity is not None and self.meniscus_height is not None:
             raise InputError(" must not give both a humidity and a meniscus_height: the second follows from the first.")
         return self

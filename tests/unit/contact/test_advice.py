@@ -65,6 +65,13 @@ def test_resolution_of_a_sine_is_its_wavelength_in_pixels():
         assert ("resolution" in criteria(before(wave))) == expected
 
 
+def test_a_wavelength_just_too_short_is_not_shown_as_long_enough():
+    x = np.arange(199.0)  # 35 waves, whose second differences are those of 5.98 pixels
+    wave = asp.Surface(1e-3 * np.sin(2 * np.pi * 35 / 199 * x)[:, None] * np.ones(4), 1.0, periodic=True)
+    found = next(a for a in before(wave) if a.criterion == "resolution")
+    assert "5.9 pixels" in found.message
+
+
 def test_edges_of_a_tilted_map():
     x, _ = SMOOTH.grid.coordinates()
     tilted = asp.Surface(SMOOTH.heights + 0.05 * x, 1e-6)
