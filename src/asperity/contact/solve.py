@@ -272,8 +272,9 @@ def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
     root) does not hide that the displacement by shear has settled to 1e-6.
     """
     friction = problem.friction
-    couples = sticks or (isinstance(friction, Coulomb) and friction.couples)
-    return ActiveSet(tolerance=1e-12) if couples else ActiveSet()
+    if sticks:
+        return ActiveSet(tolerance=1e-8)
+    return ActiveSet(tolerance=1e-12) if isinstance(friction, Coulomb) and friction.couples else ActiveSet()
 
 
 def couplings_of(

@@ -39,6 +39,9 @@ _FINEST = 1e-4
 _REFRESH = 1e-4
 """Fall of the error since the displacement was computed from scratch after which it is again: updates are in single precision."""
 
+_ROUGH = 1e-4
+"""Error above which updates in single precision need no check."""
+
 _SLOW = 0.5
 """Error over the lowest so far above which rounding of the updates may be the reason."""
 
@@ -159,7 +162,8 @@ class _Iteration:
             shift, s, found = self._slip()
             error = found.error
             reached = error <= self.settings.tolerance
-            if not self.exact and (reached or error < _REFRESH * computed_at or error > _SLOW * lowest):
+            doubtful = error < _REFRESH * computed_at or error > _SLOW * lowest
+            if not self.exact and (doubtful or (reached and error < _ROUGH)):
                 self._compute()
                 shift, s, found = self._slip()
                 error = computed_at = found.error
