@@ -81,7 +81,9 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     options = parser.parse_args()
     coated = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
-    print("| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal solves only) | time in cold solves |")
+    print(
+        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal solves only) | time in cold solves |"
+    )
     print("|---|---|---|---|---|---|---|")
     for n in options.sizes:
         for nu in (0.0, 0.3):

@@ -77,9 +77,7 @@ class _Iterate:
     def ended(self, tolerance: float, iterations: int) -> TangentialSolution:
         """Solution at this iterate."""
         iterate = self.q, self.s, self.shift
-        return ended(
-            self.qp, self.points, iterate, self.deviation, tolerance=tolerance, work=(iterations, self.pairs)
-        )
+        return ended(self.qp, self.points, iterate, self.deviation, tolerance=tolerance, work=(iterations, self.pairs))
 
 
 @dataclass(frozen=True)
@@ -171,12 +169,18 @@ class ProjectedGradients:
                 free[:, sticking] -= free.sum(axis=1, keepdims=True) / max(int(sticking.sum()), 1)
             returned = before is not None and bool(np.any(before.slip & ~sets.slip))
             norm = float(np.einsum("ij,ij->", previous, previous))
-            ratio = 0.0 if before is None or returned or norm == 0.0 else float(np.einsum("ij,ij->", free, free - previous)) / norm
+            ratio = (
+                0.0
+                if before is None or returned or norm == 0.0
+                else float(np.einsum("ij,ij->", free, free - previous)) / norm
+            )
             direction, previous, before = free + max(ratio, 0.0) * sets.free_part(direction), free, sets
             response = at.product(direction)
             along = float(np.einsum("ij,ij->", at.s, direction))
             curvature = float(np.einsum("ij,ij->", direction, response)) + float(
-                np.sum(np.where(sets.slip, sets.outward / np.where(sets.slip, at.points.bound, 1.0), 0.0) * direction**2)
+                np.sum(
+                    np.where(sets.slip, sets.outward / np.where(sets.slip, at.points.bound, 1.0), 0.0) * direction**2
+                )
             )
             q, s, energy = at.q, at.s, at.energy
             if curvature > 0.0 and along > 0.0:

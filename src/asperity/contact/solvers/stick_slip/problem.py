@@ -159,21 +159,32 @@ class Points:
         return traction * factor
 
     def with_mean(self, traction: RealArray, total: RealArray) -> RealArray:
-        """Feasible ``traction`` (2, n) with the sum ``total`` (2,): what is missing goes where the bound leaves room."""
+        """Feasible ``traction`` (2, n) with the sum ``total`` (2,): what is missing goes where the bound leaves room in its direction."""
         found = traction
         for _ in range(_SWEEPS):
             missing = total - found.sum(axis=1)
-            if np.hypot(*missing) <= _ROUNDING * np.hypot(*total):
+            size = float(np.hypot(*missing))
+            if size <= _ROUNDING * float(np.hypot(*total) + np.abs(found).sum()):
                 break
-            room = np.where(np.isfinite(self.bound), self.bound - np.hypot(*found), 1.0)
-            weight = np.maximum(room, 0.0)
-            if weight.sum() <= 0.0:
+            room = self._room(found, missing / size)
+            inside = np.where(np.hypot(*found) < self.bound * AT_BOUND, room, 0.0)
+            room = inside if float(inside.sum()) >= size else room  # slipping points stay at their bound where they can
+            whole = float(room.sum())
+            if whole <= 0.0:
                 break
-            found = self.projected(found + missing[:, None] * (weight / weight.sum()))
+            found = self.projected(found + (missing / max(whole, size))[:, None] * room)
         return found
 
+    def _room(self, traction: RealArray, direction: RealArray) -> RealArray:
+        """By how much each of ``traction`` (2, n) may grow along the unit vector ``direction``; what is unbounded takes all there is."""
+        unbounded = np.isinf(self.bound)
+        if unbounded.any():
+            return np.where(unbounded, 1e200, 0.0)
+        along = direction @ traction
+        return np.sqrt(np.maximum(self.bound**2 - np.hypot(*traction) ** 2 + along**2, 0.0)) - along
 
-_SWEEPS = 20
+
+_SWEEPS = 5
 _ROUNDING = 1e-13
 
 
