@@ -196,9 +196,10 @@ class StickSlipCoupling(Coupling):
             x = np.zeros(posed.profile.shape)
             return Exchange(x, x, 0.0, self.tolerance, note=note)
         if posed.start is not None:
-            expected = posed.start
+            scale, force = 1.0, float(posed.start.sum()) * self.operator.grid.pixel_area
             if posed.external_force:
-                expected = expected * (posed.external_force / (float(expected.sum()) * self.operator.grid.pixel_area))
+                scale = posed.external_force / force
+            expected = np.asarray(scale * posed.start)
             note = replace(note, solution=self._solved(note, expected, replace_tolerance(self.solver, _LOOSEST)))
         x = self.operator.lift(note.before.traction if note.solution is None else note.solution.traction)
         return Exchange(x, x, np.inf, self.tolerance, note=note)

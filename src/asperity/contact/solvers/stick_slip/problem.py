@@ -44,6 +44,9 @@ class TangentialQP:
     mean_traction: RealArray | None = None
 
 
+_INACTIVE = 10.0
+
+
 @dataclass(frozen=True)
 class Deviation:
     """How far an iterate is from the friction law, over the sum of its elastic energy and the work of its slip.
@@ -59,14 +62,13 @@ class Deviation:
     def of(cls, points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> Deviation:
         """Deviation of ``traction`` (2, n) with its ``displacement`` and slip ``s``.
 
-        Where the bound is infinite the residual counts times the size of the traction, and of what it would still take.
+        Bounds count up to ten times the largest traction, beyond which none is active, and what the mean residual would still take.
         """
-        size, finite = np.hypot(*s), np.isfinite(points.bound)
-        strength = np.hypot(*traction)
-        limit = np.where(finite, points.bound, strength + strength.mean() + size.mean() / points.largest)
+        size = np.hypot(*s)
+        limit = np.minimum(points.bound, _INACTIVE * np.hypot(*traction).max() + size.mean() / points.largest)
         gap = float(np.sum(limit * size - np.einsum("ij,ij->j", traction, s)))
         error = float(np.sum(np.hypot(*(limit * s - size * traction))))
-        scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float((limit * size)[finite].sum())
+        scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float((limit * size).sum())
         return cls(*(value / scale if scale > 0.0 else 0.0 if value == 0.0 else np.inf for value in (gap, error)))
 
 
@@ -181,7 +183,7 @@ class Points:
         if unbounded.any():
             return np.where(unbounded, 1e200, 0.0)
         along = direction @ traction
-        return np.sqrt(np.maximum(self.bound**2 - np.hypot(*traction) ** 2 + along**2, 0.0)) - along
+        return np.asarray(np.sqrt(np.maximum(self.bound**2 - np.hypot(*traction) ** 2 + along**2, 0.0)) - along)
 
 
 _SWEEPS = 5
