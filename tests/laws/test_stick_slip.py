@@ -9,7 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
+from asperity.contact.operators.tangential import TangentialOperator
 from asperity.contact.solvers import ActiveSet
+from asperity.contact.solvers.stick_slip.newton import StickSlipNewton
+from asperity.contact.solvers.stick_slip.problem import TangentialQP
 
 TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
 SOFT = asp.Elastic(1.0, 0.3)
@@ -220,3 +223,26 @@ def test_menisci_hardness_and_stick_slip_in_one_solve():
 def test_what_has_no_meaning_is_refused(problem, step):
     with pytest.raises(asp.InputError):
         asp.solve(posed(**problem), step)
+
+
+@pytest.mark.slow
+def test_random_problems_converge():
+    """Bounds over ten decades, shifts, forces and fields on all kinds of bodies."""
+    rng, failed = np.random.default_rng(11), []
+    bodies = (SOFT, COATED, asp.Elastic(1.0, 0.0), asp.Elastic(1.0, 0.499))
+    for case in range(200):
+        shape = (int(rng.integers(4, 40)), int(rng.integers(1, 40)))
+        boundary = asp.Periodic() if shape[1] == 1 or rng.random() < 0.5 else asp.Free()
+        grid = asp.Grid(shape, (1.0, float(rng.uniform(0.5, 2.0))))
+        operator = TangentialOperator(grid, (bodies[case % 4], asp.Rigid()), boundary)
+        bound = np.where(rng.random(shape) < rng.uniform(0.05, 1.0), 10.0 ** rng.uniform(-5, 5, shape), 0.0)
+        target = rng.standard_normal((2, 1, 1)) * 10.0 ** rng.uniform(-4, 4) + np.zeros((2, *shape))
+        target += rng.standard_normal((2, *shape)) * 10.0 ** rng.uniform(-6, 2)
+        mean = None
+        if rng.random() < 0.4 and bound.any():
+            angle = rng.uniform(0, 2 * np.pi)
+            mean = bound.mean() * rng.uniform(0.0, 0.99) * np.array([np.cos(angle), np.sin(angle)])
+        found = StickSlipNewton(tolerance=1e-8).solve(TangentialQP(operator, bound, target, mean))
+        if not found.status.converged:
+            failed.append((case, found.deviation.error))
+    assert failed == []

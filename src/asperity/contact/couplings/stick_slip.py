@@ -199,10 +199,11 @@ class StickSlipCoupling(Coupling):
             scale, force = 1.0, float(posed.start.sum()) * self.operator.grid.pixel_area
             if posed.external_force:
                 scale = posed.external_force / force
-            expected = np.asarray(scale * posed.start)
-            note = replace(note, solution=self._solved(note, expected, replace_tolerance(self.solver, _LOOSEST)))
-        x = self.operator.lift(note.before.traction if note.solution is None else note.solution.traction)
-        return Exchange(x, x, np.inf, self.tolerance, note=note)
+            loose = replace_tolerance(self.solver, _LOOSEST)
+            note = replace(note, solution=self._solved(note, scale * posed.start, loose))
+        traction = note.before.traction if note.solution is None else note.solution.traction
+        lift = self.operator.lift(traction)
+        return Exchange(lift, lift, np.inf, self.tolerance, note=note)
 
     def _before(self, posed: Posed, memory: Memory) -> _Before:
         zero = np.zeros((2, *posed.profile.shape))

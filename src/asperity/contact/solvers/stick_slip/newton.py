@@ -28,6 +28,10 @@ _REDUCTION = 0.3
 
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 12
+"""Products with the compliance in one system, at most, while sets change, and on settled ones: doubled whenever the error does not fall to
+a half, as with slip in all directions at once, which the preconditioner is not made for."""
+
+_MOST_DOUBLINGS = 5
 
 _MARGIN = 0.1
 """Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first powers of the residual, which is
@@ -137,6 +141,7 @@ class _Iteration:
             self.q = q if self.total is None else points.with_mean(q, self.total)
         self._compute()
         self.exact = True
+        self.doublings, self.settled_error = 0, np.inf
 
     def _first(self) -> RealArray:
         """No traction, or the prescribed one in proportion to the bound."""
@@ -200,7 +205,10 @@ class _Iteration:
         reduction, most = _REDUCTION, _UNSETTLED_STEPS
         if settled:
             wanted = _MARGIN * self.settings.tolerance / error
-            reduction, most = min(_REDUCTION, max(wanted, _FINEST)), _SETTLED_STEPS
+            self.doublings += error > _SLOW * self.settled_error
+            self.settled_error = error
+            reduction = min(_REDUCTION, max(wanted, _FINEST))
+            most = _SETTLED_STEPS << min(self.doublings, _MOST_DOUBLINGS)
         d, products = system.solved(r, reduction, most)
         self.pairs += products * self.qp.operator.pairs_per_application
         d = d.astype(float) * (unit / work.pixel)
