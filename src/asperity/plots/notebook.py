@@ -89,7 +89,8 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
     if plot.kind == "view":
         return _Chosen(draw, VIEW_SIZE, "3d")
     if plot.kind == "map":
-        return _Chosen(draw, map_size(getattr(thing, "problem", getattr(thing, "surface", thing)).grid))
+        one = getattr(thing, "last", thing)
+        return _Chosen(draw, map_size(getattr(one, "problem", getattr(one, "surface", one)).grid))
     return _Chosen(draw, COMPARISON_SIZE if plot.kind == "comparison" else CURVE_SIZE)
 
 

@@ -66,21 +66,16 @@ def plot_shear_section(result: ContactResult, ax: Axes) -> Axes:
 def plot_shear_loop(history: HistoryResult, ax: Axes) -> Axes:
     """Draw the tangential force of ``history`` against the shift, both along the largest shift, on ``ax``."""
     loop = loop_of(history.steps)
+    first = loop.cycles[0][0] if loop.cycles else len(loop.shift) - 1
+    zero = [0.0] if history.start is None and loop.shift[0] != 0.0 else []
     in_m, in_n = scale(loop.shift, "m"), scale(loop.force, "N")
+    shift, force = in_m(np.append(zero, loop.shift)), in_n(np.append(zero, loop.force))
     ax.axhline(0.0, color="0.8", linewidth=0.5)
     ax.axvline(0.0, color="0.8", linewidth=0.5)
-    first = loop.cycles[0][0] if loop.cycles else len(loop.shift) - 1
-    loading, cycles = slice(0, first + 1), slice(first, None)
-    ax.plot(
-        in_m(loop.shift[loading]),
-        in_n(loop.force[loading]),
-        color=BLACK,
-        marker=".",
-        linestyle="--",
-        label="first shift",
-    )
+    turn = first + len(zero)
+    ax.plot(shift[: turn + 1], force[: turn + 1], color=BLACK, marker=".", linestyle="--", label="first shift")
     if loop.cycles:
-        ax.plot(in_m(loop.shift[cycles]), in_n(loop.force[cycles]), color=BLUE, marker=".", label="cycles")
+        ax.plot(shift[turn:], force[turn:], color=BLUE, marker=".", label="cycles")
     ax.set(xlabel=f"shift ({in_m.symbol})", ylabel=f"tangential force ({in_n.symbol})")
     return legend_above(ax)
 
