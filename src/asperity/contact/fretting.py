@@ -10,7 +10,6 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.quantity import Quantity
-from .couplings.stick_slip import StickSlip
 from .result import ContactResult
 
 NUMBERS = (
@@ -114,12 +113,12 @@ def loop_of(steps: Sequence[ContactResult]) -> Loop:
     direction = farthest / length if length > 0.0 else np.array([1.0, 0.0])
     shift = shifts @ direction
     return Loop(
-        shift, forces @ direction, (float(direction[0]), float(direction[1])), _dissipated(found), _cycles(shift)
+        shift,
+        forces @ direction,
+        (float(direction[0]), float(direction[1])),
+        np.array([item.dissipated for item in found]),
+        _cycles(shift),
     )
-
-
-def _dissipated(found: Sequence[StickSlip]) -> RealArray:
-    return np.array([item.dissipated for item in found])
 
 
 def _cycles(shift: RealArray) -> tuple[tuple[int, int], ...]:

@@ -1,4 +1,4 @@
-"""Names and methods that are looked up, and values that are computed, at their first use: what nobody asks for costs nothing."""
+"""Names and methods that are looked up, and values that are computed, at their first use, so that what is not used costs no time."""
 
 from __future__ import annotations
 

@@ -111,7 +111,7 @@ def save(result: Result, path: str | Path, *, document: str | None = None, overw
     OutputError
         If the file does not end in .nc, exists and ``overwrite`` is false, or cannot be written.
     InputError
-        If the problem holds a type that files do not know.
+        If the problem holds a type that files cannot hold.
     """
     write_tree(result_tree(result, document=document), path, overwrite=overwrite)
 

@@ -409,7 +409,7 @@ def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
         If one of them cannot be written.
     """
     data, derived = campaign.dataset(), campaign.analysis()
-    _save(data, folder / RESULTS)
+    write_tree(node_of(data), folder / RESULTS, overwrite=True)
     _table(data, folder / CASES)
     written = [folder / RESULTS, folder / CASES]
     if derived is not None:
@@ -419,10 +419,6 @@ def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
     save_pictures({figure.name: lambda f=figure: f.picture for figure in figures}, folder / PLOTS, overwrite=True)  # type: ignore[misc]
     write_study_report(campaign, folder / REPORT, figures=figures, overwrite=True)
     return (*written, folder / PLOTS, folder / REPORT)
-
-
-def _save(data: xarray.Dataset, path: Path) -> None:
-    write_tree(node_of(data), path, overwrite=True)
 
 
 def _table(data: xarray.Dataset, path: Path) -> None:

@@ -24,7 +24,7 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
-from ..io.schemas.bodies import BaseTable, BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
+from ..io.schemas.bodies import BodyTable, GradedTable, LayerTable, MaterialTable, body_from_text
 from ..io.schemas.problem import (
     EFFECTIVE,
     FROM_BODY,
@@ -43,7 +43,6 @@ from ..parts.part import Part
 from ..parts.registry import parts
 from ..solids.elastic import Elastic, Rigid, Strength
 from ..solids.layers import (
-    Base,
     Body,
     Bonded,
     ExponentialGrading,
@@ -276,7 +275,8 @@ def build_body(table: BodyTable, folder: Path) -> Body:
     library = None if table.materials_file is None else folder / table.materials_file
     if table.base is not None:
         layers = [layer for part in table.layers for layer in _layers(part, library)]
-        return Layered(layers, _base(table.base, library), table.name or "")
+        base = RigidBase() if table.base.rigid else _elastic(table.base, library)
+        return Layered(layers, base, table.name or "")
     return Rigid() if table.rigid else _elastic(table, library)
 
 
@@ -310,10 +310,6 @@ def _grading(table: GradedTable) -> Grading:
     if table.exponent is not None:
         return PowerGrading(table.exponent)
     return LinearGrading() if table.kind == "linear" else ExponentialGrading()
-
-
-def _base(table: BaseTable, library: Path | None) -> Base:
-    return RigidBase() if table.rigid else _elastic(table, library)
 
 
 def _elastic(table: MaterialTable, library: Path | None) -> Elastic:

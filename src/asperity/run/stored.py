@@ -52,7 +52,7 @@ def save_outcome(
     OutputError
         If the file does not end in .nc, exists and ``overwrite`` is false, or cannot be written.
     InputError
-        If the problem holds a type that files do not know.
+        If the problem holds a type that files cannot hold.
     """
     write_tree(outcome_tree(outcome, document=document, title=title), path, overwrite=overwrite)
 

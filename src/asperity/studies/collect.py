@@ -16,7 +16,7 @@ from ..contact.result import Certificate
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
-from .axes import Axis, Coordinate
+from .axes import Coordinate
 from .campaign import CampaignState
 from .evaluate import CHECKS
 from .plan import Plan, measures
@@ -172,7 +172,8 @@ def state(plan: Plan, path: Path) -> CampaignState:
 def _coordinates(plan: Plan) -> dict[str, Any]:
     made: dict[str, Any] = {}
     for item in plan.axes:
-        made[item.name] = (item.name, _column([point.coordinate for point in item.points]), _axis_labels(item))
+        labels = {"units": item.unit, "long_name": item.path or item.name}
+        made[item.name] = (item.name, _column([point.coordinate for point in item.points]), labels)
         for name, unit in item.columns.items():
             column = _column([point.columns[name] for point in item.points])
             made[name] = (item.name, column, {"units": unit} if unit else {})
@@ -182,10 +183,6 @@ def _coordinates(plan: Plan) -> dict[str, Any]:
 def _column(values: list[Any]) -> Any:
     numbers = all(isinstance(value, float) for value in values)
     return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
-
-
-def _axis_labels(item: Axis) -> dict[str, str]:
-    return {"units": item.unit, "long_name": item.path or item.name}
 
 
 def _labels(name: str) -> dict[str, str]:
