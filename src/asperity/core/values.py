@@ -190,7 +190,7 @@ class Number(Values):
             and (number < self.below or number == math.inf)
         ):
             fix = self.fix
-            if self.percent and 1.0 < number <= 100.0:
+            if self.percent and 1.0 < number <= 100.0 and "%" not in shown:
                 fix = f"Write {number:g}%."
             raise InputError(f"{what} must be {self.rule}, but is {shown}.{f' {fix}' if fix else ''}")
         if self.quantity == "length" and number and math.isfinite(number) and not LEAST < abs(number) <= LARGEST:
