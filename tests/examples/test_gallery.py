@@ -169,6 +169,14 @@ def test_menisci_and_humidity():
         assert balanced(result)
 
 
+def test_fretting_loop():
+    """Masing's rule, exact for equal bodies at constant load; heat between the cube and the first power of the amplitude."""
+    left = run("intermediate/plot_6_fretting_loop")
+    assert left.masing < 1e-3
+    assert 0.2 < left.slipping < 0.9
+    assert 3.1 > left.exponents[0] > left.exponents[1] > 1.0
+
+
 def test_wet_and_sliding():
     """Friction resists load and menisci: μ_s = μ (1 + F/W); both fall towards the dry values as the load grows."""
     left = run("intermediate/plot_5_wet_and_sliding")

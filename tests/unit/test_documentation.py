@@ -244,6 +244,33 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     assert asp.liquid("our lubricant", library=tmp_path / "own.toml").viscosity == 0.08
 
 
+def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
+    """On a small smooth scan: Python and the second command give the same heat; the steps of the document are solved."""
+    monkeypatch.chdir(tmp_path)
+    waves = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.2e-6
+    )
+    scan = asp.generate.gaussian(asp.Grid((24, 24), (40e-9, 40e-9)), waves, seed=5)
+    asp.save_surface(scan, "scan.nc")
+    page, names = ROOT / "docs/how-to/stick-slip.md", {"scan": scan}
+    (code,) = blocks(page, "python")
+    exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["found"].dissipated > 0.0
+    capsys.readouterr()
+    for line in commands(page):
+        result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
+        assert result.exit_code == 0, result.output
+    saved = asp.open_tree("fretting/result.nc")["stick_slip"]
+    heat = names["loop_of"](names["history"].steps).cycle_energies[0]
+    assert float(saved["cycle_dissipation"]) == pytest.approx(heat, rel=1e-3)
+    (steps,) = blocks(page, "toml")
+    head = 'version = 2\nbody = "DLC"\nsurface = { kind = "file", path = "scan.nc" }\ncontrol = { mean_pressure = "50 MPa" }\n'
+    outcome = asp.run(tomllib.loads(head + steps))
+    assert len(outcome.path.steps) == 4
+    assert outcome.values["force_x"] == pytest.approx(0.1e-6, rel=1e-4)
+    assert outcome.values["mean_pressure"] == pytest.approx(40e6)
+
+
 def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch):
     """Every row of the table in the guide, as option and as key."""
     monkeypatch.chdir(tmp_path)
