@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -130,4 +131,4 @@ def _cycles(shift: RealArray) -> tuple[tuple[int, int], ...]:
     signs = np.sign(moves[moving])
     turns = [int(moving[k]) + 1 for k in np.flatnonzero(np.diff(signs))]
     turns.append(int(moving[-1]) + 1)
-    return tuple(zip(turns[:-2], turns[2:], strict=True))
+    return tuple(itertools.pairwise(turns[::2]))
