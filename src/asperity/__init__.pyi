@@ -6,11 +6,11 @@ from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
 from .contact.couplings.stick_slip import StickSlip
-from .contact.history import EnergyBalance, History, HistoryResult, Step, ramps, shear_cycles
+from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
 from .contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
-from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Unloaded
+from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Step, Unloaded
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve

@@ -14,52 +14,13 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
-from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
+from .problem import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
 from .result import ContactResult
 from .state import InterfaceState
-from .tangential import Shift, Tangential, TangentialForce
+from .tangential import Shift, TangentialForce
 
 Ramped: TypeAlias = type[MeanPressure] | type[Force] | type[Approach] | type[MeanGap]
 """Kind of control that is changed step by step."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """One step of a history.
-
-    Parameters
-    ----------
-    normal
-        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
-    tangential
-        ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem. None leaves what the step before
-        prescribed, at first no shift; in a history without any, all points slide where the problem has ``Coulomb`` friction.
-
-    Raises
-    ------
-    InputError
-        If one of them is something else.
-    """
-
-    normal: Control
-    tangential: Tangential | None = None
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.normal, Control):
-            raise InputError(
-                f"normal control of a step must be a MeanPressure, Force, Approach, MeanGap or Unloaded, but is {self.normal!r}. "
-                "Write for example MeanPressure(50e3)."
-            )
-        if not isinstance(self.tangential, Tangential | None):
-            raise InputError(
-                f"tangential control of a step must be a Shift, a TangentialForce or None, but is {self.tangential!r}. "
-                "Write for example Shift(5e-9)."
-            )
-
-
-def as_step(step: Step | Control) -> Step:
-    """``step``, or that of a control along the normal alone."""
-    return step if isinstance(step, Step) else Step(step)
 
 
 @dataclass(frozen=True, init=False)

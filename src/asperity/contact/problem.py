@@ -21,6 +21,7 @@ from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
 from .laws import Coulomb, FrictionLaw, HardWall, InterfaceLaw
+from .tangential import Tangential
 from .wetting import LiquidFilm
 
 
@@ -92,6 +93,45 @@ def mean_pressure(control: MeanPressure | Force, grid: Grid) -> float:
 
 Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded
 """A prescribed quantity."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a history.
+
+    Parameters
+    ----------
+    normal
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
+    tangential
+        ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem. None leaves what the step before
+        prescribed, at first no shift; in a history without any, all points slide where the problem has ``Coulomb`` friction.
+
+    Raises
+    ------
+    InputError
+        If one of them is something else.
+    """
+
+    normal: Control
+    tangential: Tangential | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.normal, Control):
+            raise InputError(
+                f"normal control of a step must be a MeanPressure, Force, Approach, MeanGap or Unloaded, but is {self.normal!r}. "
+                "Write for example MeanPressure(50e3)."
+            )
+        if not isinstance(self.tangential, Tangential | None):
+            raise InputError(
+                f"tangential control of a step must be a Shift, a TangentialForce or None, but is {self.tangential!r}. "
+                "Write for example Shift(5e-9)."
+            )
+
+
+def as_step(step: Step | Control) -> Step:
+    """``step``, or that of a control along the normal alone."""
+    return step if isinstance(step, Step) else Step(step)
 
 
 @dataclass(frozen=True)

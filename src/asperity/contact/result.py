@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,7 +12,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.engine import Engine, Totals
 from ..core.errors import InputError
-from ..core.late import LateNumber, Later, Stored
+from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.status import Status, peak_memory
 from ..surfaces.pair import composite
@@ -158,6 +158,31 @@ WET_SCALARS = (
     Quantity("feedback", "1", "share of the meniscus force that the menisci themselves cause"),
 )
 """Every scalar of the menisci, in the order of tables."""
+
+
+@dataclass(frozen=True)
+class Later:
+    """Number that takes long: ``compute`` makes it, from the object whose field it is."""
+
+    compute: Callable[[Any], float]
+
+
+class LateNumber:
+    """Field of a dataclass that takes a number or a ``Later``, which is computed when the field is first read."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, owner: Any, kind: type | None = None) -> float:
+        if owner is None:
+            raise AttributeError(self._name)  # so that the field has no default
+        values = vars(owner)
+        if isinstance(values[self._name], Later):
+            values[self._name] = values[self._name].compute(owner)
+        return float(values[self._name])
+
+    def __set__(self, owner: Any, value: float | Later) -> None:
+        vars(owner)[self._name] = value
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -24,10 +24,10 @@ from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
 from .couplings.stick_slip import StickSlipCoupling
-from .history import History, HistoryResult, Step
+from .history import History, HistoryResult
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import Approach, ContactProblem, Control, MeanGap, Unloaded, mean_pressure
+from .problem import Approach, ContactProblem, Control, MeanGap, Step, Unloaded, as_step, mean_pressure
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
@@ -119,7 +119,7 @@ def solve(
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     state = options.pop("state", None)
     keep = options.pop("keep", None) or Keep()
-    step = control if isinstance(control, Step) else Step(control)
+    step = as_step(control)
     result = Prepared(problem, keep=keep, sticks=sticks(problem, [step], state), **options).step(step, state)
     if on_failure == "raise" and not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
@@ -48,31 +47,6 @@ def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
     """Public names of a package by module, from the lines ``from .module import names`` of its ``stub``."""
     lines = re.findall(r"^from \.(\S*) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
     return {module: tuple(re.findall(r"\w+", several or one)) for module, several, one in lines}
-
-
-@dataclass(frozen=True)
-class Later:
-    """Number that takes long: ``compute`` makes it, from the object whose field it is."""
-
-    compute: Callable[[Any], float]
-
-
-class LateNumber:
-    """Field of a dataclass that takes a number or a ``Later``, which is computed when the field is first read."""
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
-
-    def __get__(self, owner: Any, kind: type | None = None) -> float:
-        if owner is None:
-            raise AttributeError(self._name)  # so that the field has no default
-        values = vars(owner)
-        if isinstance(values[self._name], Later):
-            values[self._name] = values[self._name].compute(owner)
-        return float(values[self._name])
-
-    def __set__(self, owner: Any, value: float | Later) -> None:
-        vars(owner)[self._name] = value
 
 
 class Shown:

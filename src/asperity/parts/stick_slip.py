@@ -23,8 +23,8 @@ from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.fretting import Loop
-    from ..contact.history import EnergyBalance, HistoryResult, Step
-    from ..contact.problem import ContactProblem, Control
+    from ..contact.history import EnergyBalance, HistoryResult
+    from ..contact.problem import ContactProblem, Control, Step
     from ..contact.result import ContactResult
     from ..contact.tangential import Tangential
     from ..plots.picture import Figure
@@ -245,7 +245,7 @@ class StickSlip(Part):
 
     def course(self, ask: Sheared, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The load with no shift, then the steps along the surface."""
-        from ..contact.history import Step, as_step
+        from ..contact.problem import Step, as_step
         from ..contact.tangential import Shift, TangentialForce
 
         settings, last = ask.settings, as_step(controls[-1]).normal

@@ -12,9 +12,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
-from ..contact.history import Ramped, Step, as_step, ramps
+from ..contact.history import Ramped, ramps
 from ..contact.laws import Hardness, HardWall, InterfaceLaw, LayeredHardness
-from ..contact.problem import Approach, ContactProblem, Control, Flat, Force, MeanGap, MeanPressure
+from ..contact.problem import Approach, ContactProblem, Control, Flat, Force, MeanGap, MeanPressure, Step, as_step
 from ..contact.solve import default_solver, sticks
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.protocol import Solver

@@ -137,7 +137,7 @@ class StickSlip:
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of law and method."""
-        return ("Alart1991", "Kalker1990", "Panagiotopoulos1975")
+        return ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
 
 
 @dataclass(frozen=True, eq=False)
