@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -129,6 +129,7 @@ class PartialSlip:
     normal: NormalContact
     friction: float
     ratio: float = 1.0
+    citation_keys: ClassVar[tuple[str, ...]] = ("Ciavarella1998", "Jager1998", "Popov2015")
 
     def __post_init__(self) -> None:
         """InputError unless coefficient and ratio are positive."""
