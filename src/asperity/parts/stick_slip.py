@@ -269,6 +269,12 @@ class StickSlip(Part):
         values = {**shear_numbers(solved.result), "cycle_dissipation": last}
         return Found(values, None, _findings(solved), found.citation_keys)
 
+    def citations(self, ask: Sheared, problem: ContactProblem) -> tuple[str, ...]:
+        """Papers of law and method."""
+        from ..contact.couplings.stick_slip import StickSlip as Outcome
+
+        return Outcome.citation_keys
+
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of stick and slip, of the heat, section, and the loop of a history."""
         from ..plots.picture import drawn

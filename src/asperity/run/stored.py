@@ -120,6 +120,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     course = None if steps is None or "control" not in steps else path_from(steps, contact)
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
+        asks |= {} if contact.stick_slip is None else {"stick_slip": True}
         outcome = analysed(contact, asks, course)
         if contact.menisci is None:
             return outcome

@@ -12,6 +12,7 @@ from contact_cases import rough
 import asperity as asp
 from asperity.contact.fretting import NUMBERS
 from asperity.io.shear_files import SHEAR_FIELDS, VECTORS
+from asperity.run.stored import load_outcome
 
 COATED = asp.Layered([asp.Layer(asp.Elastic(2.0, 0.3), 2.0)], asp.Elastic(0.5, 0.2))
 PRESSED = asp.MeanPressure(0.01)
@@ -24,6 +25,7 @@ STEPS = (
 LAWS = {
     "coulomb": asp.Coulomb(0.3, limit=0.1),
     "map": asp.Coulomb(np.linspace(0.1, 0.5, 256).reshape(16, 16)),
+    "full stick": asp.FullStick(),
     "tresca": asp.TrescaFriction(np.full((16, 16), 0.02)),
 }
 
@@ -74,6 +76,9 @@ def test_a_history_and_the_same_bits_after_a_break(tmp_path: Path) -> None:
     loaded = asp.load(tmp_path / "whole.nc")
     for found, result in zip(loaded.steps, whole.steps, strict=True):
         same(found, result)
+    outcome = load_outcome(tmp_path / "whole.nc")
+    assert outcome.values["total_dissipated"] == whole.last.stick_slip.total_dissipated
+    assert "stick_slip" in {part.name for part, _ in outcome.sections}
     column = asp.open_tree(tmp_path / "whole.nc")["path/stick_slip_traction_x"]
     assert column.dims == ("step", "x", "y")
     assert column.attrs["units"] == "Pa"

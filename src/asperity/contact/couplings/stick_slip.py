@@ -108,6 +108,8 @@ class StickSlip:
     iterations: int
     fft_pairs: float
     status: Status
+    citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
+    """Papers of law and method."""
 
     @property
     def traction_magnitude(self) -> RealArray:
@@ -133,11 +135,6 @@ class StickSlip:
             "force": np.array(force),
             "dissipated": np.asarray(self.total_dissipated),
         }
-
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Papers of law and method."""
-        return ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
 
 
 @dataclass(frozen=True, eq=False)
