@@ -230,7 +230,7 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
             else f"coupled with friction {had[0]:g} along {math.degrees(had[1]):g} deg"
         )
         raise InputError(
-            f"--coupled needs the pressure under the friction asked for, but that of the result was solved {holds}. "
+            f"--coupled must have the pressure under the friction asked for, but that of the result was solved {holds}. "
             "Solve again: asperity contact --from problem.toml --coupled with that friction.",
             subject="--coupled",
         )
