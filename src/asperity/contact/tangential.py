@@ -76,14 +76,17 @@ Tangential: TypeAlias = Shift | TangentialForce
 
 
 def shift_field(grid: Grid, shift: RealArray) -> RealArray:
-    """Displacement (2, nx, ny) in m of the points of a rigid body that has moved by ``shift``: x, y (m) and twist (rad)."""
-    field = np.empty((2, *grid.shape))
-    field[0], field[1] = shift[0], shift[1]
-    if shift[2]:
-        x, y = about_centre(grid)
-        field[0] -= shift[2] * y
-        field[1] += shift[2] * x
-    return field
+    """Displacement in m of the points of a rigid body that has moved by ``shift``: x, y (m) and twist (rad).
+
+    Of the shape (2, nx, ny), or (2, 1, 1) without a twist.
+    """
+    field = np.asarray(shift[:2], dtype=float)[:, None, None]
+    if not shift[2]:
+        return field
+    x, y = about_centre(grid)
+    turned = np.empty((2, *grid.shape))
+    turned[0], turned[1] = -shift[2] * y, shift[2] * x
+    return turned + field
 
 
 def about_centre(grid: Grid) -> tuple[RealArray, RealArray]:

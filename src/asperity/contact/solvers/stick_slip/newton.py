@@ -23,6 +23,9 @@ from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, 
 _SETTLED = 0.003
 """Share of points that change between stick and slip below which the sets count as nearly settled."""
 
+_NEAR = 0.03
+"""Error of a start from which on its sets count as settled: that of an earlier round of the same step."""
+
 _REDUCTION = 0.3
 """Reduction of the residual while sets change: conjugate gradients gain a factor of 3 to 4 a step."""
 
@@ -33,7 +36,7 @@ a half, as with slip in all directions at once, which the preconditioner is not 
 
 _MOST_DOUBLINGS = 5
 
-_MARGIN = 0.1
+_MARGIN = 0.3
 """Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first powers of the residual, which is
 large where bounds are."""
 
@@ -177,8 +180,10 @@ class _Iteration:
                 break
             sets = Sets.of(self.points, self.q, s)
             changed = len(sets.slip) if before is None else np.count_nonzero(sets.slip != before.slip)
+            near = before is None and error < _NEAR
             before = sets
-            self._step(sets, s, settled=bool(changed <= _SETTLED * len(sets.slip)), error=error)
+            settled = near or bool(changed <= _SETTLED * len(sets.slip))
+            self._step(sets, s, settled=settled, error=error)
         return ended(
             self.qp,
             self.points,

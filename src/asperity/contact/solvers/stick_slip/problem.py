@@ -22,6 +22,12 @@ AT_BOUND = 1.0 - 1e-12
 """Share of the bound from which on a traction counts as at it: a traction put on the circle is there to a few roundings."""
 
 
+def size_of(vectors: RealArray) -> RealArray:
+    """Magnitudes of ``vectors`` (2, ...); a tenth of the time of NumPy's hypot, whose range is not needed."""
+    x, y = vectors
+    return np.asarray(np.sqrt(x * x + y * y))
+
+
 @dataclass(frozen=True, eq=False)
 class TangentialQP:
     """One step with given bounds.
@@ -64,10 +70,10 @@ class Deviation:
 
         Bounds count up to ten times the largest traction, beyond which none is active, and what the mean residual would still take.
         """
-        size = np.hypot(*s)
-        limit = np.minimum(points.bound, _INACTIVE * np.hypot(*traction).max() + size.mean() / points.largest)
+        size = size_of(s)
+        limit = np.minimum(points.bound, _INACTIVE * size_of(traction).max() + size.mean() / points.largest)
         gap = float(np.sum(limit * size - np.einsum("ij,ij->j", traction, s)))
-        error = float(np.sum(np.hypot(*(limit * s - size * traction))))
+        error = float(np.sum(size_of(limit * s - size * traction)))
         scale = 0.5 * abs(float(np.einsum("ij,ij->", traction, displacement))) + float((limit * size).sum())
         return cls(*(value / scale if scale > 0.0 else 0.0 if value == 0.0 else np.inf for value in (gap, error)))
 
@@ -107,10 +113,10 @@ class TangentialSolution:
 
     def at_bound(self, bound: RealArray) -> RealArray:
         """The traction (2, nx, ny) with that of slipping points at another ``bound`` (nx, ny)."""
-        size = np.hypot(*self.traction)
-        slips = self.slipping
-        factor = np.where(slips, bound, 1.0) / np.where(slips, size, 1.0)
-        return self.traction * factor
+        found, slips = self.traction.copy(), self.slipping
+        turned = found[:, slips]
+        found[:, slips] = turned * (bound[slips] / size_of(turned))
+        return found
 
 
 class TangentialSolver(Protocol):
@@ -155,7 +161,7 @@ class Points:
 
     def projected(self, traction: RealArray) -> RealArray:
         """Nearest tractions (2, n) within their bounds."""
-        size = np.hypot(*traction)
+        size = size_of(traction)
         over = size > self.bound
         factor = np.where(over, self.bound / np.where(over, size, 1.0), 1.0)
         return traction * factor
@@ -165,11 +171,11 @@ class Points:
         found = traction
         for _ in range(_SWEEPS):
             missing = total - found.sum(axis=1)
-            size = float(np.hypot(*missing))
-            if size <= _ROUNDING * float(np.hypot(*total) + np.abs(found).sum()):
+            size = float(size_of(missing))
+            if size <= _ROUNDING * float(size_of(total) + np.abs(found).sum()):
                 break
             room = self._room(found, missing / size)
-            inside = np.where(np.hypot(*found) < self.bound * AT_BOUND, room, 0.0)
+            inside = np.where(size_of(found) < self.bound * AT_BOUND, room, 0.0)
             room = inside if float(inside.sum()) >= size else room  # slipping points stay at their bound where they can
             whole = float(room.sum())
             if whole <= 0.0:
@@ -183,7 +189,7 @@ class Points:
         if unbounded.any():
             return np.where(unbounded, 1e200, 0.0)
         along = direction @ traction
-        return np.asarray(np.sqrt(np.maximum(self.bound**2 - np.hypot(*traction) ** 2 + along**2, 0.0)) - along)
+        return np.asarray(np.sqrt(np.maximum(self.bound**2 - size_of(traction) ** 2 + along**2, 0.0)) - along)
 
 
 _SWEEPS = 5
@@ -201,7 +207,7 @@ class Sets:
     @classmethod
     def of(cls, points: Points, traction: RealArray, s: RealArray) -> Sets:
         """Sets of a ``traction`` (2, n) with the slip ``s`` (2, n): slipping is what is at its bound and pushed outwards."""
-        size = np.hypot(*traction)
+        size = size_of(traction)
         at = (size >= points.bound * AT_BOUND) & (size > 0.0)
         normal = np.where(at, traction / np.where(at, size, 1.0), 0.0)
         outward = np.einsum("ij,ij->j", s, normal)
@@ -221,8 +227,8 @@ class Sets:
 
 def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
     """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound."""
-    room = np.where(np.isfinite(points.bound), points.bound - np.hypot(*traction), 1.0)
-    weight = np.where(np.hypot(*traction) < points.bound * AT_BOUND, room, 0.0)
+    room = np.where(np.isfinite(points.bound), points.bound - size_of(traction), 1.0)
+    weight = np.where(size_of(traction) < points.bound * AT_BOUND, room, 0.0)
     if weight.sum() <= 0.0:
         weight = np.ones(len(points.bound))
     return np.asarray(-(residual * weight).sum(axis=1) / weight.sum())
