@@ -86,7 +86,7 @@ def shift_field(grid: Grid, shift: RealArray) -> RealArray:
     x, y = about_centre(grid)
     turned = np.empty((2, *grid.shape))
     turned[0], turned[1] = -shift[2] * y, shift[2] * x
-    return turned + field
+    return np.asarray(turned + field)
 
 
 def about_centre(grid: Grid) -> tuple[RealArray, RealArray]:
