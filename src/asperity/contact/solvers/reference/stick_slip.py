@@ -35,25 +35,7 @@ class _Iterate:
         """Nearest feasible traction; at a prescribed mean one that has it."""
         if self.total is None:
             return self.points.projected(traction)
-        return self._with_multiplier(traction)
-
-    def _with_multiplier(self, traction: RealArray) -> RealArray:
-        """Projection on discs and prescribed sum: Newton's method for the constant that is added before the discs."""
-        assert self.total is not None
-        total, points, shift = self.total, self.points, np.zeros(2)
-        for _ in range(100):
-            moved = traction + shift[:, None]
-            found = points.projected(moved)
-            missing = total - found.sum(axis=1)
-            if np.hypot(*missing) <= 1e-13 * (np.hypot(*total) + np.abs(found).sum()):
-                break
-            size = np.hypot(*moved)
-            over = size > points.bound
-            normal = np.where(over, moved / np.where(over, size, 1.0), 0.0)
-            share = np.where(over, points.bound / np.where(over, size, 1.0), 1.0)
-            slope = share.sum() * np.eye(2) - (share * normal) @ normal.T
-            shift = shift + np.linalg.lstsq(slope, missing, rcond=1e-12)[0]
-        return found
+        return self.points.nearest(traction, self.total)
 
     def product(self, values: RealArray) -> RealArray:
         """C times ``values`` (2, n)."""

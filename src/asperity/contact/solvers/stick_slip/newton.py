@@ -141,19 +141,16 @@ class _Iteration:
             self.q = self._first()
         else:
             q = points.projected(points.gathered(start))
-            self.q = q if self.total is None else points.with_mean(q, self.total)
+            self.q = q if self.total is None else points.with_sum(q, self.total)
         self._compute()
         self.exact = True
         self.doublings, self.settled_error = 0, np.inf
 
     def _first(self) -> RealArray:
         """No traction, or the prescribed one in proportion to the bound."""
-        n = len(self.points.bound)
         if self.total is None:
-            return np.zeros((2, n))
-        bound = self.points.bound
-        weight = np.where(np.isfinite(bound), bound, 1.0) if np.isfinite(bound).all() else ~np.isfinite(bound)
-        return np.asarray(self.total[:, None] * (weight / weight.sum()))
+            return np.zeros((2, len(self.points.bound)))
+        return self.points.in_proportion(self.total)
 
     def _compute(self) -> None:
         """Displacement of the traction from scratch, in double precision."""
@@ -233,7 +230,7 @@ class _Iteration:
         return self._restored(np.where(sets.slip, turned, self.points.projected(self.q + d)))
 
     def _restored(self, traction: RealArray) -> RealArray:
-        return traction if self.total is None else self.points.with_mean(traction, self.total)
+        return traction if self.total is None else self.points.with_sum(traction, self.total)
 
     def _taken(self, traction: RealArray, s: RealArray, *, force: bool = False) -> bool:
         """Go to ``traction`` if the energy does not rise by that, or in any case if ``force``."""

@@ -166,22 +166,55 @@ class Points:
         factor = np.where(over, self.bound / np.where(over, size, 1.0), 1.0)
         return traction * factor
 
-    def with_mean(self, traction: RealArray, total: RealArray) -> RealArray:
-        """Feasible ``traction`` (2, n) with the sum ``total`` (2,): what is missing goes where the bound leaves room in its direction."""
-        found = traction
+    def with_sum(self, traction: RealArray, total: RealArray) -> RealArray:
+        """Feasible ``traction`` (2, n) with the sum ``total`` (2,).
+
+        What is missing goes where the bound leaves room, so that slipping points stay at their bound; where there is not enough, the
+        nearest tractions with that sum are taken.
+        """
+        missing = total - traction.sum(axis=1)
+        size = float(np.hypot(*missing))
+        if size <= _ROUNDING * float(np.hypot(*total) + np.abs(traction).sum()):
+            return traction
+        inside = size_of(traction) < self.bound * AT_BOUND
+        room = np.where(inside, self._room(traction, missing / size), 0.0)
+        if float(room.sum()) < size:
+            return self.nearest(traction, total)
+        return self.projected(traction + (missing / float(room.sum()))[:, None] * room)
+
+    def nearest(self, traction: RealArray, total: RealArray) -> RealArray:
+        """Nearest feasible tractions (2, n) with the sum ``total`` (2,).
+
+        They are those after the same vector has been added to all and each put within its bound. That vector is the minimum of the
+        convex sum of |x|²/2, beyond the bound B|x| - B²/2, less its product with ``total``: Newton's method with halved steps.
+        """
+        limit = np.where(np.isfinite(self.bound), self.bound, 0.0)
+        added, step, value = np.zeros(2), np.zeros(2), np.inf
         for _ in range(_SWEEPS):
+            moved = traction + (added + step)[:, None]
+            size = size_of(moved)
+            over = size > self.bound
+            each = np.where(over, limit * (size - 0.5 * limit), 0.5 * size**2)
+            reached = float(each.sum()) - float(total @ (added + step))
+            if reached > value + 1e-14 * abs(value):
+                step = 0.5 * step
+                continue
+            added, value = added + step, reached
+            found = self.projected(moved)
             missing = total - found.sum(axis=1)
-            size = float(size_of(missing))
-            if size <= _ROUNDING * float(size_of(total) + np.abs(found).sum()):
-                break
-            room = self._room(found, missing / size)
-            inside = np.where(size_of(found) < self.bound * AT_BOUND, room, 0.0)
-            room = inside if float(inside.sum()) >= size else room  # slipping points stay at their bound where they can
-            whole = float(room.sum())
-            if whole <= 0.0:
-                break
-            found = self.projected(found + (missing / max(whole, size))[:, None] * room)
-        return found
+            if np.hypot(*missing) <= _ROUNDING * float(np.hypot(*total) + np.abs(found).sum()):
+                return found
+            normal = np.where(over, moved / np.where(over, size, 1.0), 0.0)
+            share = np.where(over, self.bound / np.where(over, size, 1.0), 1.0)
+            slope = share.sum() * np.eye(2) - (share * normal) @ normal.T
+            step = np.linalg.lstsq(slope, missing, rcond=1e-14)[0]
+        return self.in_proportion(total)  # so near the limit of friction that the vector grows without end
+
+    def in_proportion(self, total: RealArray) -> RealArray:
+        """Tractions (2, n) of the sum ``total`` (2,), each in proportion to its bound; where any is unbounded those alone, all the same."""
+        unbounded = np.isinf(self.bound)
+        weight = unbounded.astype(float) if unbounded.any() else self.bound
+        return np.asarray(total[:, None] * (weight / weight.sum()))
 
     def _room(self, traction: RealArray, direction: RealArray) -> RealArray:
         """By how much each of ``traction`` (2, n) may grow along the unit vector ``direction``; what is unbounded takes all there is."""
@@ -192,7 +225,7 @@ class Points:
         return np.asarray(np.sqrt(np.maximum(self.bound**2 - size_of(traction) ** 2 + along**2, 0.0)) - along)
 
 
-_SWEEPS = 5
+_SWEEPS = 100
 _ROUNDING = 1e-13
 
 
