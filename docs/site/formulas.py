@@ -17,7 +17,7 @@ SIGNS = {
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ½", [*"0123456789-n", "1/2"], strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 FUNCTIONS = ("exp", "log", "ln", "sin", "cos", "tan", "sinh", "cosh", "min", "max", "arccos", "arcsin", "arctan")
-NAMED = ("erfc", "erf", "artanh", "sgn", "Re", "Im", "Var")
+NAMED = ("erfc", "erf", "artanh", "arcosh", "sgn", "Re", "Im", "Var")
 TEXT = ("if", "or", "of", "in", "at", "on", "is", "to")
 
 
