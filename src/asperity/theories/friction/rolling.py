@@ -222,9 +222,9 @@ class KalkerLinear(Theory):
 class ShenHedrickElkins(Theory):
     """Kalker's linear forces F, saturated at the limit of friction as by Vermeulen and Johnson.
 
-        F' = μ P (ρ - ρ²/3 + ρ³/27),  ρ = F/(μ P) ≤ 3;  F' = μ P beyond.
+        F' = μ P (ρ - ρ²/3 + ρ³/27),  ρ = F/(μ P) ≤ 3.
 
-    The direction is that of the linear force; the moment is left out. For small spin.
+    For larger ρ F' is μ P. The direction is that of the linear force; the moment is left out. For small spin.
     """
 
     semi_x: SemiX
