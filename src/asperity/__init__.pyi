@@ -12,6 +12,7 @@ from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Step, Unloaded
 from .contact.result import ContactResult
+from .contact.rolling import Creepage, RollingContact, roll
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
@@ -95,6 +96,7 @@ __all__ = [
     "Coulomb",
     "CouplingCheck",
     "CpuEngine",
+    "Creepage",
     "DepthProfile",
     "Elastic",
     "EnergyBalance",
@@ -139,6 +141,7 @@ __all__ = [
     "PowerGrading",
     "Rigid",
     "RigidBase",
+    "RollingContact",
     "Roughness",
     "Rounds",
     "Section",
@@ -204,6 +207,7 @@ __all__ = [
     "review",
     "rms_height",
     "rms_slope",
+    "roll",
     "roughness",
     "roughness_of",
     "run",

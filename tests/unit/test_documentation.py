@@ -253,9 +253,12 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     scan = asp.generate.gaussian(asp.Grid((24, 24), (40e-9, 40e-9)), waves, seed=5)
     asp.save_surface(scan, "scan.nc")
     page, names = ROOT / "docs/how-to/stick-slip.md", {"scan": scan}
-    (code,) = blocks(page, "python")
+    code, rolling = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     assert names["found"].dissipated > 0.0
+    rolled = {}
+    exec(compile(rolling.replace("64)", "24)"), page.name, "exec"), rolled)  # noqa: S102 - the same on a coarser grid
+    assert 0.3 < rolled["found"].force_x / rolled["found"].friction_limit < 0.5
     capsys.readouterr()
     for line in commands(page):
         result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
