@@ -89,6 +89,11 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
             partial.mkdir() if folder else partial.touch()
             held = _lock(partial)
         yield partial
+    except OutputError as error:  # of a file inside the folder: it will be where the folder is to be
+        hidden, shown = str(partial), str(target)
+        if hidden not in str(error):
+            raise
+        raise OutputError(str(error).replace(hidden, shown), subject=error.subject.replace(hidden, shown)) from error
     except AsperityError:
         raise
     except OSError as error:

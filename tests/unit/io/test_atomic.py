@@ -80,6 +80,13 @@ def test_full_disk_is_one_sentence_and_other_errors_pass(tmp_path: Path) -> None
     assert names(tmp_path) == set()
 
 
+def test_a_failure_inside_a_new_folder_names_the_folder_that_was_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(OutputError) as raised, atomic_folder(tmp_path / "run") as folder, atomic_file(folder / "a.nc"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    assert raised.value.subject == str(tmp_path / "run" / "a.nc")
+    assert ".partial" not in str(raised.value)
+
+
 def test_folder_appears_only_at_the_end_with_its_parents(tmp_path: Path) -> None:
     target = tmp_path / "deep" / "run"
     with atomic_folder(target) as partial:
