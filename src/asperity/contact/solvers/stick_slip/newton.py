@@ -18,7 +18,7 @@ from ....core import require
 from ....core.arrays import RealArray
 from ...operators.convolution import restricted
 from .linear_system import NewtonSystem, Workspace
-from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended
+from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended, size_of
 
 _SETTLED = 0.003
 """Share of points that change between stick and slip below which the sets count as nearly settled."""
@@ -216,18 +216,30 @@ class _Iteration:
         d = d.astype(float) * (unit / work.pixel)
         part = 1.0
         for _ in range(_HALVINGS):
-            if self._taken(self._moved(sets, part * d), s):
+            if self._taken(self._moved(system, sets, part * d), s):
                 return
             part *= 0.5
         downhill = self.q + s / self.qp.operator.largest
         self._taken(self._restored(self.points.projected(downhill)), s, force=True)
 
-    def _moved(self, sets: Sets, d: RealArray) -> RealArray:
-        """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds."""
+    def _moved(self, system: NewtonSystem, sets: Sets, d: RealArray) -> RealArray:
+        """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds.
+
+        What that takes from a prescribed sum is given back first as a uniform shift would do it, which costs the least energy.
+        """
+        found = self._turned(sets, self.q, d)
+        if self.total is None or system.uniform is None:
+            return found
+        solved, inverse = system.uniform
+        weights = inverse @ (self.total - found.sum(axis=1))
+        return self.points.with_sum(self._turned(sets, found, np.tensordot(weights, solved, axes=1)), self.total)
+
+    def _turned(self, sets: Sets, traction: RealArray, d: RealArray) -> RealArray:
         bound = np.where(sets.slip, self.points.bound, 1.0)
-        angle = np.einsum("ij,ij->j", d, sets.tangent) / bound
-        turned = bound * (sets.normal * np.cos(angle) + sets.tangent * np.sin(angle))
-        return self._restored(np.where(sets.slip, turned, self.points.projected(self.q + d)))
+        # where the curvature of the circle decides, the step is the tangent of the angle between traction and slip
+        towards = traction / bound + sets.tangent * (np.einsum("ij,ij->j", d, sets.tangent) / bound)
+        turned = towards * (bound / np.where(sets.slip, size_of(towards), 1.0))
+        return np.where(sets.slip, turned, self.points.projected(traction + d))
 
     def _restored(self, traction: RealArray) -> RealArray:
         return traction if self.total is None else self.points.with_sum(traction, self.total)
