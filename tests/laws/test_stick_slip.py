@@ -164,6 +164,10 @@ def test_a_step_without_tangential_control_keeps_what_was_prescribed():
 def test_prescribed_forces_up_to_the_limit():
     problem = posed(counter_body=SOFT)
     limit = 0.1 * MU * problem.grid.area
+    for share in (0.99, 0.9999, 0.999999):  # few points stick, and they alone say how far the others have slipped
+        near = solved(problem, asp.Step(LOAD, asp.TangentialForce(0.0, share * limit))).last.stick_slip
+        assert near.force_y == pytest.approx(share * limit, rel=1e-10)
+        assert near.duality_gap <= 1e-9
     at_limit = solved(problem, asp.Step(LOAD, asp.TangentialForce(0.0, limit))).last.stick_slip
     assert at_limit.slipping[at_limit.traction_magnitude > 0.0].mean() > 0.99
     assert at_limit.force_y == pytest.approx(limit, rel=1e-9)

@@ -259,12 +259,57 @@ class Sets:
 
 
 def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
-    """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound."""
+    """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound.
+
+    Where hardly any point has room, the one that makes the duality gap smallest.
+    """
+    inside = size_of(traction) < points.bound * AT_BOUND
+    if np.count_nonzero(inside) <= _FEW * inside.size:
+        return _median_shift(points, traction, residual)
     room = np.where(np.isfinite(points.bound), points.bound - size_of(traction), 1.0)
-    weight = np.where(size_of(traction) < points.bound * AT_BOUND, room, 0.0)
-    if weight.sum() <= 0.0:
-        weight = np.ones(len(points.bound))
+    weight = np.where(inside, room, 0.0)
     return np.asarray(-(residual * weight).sum(axis=1) / weight.sum())
+
+
+_FEW = 0.03
+"""Share of sticking points up to which their mean residual may be far from the shift: they are those that slip last."""
+
+_SMOOTHER = 0.1
+_SMOOTHEST = 1e-12
+
+
+def _median_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
+    """Minimum over the shift d of Σ B |r + d| - d·Σ q, which is the duality gap but for a constant.
+
+    By Newton's method on magnitudes smoothed by less and less of the largest residual: the minimum may lie where one of them vanishes.
+    """
+    total, bound = traction.sum(axis=1), points.bound
+    scale = float(np.abs(residual).max()) or 1.0
+    direction = total / (float(np.hypot(*total)) or 1.0)
+    shift = np.asarray(scale * direction - residual.mean(axis=1))
+
+    def smoothed(at: RealArray, least: float) -> tuple[float, RealArray, RealArray]:
+        x, y = residual + at[:, None]
+        size = np.sqrt(x * x + y * y + least * least)
+        value = float(bound @ size - total @ at)
+        slope = np.array([bound @ (x / size), bound @ (y / size)]) - total
+        over = bound / size
+        xx, yy, xy = over @ (1.0 - (x / size) ** 2), over @ (1.0 - (y / size) ** 2), -(over @ (x * y / size**2))
+        return value, slope, np.array([[xx, xy], [xy, yy]])
+
+    least = scale
+    while least > _SMOOTHEST * scale:
+        for _ in range(_SWEEPS):
+            value, slope, curvature = smoothed(shift, least)
+            step = -np.asarray(np.linalg.lstsq(curvature, slope, rcond=1e-14)[0])
+            part = 1.0
+            while part > 1e-8 and smoothed(shift + part * step, least)[0] > value:
+                part *= 0.5
+            shift = shift + part * step
+            if float(np.hypot(*(part * step))) <= 1e-3 * least or part <= 1e-8:
+                break
+        least *= _SMOOTHER
+    return np.asarray(shift)
 
 
 def ended(
