@@ -18,14 +18,14 @@ from ..core.status import Outcome, Status
 from ..surfaces.surface import Surface
 from .boundary import Periodic
 from .laws import FrictionLaw
-from .operators.tangential import TangentialOperator, slips_inside
+from .operators.tangential import TangentialOperator
 from .problem import ContactProblem, Control, Flat
 from .result import ContactResult
 from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet
 from .solvers.stick_slip.newton import StickSlipNewton
 from .solvers.stick_slip.problem import TangentialQP
-from .tangential import about_centre
+from .tangential import about_centre, resultant
 
 _STRIDES = (8, 4, 2, 1)
 """Pixels by which the material moves in a step, one after the other; the last makes the result. A contact of n pixels comes to rest in
@@ -205,8 +205,6 @@ def _checked(problem: ContactProblem) -> FrictionLaw:
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
     if problem.film is not None:
         raise InputError("film of a rolling contact must be None: menisci of moving surfaces are not steady.")
-    if slips_inside((problem.body, problem.counter_body)):
-        raise InputError("layers of a rolling body must be bonded, but one is Frictionless(). Use Bonded().")
     return problem.friction
 
 
@@ -267,9 +265,7 @@ class _Rolling:
     def result(self, normal: ContactResult, creepage: Creepage, steps: int, status: Status) -> RollingContact:
         """What was found."""
         grid, slip, traction = self.operator.grid, self.slip, self.traction
-        x, y = about_centre(grid)
-        force_x, force_y = (float(component.sum()) * grid.pixel_area for component in traction)
-        torque = float((x * traction[1] - y * traction[0]).sum()) * grid.pixel_area
+        force_x, force_y, torque = resultant(grid, traction)
         return RollingContact(
             normal=normal,
             creepage=creepage,

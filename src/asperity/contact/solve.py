@@ -269,7 +269,7 @@ def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
     """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size.
 
     Where shear changes the pressure the tolerance is 1e-12, so that the error of the normal solve (which goes with its
-    root) does not hide that the displacement by shear has settled to 1e-6.
+    root) does not hide that the displacement by shear has settled to 1e-6. With stick and slip, settled to 1e-5, it is 1e-8.
     """
     friction = problem.friction
     if sticks:

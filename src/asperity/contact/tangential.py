@@ -89,6 +89,16 @@ def shift_field(grid: Grid, shift: RealArray) -> RealArray:
     return np.asarray(turned + field)
 
 
+def resultant(grid: Grid, traction: RealArray) -> tuple[float, float, float]:
+    """Force along x and y (N) and torque about the centre (N·m) of a ``traction`` (2, nx, ny) in Pa on ``grid``."""
+    x, y = about_centre(grid)
+    torque = (x * traction[1] - y * traction[0]).sum()
+    along, across, turning = (
+        float(total) * grid.pixel_area for total in (traction[0].sum(), traction[1].sum(), torque)
+    )
+    return along, across, turning
+
+
 def about_centre(grid: Grid) -> tuple[RealArray, RealArray]:
     """Coordinates (nx, 1) and (1, ny) in m from the centre of ``grid``."""
     x, y = ((np.arange(n) - 0.5 * (n - 1)) * spacing for n, spacing in zip(grid.shape, grid.spacing, strict=True))

@@ -7,8 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ....core import require
 from ....core.arrays import RealArray
+from ..protocol import require_settings
 from ..stick_slip.problem import (
     Deviation,
     Points,
@@ -69,7 +69,7 @@ class AcceleratedGradient:
     Parameters
     ----------
     tolerance
-        Largest ``Deviation.error``.
+        Largest ``Deviation.error``, in (0, 1).
     max_iterations
         Steps at most, one product each.
 
@@ -85,8 +85,7 @@ class AcceleratedGradient:
     citation_keys: ClassVar[tuple[str, ...]] = ("Beck2009", "ODonoghue2015")
 
     def __post_init__(self) -> None:
-        require.positive(self.tolerance, "tolerance of the tangential solver")
-        require.integer(self.max_iterations, 1, "iterations of the tangential solver")
+        require_settings(self)
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
         """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa."""
@@ -117,7 +116,7 @@ class ProjectedGradients:
     Parameters
     ----------
     tolerance
-        Largest ``Deviation.error``.
+        Largest ``Deviation.error``, in (0, 1).
     max_iterations
         Steps at most, two products each.
 
@@ -133,8 +132,7 @@ class ProjectedGradients:
     citation_keys: ClassVar[tuple[str, ...]] = ("Polonsky1999",)
 
     def __post_init__(self) -> None:
-        require.positive(self.tolerance, "tolerance of the tangential solver")
-        require.integer(self.max_iterations, 1, "iterations of the tangential solver")
+        require_settings(self)
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
         """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa."""

@@ -20,7 +20,7 @@ from ....core.engine import FreeSet
 from ....core.engine.cpu import CpuCells
 from ...operators.tangential import TangentialOperator
 from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
-from .problem import Points, Sets
+from .problem import Points, Sets, free_part
 
 _LEAST = 1e-6
 """Least conductance of a point in the model of nested cells: it may be nothing for a component that is not free."""
@@ -135,8 +135,7 @@ class NewtonSystem:
 
     def free_part(self, values: RealArray) -> RealArray:
         """P times ``values`` (2, n)."""
-        along = np.einsum("ij,ij->j", values, self.tangent)
-        return np.where(self.slip, self.tangent * along, values)
+        return free_part(self.slip, self.tangent, values)
 
     def product(self, values: RealArray) -> RealArray:
         """The matrix times ``values`` (2, n), which are P times something."""

@@ -17,6 +17,7 @@ import numpy as np
 from ....core import require
 from ....core.arrays import RealArray
 from ...operators.convolution import restricted
+from ..protocol import require_settings
 from .linear_system import NewtonSystem, Workspace
 from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended, size_of
 
@@ -71,7 +72,7 @@ class StickSlipNewton:
     Parameters
     ----------
     tolerance
-        Largest ``Deviation.error``.
+        Largest ``Deviation.error``, in (0, 1).
     max_iterations
         Newton steps at most.
     precision
@@ -90,8 +91,7 @@ class StickSlipNewton:
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "Kalker1990")
 
     def __post_init__(self) -> None:
-        require.positive(self.tolerance, "tolerance of the tangential solver")
-        require.integer(self.max_iterations, 1, "iterations of the tangential solver")
+        require_settings(self)
         require.one_of(self.precision, ("mixed", "double"), "precision of the tangential solver")
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
@@ -143,7 +143,6 @@ class _Iteration:
             q = points.projected(points.gathered(start))
             self.q = q if self.total is None else points.with_sum(q, self.total)
         self._compute()
-        self.exact = True
         self.doublings, self.settled_error = 0, np.inf
 
     def _first(self) -> RealArray:

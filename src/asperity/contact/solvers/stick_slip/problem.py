@@ -254,8 +254,12 @@ class Sets:
 
     def free_part(self, values: RealArray) -> RealArray:
         """Part of ``values`` (2, n) along which the traction may change: all where it sticks, along the tangent where it slips."""
-        tangent = self.tangent
-        return np.where(self.slip, tangent * np.einsum("ij,ij->j", values, tangent), values)
+        return free_part(self.slip, self.tangent, values)
+
+
+def free_part(slip: BoolArray, tangent: RealArray, values: RealArray) -> RealArray:
+    """``values`` (2, n), where points ``slip`` (n,) their part along the ``tangent`` (2, n) alone."""
+    return np.where(slip, tangent * np.einsum("ij,ij->j", values, tangent), values)
 
 
 def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
