@@ -1,13 +1,15 @@
 """Steady rolling with friction: creepage, spin, and the forces that they cause (Kalker 1990).
 
-The contact rolls along +x over the bodies, which slide slowly against each other. In the frame of the contact everything is steady, and
-the material moves through it from the leading edge backwards. One implicit step of stick and slip is then a move of the material
-by a pixel: what was displaced by u at x + dx is at x. Steps are repeated until the tractions rest, first with moves of several pixels.
+The contact rolls over the bodies, which slide slowly against each other. In the frame of the contact everything is steady, and
+the material moves through it from the leading edge backwards: a move by one pixel is an implicit step of stick and slip from what was
+displaced one pixel ahead. The direct method solves for the traction that such a move leaves as it is; the transient one moves until the tractions
+rest, first by several pixels, and checks it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -16,16 +18,25 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.status import Outcome, Status
 from ..surfaces.surface import Surface
-from .boundary import Periodic
-from .laws import FrictionLaw
+from .laws import FrictionLaw, HardWall
+from .operators import Operator, prepare_operator
 from .operators.tangential import TangentialOperator
 from .problem import ContactProblem, Control, Flat
 from .result import ContactResult
 from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet
 from .solvers.stick_slip.newton import StickSlipNewton
-from .solvers.stick_slip.problem import TangentialQP
+from .solvers.stick_slip.steady import Direction, RollingQP, SteadyNewton
 from .tangential import about_centre, resultant
+
+Method: TypeAlias = Literal["direct", "transient"]
+"""How the steady state is found."""
+
+Rolling: TypeAlias = Literal["x", "-x", "y", "-y"]
+"""Direction along the grid in which the contact rolls."""
+
+METHODS = ("direct", "transient")
+DIRECTIONS = {"x": Direction(0, 1), "-x": Direction(0, -1), "y": Direction(1, 1), "-y": Direction(1, -1)}
 
 _STRIDES = (8, 4, 2, 1)
 """Pixels by which the material moves in a step, one after the other; the last makes the result. A contact of n pixels comes to rest in
@@ -37,17 +48,21 @@ _FEWEST = 8
 _MOST_LENGTHS = 20
 """Contact lengths rolled over with one stride at most; three suffice without spin."""
 
+NORMAL_TOLERANCE = 1e-10
+"""Tolerance of the normal solves."""
+
 
 @dataclass(frozen=True)
 class Creepage:
     """Relative motion of rolling bodies, small against one: slip velocity of the counter body over the body, over the rolling speed.
 
-    At (x, y) from the centre of the grid it is (x - spin y, y + spin x) without elastic displacements.
+    At the distance s along the rolling direction and t across it (to the left of it, from x towards y) from the centre of the grid it is (x - spin t, y +
+    spin s) along and across, without elastic displacements.
 
     Parameters
     ----------
     x, y
-        Creepage along the rolling direction x and across it.
+        Creepage along the rolling direction, which is x unless ``roll`` is told otherwise, and across it.
     spin
         Relative rotation about the normal over the rolling speed, rad/m.
 
@@ -62,9 +77,15 @@ class Creepage:
     spin: float = 0.0
 
     def __post_init__(self) -> None:
-        require.finite(self.x, "creepage along x")
-        require.finite(self.y, "creepage along y")
+        require.finite(self.x, "creepage along the rolling direction")
+        require.finite(self.y, "creepage across the rolling direction")
         require.finite(self.spin, "spin (rad/m)")
+
+    def along_axes(self, direction: Direction) -> tuple[float, float]:
+        """Components along the axes x and y of the grid, where the contact rolls in this ``direction``."""
+        if direction.axis == 0:
+            return direction.sign * self.x, direction.sign * self.y
+        return -direction.sign * self.y, direction.sign * self.x
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +103,7 @@ class RollingContact:
     slip
         Slip velocity of the counter body over the body, over the rolling speed; zero where it sticks.
     force_x, force_y, torque
-        Force (N) and torque about the centre of the grid (N·m) on the body. Kalker's forces on the other body have the opposite sign.
+        Force along x and y (N) and torque about the centre of the grid (N·m) on the body. Kalker's forces on the other body have the opposite sign.
     friction_limit
         Largest tangential force that the contact bears, N.
     power_density
@@ -90,11 +111,13 @@ class RollingContact:
     dissipated
         Heat per distance rolled, J/m: the power of the forces along creepage and spin, since the elastic energy does not change.
     steadiness
-        Relative change of the traction by the last move of one pixel.
+        Error of the friction law between traction and slip, or of the transient method the relative change of the traction by the last move of one pixel.
     steps
-        Steps taken.
+        Steps taken: Newton steps of the direct method, moves of the transient one.
     status
         How it ended.
+    direction
+        That in which the contact rolls: ``"x"``, ``"-x"``, ``"y"`` or ``"-y"``.
     """
 
     normal: ContactResult
@@ -110,11 +133,24 @@ class RollingContact:
     steadiness: float
     steps: int
     status: Status
+    direction: Rolling = "x"
 
     @property
     def slipping(self) -> BoolArray:
         """(nx, ny), True where the surfaces slip."""
         return np.asarray(np.any(self.slip != 0.0, axis=0))
+
+    @property
+    def longitudinal_force(self) -> float:
+        """Force on the body along the rolling direction, N."""
+        axis = DIRECTIONS[self.direction]
+        return axis.sign * (self.force_x if axis.axis == 0 else self.force_y)
+
+    @property
+    def lateral_force(self) -> float:
+        """Force on the body across the rolling direction, to the left of it, N."""
+        axis = DIRECTIONS[self.direction]
+        return axis.sign * (self.force_y if axis.axis == 0 else -self.force_x)
 
     @property
     def converged(self) -> bool:
@@ -124,7 +160,7 @@ class RollingContact:
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of the method and of the contact."""
-        return tuple(sorted({"Alart1991", "Kalker1990", *self.normal.citation_keys}))
+        return tuple(sorted({*SteadyNewton.citation_keys, *self.normal.citation_keys}))
 
 
 def roll(
@@ -132,152 +168,227 @@ def roll(
     control: Control,
     creepage: Creepage,
     *,
+    direction: Rolling = "x",
+    method: Method = "direct",
     tolerance: float = 1e-4,
     rounds: int = 20,
+    start: RollingContact | None = None,
 ) -> RollingContact:
-    """Steady rolling of the bodies of ``problem`` along +x under ``control``, with its friction and a ``creepage``.
+    """Steady rolling of the bodies of ``problem`` under ``control``, with its friction and a ``creepage``.
 
-    The surface is that of the contact at rest, which does not change along x as it rolls: smooth wheels, rollers and balls, or
-    roughness along x only in the sense of a standing pattern.
+    The surface is that of the contact, which stands while the material moves: smooth wheels, rollers and balls, on bodies of any layers. See
+    ``roll_rough`` for roughness that moves with the material.
 
     Parameters
     ----------
     problem
-        A contact that does not repeat along x (``Free`` or ``FreeLine``), with a friction law; without film and hardness.
+        A contact with a friction law, without film and hardness. Where it repeats along the rolling direction, its surfaces must part somewhere in each row.
     control
         ``Force``, ``MeanPressure``, ``Approach`` or ``MeanGap``.
     creepage
         Creepages and spin.
+    direction
+        ``"x"``, ``"-x"``, ``"y"`` or ``"-y"``: where the contact rolls to.
+    method
+        ``"direct"``, or ``"transient"``: moves of the material until the tractions rest, at ten times the work or more.
     tolerance
-        Largest relative change of the traction from move to move, and of the displacement by shear of unlike bodies from round to round.
+        Of the transient method the largest relative change of the traction from move to move, which leaves it off the steady state by some
+        hundred times that; of the direct one a hundred times the largest error of the friction law. Of unlike bodies also the largest relative change of the displacement by
+        shear from round to round.
     rounds
         Rounds between normal contact and shear at most, for unlike bodies.
+    start
+        Rolling of the same grid and bodies under a creepage near by, as first guess.
 
     Raises
     ------
     InputError
-        If the problem repeats, has no friction, or has a film or a layer that slips.
+        If the problem has no friction, a film, a hardness or a layer that slips, or touches all along a row.
     ConvergenceError
         If traction or pressure do not come to rest.
     """
-    friction = _checked(problem)
+    friction = rolling_friction(problem)
+    require.one_of(direction, DIRECTIONS, "direction of rolling")
+    require.one_of(method, METHODS, "method of rolling")
     require.positive(tolerance, "tolerance of rolling")
     require.integer(rounds, 1, "number of rounds")
-    operator = TangentialOperator(problem.grid, (problem.body, problem.counter_body), problem.boundary)
-    bare = replace(problem, friction=None)
-    profile = problem.profile()
-    lift: RealArray = np.zeros(problem.grid.shape)
-    traction: RealArray | None = None
+    bodies = RollingBodies.of(problem, creepage, direction)
+    profile, shape = problem.profile(), problem.grid.shape
+    lift: RealArray = np.zeros(shape)
+    normal, traction = (None, None) if start is None else (start.normal, start.traction)
+    if traction is not None:
+        if traction.shape[1:] != shape:
+            raise InputError(f"start of rolling must have the shape {shape} of the grid, but has {traction.shape[1:]}.")
+        lift = bodies.shear.lift(traction)
     total, change = 0, np.inf
-    for _ in range(rounds if operator.coupled else 1):
-        lifted = replace(bare, surface=_lowered(bare, profile, lift), counter_surface=Flat())
-        normal = solve(lifted, control, keep=Keep(stiffness=False), solver=ActiveSet(tolerance=1e-10))
-        found = _Rolling(operator, friction, normal.pressure, creepage, tolerance)
-        traction = found.rolled(traction)
-        total += found.steps
-        before, lift = lift, operator.lift(traction)
+    for _ in range(rounds if bodies.shear.coupled else 1):
+        normal = bodies.pressed(profile - lift, control, normal)
+        qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
+        found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
+        traction, total = found.traction, total + found.steps
+        before, lift = lift, bodies.shear.lift(traction)
         size = float(np.linalg.norm(lift))
         change = float(np.linalg.norm(lift - before)) / size if size else 0.0
         if change <= tolerance:
             break
-    settled = found.steadiness <= tolerance and (change <= tolerance or not operator.coupled)
-    message = f"Traction at rest to {found.steadiness:.1e} a move after {total} steps."
+    assert normal is not None
+    settled = found.settled and (change <= tolerance or not bodies.shear.coupled)
+    message = f"Steady to {found.steadiness:.1e} after {total} {'moves' if method == 'transient' else 'Newton steps'}."
     status = Status(Outcome.CONVERGED, message)
     if not settled:
-        message = f"Rolling did not come to rest: traction changes by {found.steadiness:.1e} a move, displacement by shear by {change:.1e}."
+        message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {change:.1e}."
         status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
-    result = found.result(normal, creepage, total, status)
+    result = _result(normal, creepage, direction, qp, found, (total, status))
     if not settled:
         raise ConvergenceError(f"{status.message} {status.remedy}", result)
     return result
 
 
-def _lowered(problem: ContactProblem, profile: RealArray, lift: RealArray) -> Surface:
-    """Composite surface less the displacement by shear."""
-    return problem.surface.with_heights(profile - lift, "composite, less the displacement by shear")
-
-
-def _checked(problem: ContactProblem) -> FrictionLaw:
-    """Friction law of a ``problem`` that can roll."""
-    if isinstance(problem.boundary, Periodic):
-        raise InputError("boundary of a rolling contact must be Free() or FreeLine(), but is Periodic().")
+def rolling_friction(problem: ContactProblem) -> FrictionLaw:
+    """Friction law of a ``problem`` that can roll; InputError for one that cannot."""
     if problem.friction is None:
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
     if problem.film is not None:
         raise InputError("film of a rolling contact must be None: menisci of moving surfaces are not steady.")
+    if not isinstance(problem.law, HardWall):
+        raise InputError(
+            f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not stay in the contact."
+        )
     return problem.friction
 
 
-class _Rolling:
-    """Tractions of one pressure under a creepage, moved until they rest."""
+@dataclass(frozen=True, eq=False)
+class RollingBodies:
+    """Bodies of a ``problem`` that rolls in a direction under a creepage: prepared operators, and the ``rigid`` slip (2, nx, ny) in m of a move by one pixel."""
 
-    def __init__(
-        self,
-        operator: TangentialOperator,
-        friction: FrictionLaw,
-        pressure: RealArray,
-        creepage: Creepage,
-        tolerance: float,
-    ) -> None:
-        grid = operator.grid
-        self.operator, self.tolerance, self.pressure = operator, tolerance, np.asarray(pressure, dtype=float)
-        self.bound, self.drawn = friction.bound(self.pressure), operator.drawn(self.pressure)
+    problem: ContactProblem
+    operator: Operator
+    shear: TangentialOperator
+    rigid: RealArray
+    direction: Direction
+
+    @classmethod
+    def of(cls, problem: ContactProblem, creepage: Creepage, direction: Rolling) -> RollingBodies:
+        """Prepared for ``problem``."""
+        grid, axis = problem.grid, DIRECTIONS[direction]
+        if grid.shape[axis.axis] < 2:
+            raise InputError(
+                f"direction of rolling must lead across the line contact, but is {direction}. Choose x or -x."
+            )
+        if creepage.spin and any(problem.boundary.wraps):
+            raise InputError(
+                f"spin must be zero for the boundary {problem.boundary.name}, where the contact repeats, but is {creepage.spin:g}. Choose Free()."
+            )
         x, y = about_centre(grid)
+        along_x, along_y = creepage.along_axes(axis)
         rigid = np.empty((2, *grid.shape))
-        rigid[0], rigid[1] = creepage.x - creepage.spin * y, creepage.y + creepage.spin * x
-        self.rigid = rigid * grid.spacing[0]
-        along = np.flatnonzero(self.pressure.any(axis=1))
-        self.length = int(along[-1] - along[0]) + 1 if along.size else 0
-        self.steps, self.steadiness = 0, np.inf
-        self.slip: RealArray = np.zeros_like(rigid)
-        self.traction: RealArray = np.zeros_like(rigid)
-
-    def rolled(self, start: RealArray | None) -> RealArray:
-        """Steady traction (2, nx, ny) in Pa, from ``start`` or from none."""
-        traction: RealArray = np.zeros((2, *self.operator.grid.shape)) if start is None else start
-        for stride in _STRIDES:
-            if stride > 1 and (start is not None or self.length < _FEWEST * stride):
-                continue
-            fine = stride == 1
-            traction = self._at_rest(traction, stride, self.tolerance if fine else 10.0 * self.tolerance * stride)
-        self.traction = traction
-        return traction
-
-    def _at_rest(self, traction: RealArray, stride: int, tolerance: float) -> RealArray:
-        """Traction that moves by ``stride`` pixels change by less than ``tolerance``."""
-        solver = StickSlipNewton(tolerance=0.01 * self.tolerance)
-        least = -(-self.length // stride)
-        for count in range(1, _MOST_LENGTHS * max(least, 1) + 1):
-            u = self.operator.displacement(traction) + self.drawn
-            moved = np.concatenate([u[:, stride:], np.repeat(u[:, -1:], stride, axis=1)], axis=1)
-            target = stride * self.rigid + moved - self.drawn
-            found = solver.solve(TangentialQP(self.operator, self.bound, target), traction if traction.any() else None)
-            size = float(np.linalg.norm(found.traction))
-            change = float(np.linalg.norm(found.traction - traction))
-            self.steadiness = change / size if size else 0.0
-            traction, self.steps = found.traction, self.steps + 1
-            self.slip = found.slip / (stride * self.operator.grid.spacing[0])
-            # material that has not rolled through yet may look at rest
-            if self.steadiness <= tolerance and (count >= least or change == 0.0):
-                break
-        return traction
-
-    def result(self, normal: ContactResult, creepage: Creepage, steps: int, status: Status) -> RollingContact:
-        """What was found."""
-        grid, slip, traction = self.operator.grid, self.slip, self.traction
-        force_x, force_y, torque = resultant(grid, traction)
-        return RollingContact(
-            normal=normal,
-            creepage=creepage,
-            traction=traction,
-            slip=slip,
-            force_x=force_x,
-            force_y=force_y,
-            torque=torque,
-            friction_limit=float(self.bound.sum()) * grid.pixel_area,
-            power_density=np.einsum("kij,kij->ij", traction, slip),
-            dissipated=force_x * creepage.x + force_y * creepage.y + torque * creepage.spin,
-            steadiness=self.steadiness,
-            steps=steps,
-            status=status,
+        rigid[0], rigid[1] = along_x - creepage.spin * y, along_y + creepage.spin * x
+        return cls(
+            replace(problem, friction=None, counter_surface=Flat()),
+            prepare_operator(problem.compliance, grid, problem.boundary),
+            TangentialOperator(grid, (problem.body, problem.counter_body), problem.boundary),
+            rigid * grid.spacing[axis.axis],
+            axis,
         )
+
+    def pressed(self, heights: RealArray, control: Control, before: ContactResult | None) -> ContactResult:
+        """The contact of a surface of these ``heights`` (nx, ny) in m, started from the one ``before``."""
+        problem = replace(self.problem, surface=_with_heights(self.problem.surface, heights))
+        solver = ActiveSet(tolerance=NORMAL_TOLERANCE)
+        state = None if before is None else before.state
+        return solve(problem, control, keep=Keep(stiffness=False), solver=solver, operator=self.operator, state=state)
+
+    def posed(self, bound: RealArray, pressure: RealArray) -> RollingQP:
+        """Steady rolling with the ``bound`` under ``pressure``, both (nx, ny) in Pa."""
+        if self.problem.boundary.wraps[self.direction.axis] and (bound > 0.0).all(axis=self.direction.axis).any():
+            raise InputError(
+                "surfaces of a rolling contact that repeats must part somewhere in each row along the rolling direction, but touch all along one. "
+                "Reduce the load or choose a longer period."
+            )
+        return RollingQP(self.shear, bound, self.rigid, self.shear.drawn(pressure), self.direction)
+
+
+def _with_heights(surface: Surface, heights: RealArray) -> Surface:
+    return surface.with_heights(heights, "composite, less the displacement by shear")
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Steady traction (Pa) and slip during a move by one pixel (m), both (2, nx, ny), and how steady."""
+
+    traction: RealArray
+    slip: RealArray
+    steadiness: float
+    steps: int
+    settled: bool
+
+
+def _direct(qp: RollingQP, start: RealArray | None, tolerance: float) -> _Found:
+    """Steady traction by Newton's method."""
+    found = SteadyNewton(tolerance=min(0.01 * tolerance, 0.1)).solve(qp, start)
+    return _Found(found.traction, found.slip, found.deviation.error, found.iterations, found.status.converged)
+
+
+def _transient(qp: RollingQP, start: RealArray | None, tolerance: float) -> _Found:
+    """Steady traction by moves from ``start`` or from none, first of several pixels."""
+    touched = np.flatnonzero(qp.direction.oriented(qp.bound).any(axis=1))
+    length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
+    traction: RealArray = np.zeros_like(qp.rigid) if start is None else start
+    found, steps = _Found(traction, np.zeros_like(qp.rigid), 0.0, 0, True), 0
+    for stride in _STRIDES:
+        if stride > 1 and (start is not None or length < _FEWEST * stride):
+            continue
+        loose = 1.0 if stride == 1 else 10.0 * stride
+        found = _at_rest(qp, found.traction, stride, (-(-length // stride), loose * tolerance, 0.01 * tolerance))
+        steps += found.steps
+    return replace(found, steps=steps)
+
+
+def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int, float, float]) -> _Found:
+    """Traction that moves by ``stride`` pixels change little.
+
+    ``course`` is the least number of moves, the largest change, and the tolerance of the solver.
+    """
+    least, change_allowed, solver_tolerance = course
+    solver, steadiness, slip = StickSlipNewton(tolerance=min(solver_tolerance, 0.1)), np.inf, np.zeros_like(traction)
+    for count in range(1, _MOST_LENGTHS * max(least, 1) + 1):
+        found = solver.solve(qp.moved(qp.displacement(traction), stride), traction if traction.any() else None)
+        size = float(np.linalg.norm(found.traction))
+        change = float(np.linalg.norm(found.traction - traction))
+        steadiness = change / size if size else 0.0
+        traction, slip = found.traction, found.slip / stride
+        # material that has not rolled through yet may look at rest
+        if steadiness <= change_allowed and (count >= least or change == 0.0):
+            break
+    return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
+
+
+def _result(
+    normal: ContactResult,
+    creepage: Creepage,
+    direction: Rolling,
+    qp: RollingQP,
+    found: _Found,
+    ended: tuple[int, Status],
+) -> RollingContact:
+    """What was found, after so many steps with this status."""
+    grid = qp.operator.grid
+    slip = found.slip / grid.spacing[qp.direction.axis]
+    force_x, force_y, torque = resultant(grid, found.traction)
+    along_x, along_y = creepage.along_axes(qp.direction)
+    return RollingContact(
+        normal=normal,
+        creepage=creepage,
+        traction=found.traction,
+        slip=slip,
+        force_x=force_x,
+        force_y=force_y,
+        torque=torque,
+        friction_limit=float(qp.bound.sum()) * grid.pixel_area,
+        power_density=np.einsum("kij,kij->ij", found.traction, slip),
+        dissipated=force_x * along_x + force_y * along_y + torque * creepage.spin,
+        steadiness=found.steadiness,
+        steps=ended[0],
+        status=ended[1],
+        direction=direction,
+    )
