@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import asperity as asp
 
@@ -88,9 +89,7 @@ def test_a_row_of_far_cylinders_rolls_as_one():
         forces = []
         for boundary in (asp.Periodic(), asp.FreeLine()):
             surface = asp.Surface(heights, spacing, 1.0)
-            problem = asp.ContactProblem(
-                surface, body, counter_body=body, boundary=boundary, friction=asp.Coulomb(0.3)
-            )
+            problem = asp.ContactProblem(surface, body, counter_body=body, boundary=boundary, friction=asp.Coulomb(0.3))
             load = asp.Force(np.pi / 4.0 * problem.contact_modulus * A**2 / R)
             rolled = asp.roll(problem, load, asp.Creepage(0.3 * UNIT))
             forces.append(rolled.force_x / rolled.friction_limit)
@@ -113,12 +112,12 @@ def test_other_laws_roll(law):
 def test_rolling_is_refused_where_it_makes_no_sense():
     line = asp.Surface(-(np.linspace(-1, 1, 16)[:, None] ** 2), 0.1, 1.0)
     problem = asp.ContactProblem(line, STEEL, boundary=asp.FreeLine(), friction=asp.Coulomb(0.3))
-    with pytest.raises(asp.InputError, match="direction of rolling"):
+    with refused(asp.InputError, "direction of rolling"):
         asp.roll(problem, asp.Force(1e-2), asp.Creepage(1e-3), direction="y")
-    with pytest.raises(asp.InputError, match="method of rolling"):
+    with refused(asp.InputError, "method of rolling"):
         asp.roll(problem, asp.Force(1e-2), asp.Creepage(1e-3), method="guess")
     ball, load = wheel()
-    with pytest.raises(asp.InputError, match="spin"):
+    with refused(asp.InputError, "spin"):
         asp.roll(replace(ball, boundary=asp.Periodic()), load, asp.Creepage(0.0, 0.0, 1e-3))
-    with pytest.raises(asp.InputError, match="HardWall"):
+    with refused(asp.InputError, "law of a rolling contact"):
         asp.roll(replace(ball, law=asp.Hardness(1.0)), load, asp.Creepage(1e-3))

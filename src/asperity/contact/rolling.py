@@ -213,15 +213,45 @@ def roll(
     require.positive(tolerance, "tolerance of rolling")
     require.integer(rounds, 1, "number of rounds")
     bodies = RollingBodies.of(problem, creepage, direction)
-    profile, shape = problem.profile(), problem.grid.shape
-    lift: RealArray = np.zeros(shape)
+    if start is not None and start.traction.shape[1:] != problem.grid.shape:
+        raise InputError(
+            f"start of rolling must have the shape {problem.grid.shape} of the grid, but has {start.traction.shape[1:]}."
+        )
+    found = _balanced(bodies, friction, control, (method, tolerance, rounds), start)
+    result = _result(found, creepage, direction, method)
+    if not result.converged:
+        raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Balance:
+    """Contact and shear after the last round: what was posed and found, Newton steps or moves in all, last change of the displacement by shear."""
+
+    normal: ContactResult
+    qp: RollingQP
+    found: _Found
+    steps: int
+    change: float
+    settled: bool
+
+
+def _balanced(
+    bodies: RollingBodies,
+    friction: FrictionLaw,
+    control: Control,
+    asked: tuple[Method, float, int],
+    start: RollingContact | None,
+) -> _Balance:
+    """Normal contact and shear in turns, as long as the displacement by shear changes; ``asked`` are method, tolerance and rounds."""
+    method, tolerance, rounds = asked
+    coupled, profile = bodies.shear.coupled, bodies.profile
+    lift: RealArray = np.zeros_like(profile)
     normal, traction = (None, None) if start is None else (start.normal, start.traction)
     if traction is not None:
-        if traction.shape[1:] != shape:
-            raise InputError(f"start of rolling must have the shape {shape} of the grid, but has {traction.shape[1:]}.")
         lift = bodies.shear.lift(traction)
     total, change = 0, np.inf
-    for _ in range(rounds if bodies.shear.coupled else 1):
+    for _ in range(rounds if coupled else 1):
         normal = bodies.pressed(profile - lift, control, normal)
         qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
         found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
@@ -232,16 +262,7 @@ def roll(
         if change <= tolerance:
             break
     assert normal is not None
-    settled = found.settled and (change <= tolerance or not bodies.shear.coupled)
-    message = f"Steady to {found.steadiness:.1e} after {total} {'moves' if method == 'transient' else 'Newton steps'}."
-    status = Status(Outcome.CONVERGED, message)
-    if not settled:
-        message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {change:.1e}."
-        status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
-    result = _result(normal, creepage, direction, qp, found, (total, status))
-    if not settled:
-        raise ConvergenceError(f"{status.message} {status.remedy}", result)
-    return result
+    return _Balance(normal, qp, found, total, change, found.settled and (change <= tolerance or not coupled))
 
 
 def rolling_friction(problem: ContactProblem) -> FrictionLaw:
@@ -259,13 +280,14 @@ def rolling_friction(problem: ContactProblem) -> FrictionLaw:
 
 @dataclass(frozen=True, eq=False)
 class RollingBodies:
-    """Bodies of a ``problem`` that rolls in a direction under a creepage: prepared operators, and the ``rigid`` slip (2, nx, ny) in m of a move by one pixel."""
+    """Bodies of a ``problem`` that rolls in a direction under a creepage: prepared operators, the ``rigid`` slip (2, nx, ny) in m of a move by one pixel, and the ``profile`` (nx, ny) in m."""
 
     problem: ContactProblem
     operator: Operator
     shear: TangentialOperator
     rigid: RealArray
     direction: Direction
+    profile: RealArray
 
     @classmethod
     def of(cls, problem: ContactProblem, creepage: Creepage, direction: Rolling) -> RollingBodies:
@@ -289,6 +311,7 @@ class RollingBodies:
             TangentialOperator(grid, (problem.body, problem.counter_body), problem.boundary),
             rigid * grid.spacing[axis.axis],
             axis,
+            problem.profile(),
         )
 
     def pressed(self, heights: RealArray, control: Control, before: ContactResult | None) -> ContactResult:
@@ -363,21 +386,19 @@ def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int,
     return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
 
 
-def _result(
-    normal: ContactResult,
-    creepage: Creepage,
-    direction: Rolling,
-    qp: RollingQP,
-    found: _Found,
-    ended: tuple[int, Status],
-) -> RollingContact:
-    """What was found, after so many steps with this status."""
-    grid = qp.operator.grid
+def _result(balance: _Balance, creepage: Creepage, direction: Rolling, method: Method) -> RollingContact:
+    """What was found."""
+    found, qp, grid = balance.found, balance.qp, balance.qp.operator.grid
+    moves = "moves" if method == "transient" else "Newton steps"
+    status = Status(Outcome.CONVERGED, f"Steady to {found.steadiness:.1e} after {balance.steps} {moves}.")
+    if not balance.settled:
+        message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {balance.change:.1e}."
+        status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
     slip = found.slip / grid.spacing[qp.direction.axis]
     force_x, force_y, torque = resultant(grid, found.traction)
     along_x, along_y = creepage.along_axes(qp.direction)
     return RollingContact(
-        normal=normal,
+        normal=balance.normal,
         creepage=creepage,
         traction=found.traction,
         slip=slip,
@@ -388,7 +409,7 @@ def _result(
         power_density=np.einsum("kij,kij->ij", found.traction, slip),
         dissipated=force_x * along_x + force_y * along_y + torque * creepage.spin,
         steadiness=found.steadiness,
-        steps=ended[0],
-        status=ended[1],
+        steps=balance.steps,
+        status=status,
         direction=direction,
     )
