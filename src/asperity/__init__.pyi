@@ -56,6 +56,7 @@ from .solids.layers import (
     graded,
 )
 from .solids.library import Liquid, liquid, liquids, material, materials
+from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
@@ -84,6 +85,7 @@ __all__ = [
     "Advice",
     "Approach",
     "ArrayEngine",
+    "Arrhenius",
     "AsperityError",
     "Bonded",
     "Campaign",
@@ -127,6 +129,7 @@ __all__ = [
     "LiquidFilm",
     "LoadAtYield",
     "LoadedBody",
+    "MasterCurve",
     "MaxPrincipal",
     "MeanGap",
     "MeanPressure",
@@ -160,8 +163,10 @@ __all__ = [
     "TrescaFriction",
     "UnitError",
     "Unloaded",
+    "Viscoelastic",
     "VonMises",
     "WetTheory",
+    "WilliamsLandelFerry",
     "YieldReport",
     "__version__",
     "advise",
@@ -181,6 +186,7 @@ __all__ = [
     "filled",
     "filtered",
     "first_yield",
+    "fitted_solid",
     "fracture_indicators",
     "generate",
     "graded",

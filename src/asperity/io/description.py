@@ -25,6 +25,7 @@ from ..core.errors import FileFormatError, InputError
 from ..core.spectral import fft_library
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
+from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..stress.regions import Region
 from ..surfaces.surface import Surface
 
@@ -34,6 +35,7 @@ TYPES: tuple[type, ...] = (
     *get_args(Control),
     *get_args(Interface),
     *get_args(Tangential),
+    *get_args(TemperatureShift),
     Coulomb,
     CouplingCheck,
     Flat,
@@ -47,6 +49,7 @@ TYPES: tuple[type, ...] = (
     RigidBase,
     Strength,
     TrescaFriction,
+    Viscoelastic,
 )
 """Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 

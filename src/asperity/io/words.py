@@ -22,6 +22,7 @@ from ..core.text import printable
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
+from ..solids.viscoelastic import Viscoelastic
 from ..stress.field import DERIVED, StressField
 from ..stress.yielding import YieldReport
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
@@ -199,8 +200,19 @@ def _material_text(material: Elastic) -> str:
     values = [("E", material.youngs_modulus), ("H", strength.hardness), ("Y", strength.yield_stress)]
     texts = [f"{symbol} = {show(value, 'Pa')}" for symbol, value in values if not math.isnan(value)]
     texts.insert(1, f"ν = {material.poisson_ratio:g}")
+    if isinstance(material, Viscoelastic):
+        texts.append(_relaxation_text(material))
     constants = ", ".join(texts)
     return f"{material.name}: {constants}" if material.name else constants
+
+
+def _relaxation_text(material: Viscoelastic) -> str:
+    """How far and between which times the ``material`` relaxes."""
+    if not material.spectrum:
+        return "does not relax"
+    first, last = (show(material.spectrum[end][1], "s") for end in (0, -1))
+    when = f"in {first}" if first == last else f"between {first} and {last}"
+    return f"{'G' if material.elastic_bulk else 'E'} relaxes to {percent(material.relaxed_share)} {when}"
 
 
 def _rows(body: object) -> Rows:
@@ -211,7 +223,9 @@ def _rows(body: object) -> Rows:
         value = getattr(body, field.name)
         if field.name == "name":
             continue
-        if field.name == "sources":
+        if field.name == "spectrum":
+            rows.append(("relaxation", _relaxation_text(body)))  # type: ignore[arg-type]
+        elif field.name == "sources":
             sources += [_source_row(str(source)) for source in value]
         elif isinstance(value, tuple):
             for number, part in enumerate(value, start=1):
@@ -467,7 +481,7 @@ def text(thing: object) -> str:
 
 def _line(thing: object) -> str:
     if isinstance(thing, Elastic):
-        return f"Elastic {body_text(thing)}"
+        return f"{type(thing).__name__} {body_text(thing)}"
     if isinstance(thing, Layered):
         return f"Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}"
     if isinstance(thing, Menisci):

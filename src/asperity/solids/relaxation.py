@@ -1,0 +1,279 @@
+"""Relaxation and creep of linear viscoelastic solids as Prony series, and the exact conversion between the two.
+
+E(t) = E_inf + sum E_k exp(-t/tau_k),   J(t) = J_0 + sum J_k (1 - exp(-t/lambda_k)) + phi t,   ∫ E(t - s) J(s) ds = t.
+
+In the operational form s E(s), a rational function, E has the poles -1/tau_k and, between them, one simple zero each, -1/lambda_k: the
+poles of J. Zeros are found by bracketing (Park & Schapery 1999), so that the conversion is exact to rounding.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Self, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import require
+from ..core.arrays import ComplexArray, RealArray
+from ..core.errors import InputError
+
+Terms: TypeAlias = tuple[tuple[float, float], ...]
+"""Strength and time (s) of each term of a series, by rising times."""
+
+_SAME_TIME = 1e-9
+"""Relative difference of two times below which their terms are one."""
+
+
+def merged(terms: Iterable[tuple[float, float]]) -> Terms:
+    """``terms`` by rising times, those of equal time as one, those without strength left out."""
+    found: list[tuple[float, float]] = []
+    for strength, time in sorted(terms, key=lambda term: term[1]):
+        if strength == 0.0:
+            continue
+        if found and time <= found[-1][1] * (1.0 + _SAME_TIME):
+            found[-1] = (found[-1][0] + strength, found[-1][1])
+        else:
+            found.append((float(strength), float(time)))
+    return tuple(found)
+
+
+def _checked(terms: Iterable[tuple[float, float]], what: str) -> Terms:
+    pairs = []
+    for term in terms:
+        strength, time = require.two(term, f"term of {what}", "Give pairs of strength and time in s.")
+        require.not_negative(strength, f"strength of a term of {what}")
+        pairs.append((float(strength), require.positive(time, f"time of a term of {what} (s)")))
+    return merged(pairs)
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """Modulus E(t) after a step of strain.
+
+    Parameters
+    ----------
+    relaxed
+        E_inf in Pa, >= 0; zero for a fluid.
+    terms
+        Pairs (E_k in Pa, >= 0; tau_k in s, > 0); equal times are merged.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range, or all moduli are zero.
+    """
+
+    relaxed: float
+    terms: Terms = ()
+
+    def __post_init__(self) -> None:
+        require.not_negative(self.relaxed, "relaxed modulus (Pa)")
+        object.__setattr__(self, "terms", _checked(self.terms, "a relaxation"))
+        if not self.instantaneous > 0.0:
+            raise InputError("modulus of a relaxation must be greater than zero at time zero, but is 0.")
+
+    @property
+    def instantaneous(self) -> float:
+        """E(0) in Pa, the glassy modulus."""
+        return self.relaxed + sum(strength for strength, _ in self.terms)
+
+    def at(self, time: ArrayLike) -> RealArray:
+        """E(t) in Pa at ``time`` >= 0 (s)."""
+        t = np.asarray(time, dtype=float)
+        found = np.full(t.shape, self.relaxed)
+        for strength, tau in self.terms:
+            found = found + strength * np.exp(-t / tau)
+        return found
+
+    def operational(self, s: ArrayLike) -> ComplexArray:
+        """s E(s) in Pa at complex ``s`` (1/s); at s = i omega the complex modulus."""
+        x = np.asarray(s, dtype=complex)
+        found = np.full(x.shape, complex(self.relaxed))
+        for strength, tau in self.terms:
+            found = found + strength * (x * tau / (1.0 + x * tau))
+        return found
+
+    def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
+        """E(omega) in Pa at the angular frequency ``omega`` (rad/s) for the time dependence exp(+i omega t): loss is positive for omega > 0."""
+        return self.operational(1j * np.asarray(omega, dtype=float))
+
+    def times(self, factor: float) -> Relaxation:
+        """The same with all moduli times ``factor``."""
+        return Relaxation(self.relaxed * factor, tuple((strength * factor, tau) for strength, tau in self.terms))
+
+    def shifted(self, factor: float) -> Relaxation:
+        """The same with all times times ``factor``."""
+        return Relaxation(self.relaxed, tuple((strength, tau * factor) for strength, tau in self.terms))
+
+    @property
+    def creep(self) -> Creep:
+        """Its creep, exact. The zeros of E_inf - sum E_k tau_k/(lambda - tau_k) are the retardation times lambda_k."""
+        strengths, taus = (
+            (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
+        )
+        weights = strengths * taus
+        zeros = _zeros(
+            taus, lambda distances: self.relaxed - float((weights / distances).sum()), last=self.relaxed > 0.0
+        )
+        terms = [(1.0 / (lam * float((weights / distances**2).sum())), lam) for lam, distances in zeros]
+        fluidity = 0.0 if self.relaxed > 0.0 else 1.0 / float(weights.sum())
+        return Creep(1.0 / self.instantaneous, tuple(terms), fluidity)
+
+
+@dataclass(frozen=True)
+class Creep:
+    """Compliance J(t) after a step of stress.
+
+    Parameters
+    ----------
+    instantaneous
+        J_0 in 1/Pa, > 0.
+    terms
+        Pairs (J_k in 1/Pa, >= 0; retardation time lambda_k in s, > 0); equal times are merged.
+    fluidity
+        phi in 1/(Pa s), >= 0; zero for a solid.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range.
+    """
+
+    instantaneous: float
+    terms: Terms = ()
+    fluidity: float = 0.0
+
+    def __post_init__(self) -> None:
+        require.positive(self.instantaneous, "instantaneous compliance (1/Pa)")
+        require.not_negative(self.fluidity, "fluidity (1/(Pa s))")
+        object.__setattr__(self, "terms", _checked(self.terms, "a creep"))
+
+    @property
+    def relaxed(self) -> float:
+        """J after all retardation, 1/Pa; infinite for a fluid."""
+        return math.inf if self.fluidity else self.instantaneous + sum(strength for strength, _ in self.terms)
+
+    def at(self, time: ArrayLike) -> RealArray:
+        """J(t) in 1/Pa at ``time`` >= 0 (s)."""
+        t = np.asarray(time, dtype=float)
+        found = self.instantaneous + self.fluidity * t
+        for strength, lam in self.terms:
+            found = found - strength * np.expm1(-t / lam)
+        return np.asarray(found)
+
+    def operational(self, s: ArrayLike) -> ComplexArray:
+        """s J(s) in 1/Pa at complex ``s`` (1/s); at s = i omega the complex compliance. A fluid has none at s = 0."""
+        x = np.asarray(s, dtype=complex)
+        found = np.full(x.shape, complex(self.instantaneous))
+        for strength, lam in self.terms:
+            found = found + strength / (1.0 + x * lam)
+        return np.asarray(found + self.fluidity / x) if self.fluidity else found
+
+    def complex_compliance(self, omega: ArrayLike) -> ComplexArray:
+        """J(omega) in 1/Pa at the angular frequency ``omega`` (rad/s) for the time dependence exp(+i omega t)."""
+        return self.operational(1j * np.asarray(omega, dtype=float))
+
+    def times(self, factor: float) -> Creep:
+        """The same with all compliances times ``factor``."""
+        terms = tuple((strength * factor, lam) for strength, lam in self.terms)
+        return Creep(self.instantaneous * factor, terms, self.fluidity * factor)
+
+    def __add__(self, other: Creep) -> Self:
+        """Compliance of two solids under the same stress; terms of equal times are merged."""
+        return type(self)(
+            self.instantaneous + other.instantaneous, (*self.terms, *other.terms), self.fluidity + other.fluidity
+        )
+
+    @property
+    def relaxation(self) -> Relaxation:
+        """Its relaxation, exact. The zeros of J_0 + sum J_k tau/(tau - lambda_k) - phi tau are the relaxation times tau_k."""
+        strengths, lams = (
+            (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
+        )
+        weights, rising = strengths * lams, self.instantaneous + float(strengths.sum())
+
+        def falling(distances: RealArray, tau: float) -> float:
+            return self.fluidity * tau - rising - float((weights / distances).sum())
+
+        zeros = _zeros_below(lams, falling, last=rising / self.fluidity if self.fluidity else None)
+        terms = [(1.0 / (tau * (float((weights / d**2).sum()) + self.fluidity)), tau) for tau, d in zeros]
+        return Relaxation(0.0 if self.fluidity else 1.0 / rising, tuple(terms))
+
+
+_NONE = np.empty(0)
+
+
+def _zeros(poles: RealArray, function: Callable[[RealArray], float], *, last: bool) -> list[tuple[float, RealArray]]:
+    """Zeros of a ``function`` of the distances to the rising ``poles`` that grows from minus to plus infinity between two of them.
+
+    With ``last`` there is one above all poles, below which the function is negative. Each comes with its distances to the poles.
+    """
+    found = []
+    for number, (low, high) in enumerate(itertools.pairwise(poles)):
+        found.append(_zero_between(poles, number, float(low), float(high), function))
+    if last and poles.size:
+        width = float(poles[-1])
+        while function(poles[-1] + width - poles) < 0.0:
+            width *= 4.0
+        found.append(_zero_from(poles, poles.size - 1, 1.0, width, function))
+    return found
+
+
+def _zero_between(
+    poles: RealArray, number: int, low: float, high: float, function: Callable[[RealArray], float]
+) -> tuple[float, RealArray]:
+    """Zero between ``low`` and ``high``, measured from the nearer pole, whose distance is then exact."""
+    half = 0.5 * (high - low)
+    if function(low + half - poles) >= 0.0:
+        return _zero_from(poles, number, 1.0, half, function)
+    return _zero_from(poles, number + 1, -1.0, half, function)
+
+
+def _zero_from(
+    poles: RealArray, number: int, sign: float, farthest: float, function: Callable[[RealArray], float]
+) -> tuple[float, RealArray]:
+    """Zero at most ``farthest`` from the pole of this ``number``, above it or with ``sign`` -1 below it, in the logarithm of its distance."""
+    from scipy.optimize import brentq
+
+    def distances(log: float) -> RealArray:
+        by = poles[number] - poles
+        by = by + sign * math.exp(log)
+        by[number] = sign * math.exp(log)
+        return np.asarray(by)
+
+    high = math.log(farthest)
+    low = high - 1.0
+    while sign * function(distances(low)) > 0.0:
+        low -= 2.0 * (high - low)
+    log = high if function(distances(high)) == 0.0 else brentq(lambda x: function(distances(x)), low, high, xtol=1e-15)
+    return float(poles[number] + sign * math.exp(log)), distances(log)
+
+
+def _zeros_below(
+    poles: RealArray, function: Callable[[RealArray, float], float], *, last: float | None
+) -> list[tuple[float, RealArray]]:
+    """Zeros of a ``function`` of the distances to the poles and the place, one below each pole and, with ``last``, one above that place."""
+    placed = poles.copy()
+
+    def at(distances: RealArray) -> float:
+        return function(distances, float(placed[0] + distances[0]))
+
+    if not poles.size:
+        return [] if last is None else [(last, _NONE)]
+    found = []
+    first = 0.5 * float(poles[0])
+    while at(first - poles) > 0.0:
+        first *= 0.25
+    found.append(_zero_from(poles, 0, -1.0, float(poles[0]) - first, at))
+    for number, (low, high) in enumerate(itertools.pairwise(poles)):
+        found.append(_zero_between(poles, number, float(low), float(high), at))
+    if last is not None:
+        width = max(last, float(poles[-1]))
+        while at(poles[-1] + width - poles) < 0.0:
+            width *= 4.0
+        found.append(_zero_from(poles, poles.size - 1, 1.0, width, at))
+    return found
