@@ -90,7 +90,7 @@ def unrendered() -> Iterator[None]:
         yield
 
 
-DRAWING = ("plots.picture", "plots.contact", "plots.stress", "plots.comparison", "plots.notebook", "report.study")
+DRAWING = ("plots.picture", "plots.contact", "plots.stress", "plots.comparison", "plots.notebook")
 """Modules of asperity that make pictures by the function ``png`` of ``plots.picture``."""
 
 

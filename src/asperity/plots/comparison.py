@@ -25,6 +25,7 @@ from .picture import (
     Figure,
     Plot,
     apart,
+    curve_figure,
     literal,
     png,
     save_pictures,
@@ -161,7 +162,7 @@ def comparison_plots(data: xarray.Dataset) -> tuple[Plot, ...]:
 def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
     """The figures of a comparison from its dataset, drawn."""
     return tuple(
-        Figure(plot.name, plot.title, plot.caption, png(partial(plot.draw, data), SIZE), wide=True)
+        curve_figure(plot.name, plot.title, plot.caption, partial(plot.draw, data), SIZE, wide=True)
         for plot in comparison_plots(data)
     )
 
@@ -214,10 +215,10 @@ def _draw(
             "color": COLOURS[number % len(COLOURS)],
             "linestyle": LINES[number // len(COLOURS) % len(LINES)],
         }
-        ax.plot(x, values, color=MUTED, linewidth=0.7, zorder=1.0)
-        ax.plot(x, np.where(valid, values, np.nan), **look)
+        ax.plot(x, values, color=MUTED, linewidth=0.7, zorder=1.0, label=f"{literal(str(theory))}, beyond its limits")
         there = bool((valid & np.isfinite(values)).any())
         words = literal(str(theory)) if there else f"{literal(str(theory))}: nowhere valid"
+        ax.plot(x, np.where(valid, values, np.nan), label=words, **look)
         curves.append(_Curve(words, x, values, look["color"] if there else "0.6", look["linestyle"]))
     return curves
 
@@ -226,7 +227,7 @@ def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> 
     if name not in data:
         return []
     x, values = _pressure(data), _values(data[name]) / unit
-    ax.plot(x, values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8)
+    ax.plot(x, values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8, label="numerical")
     return [_Curve("numerical", x, values, BLACK, "-")]
 
 

@@ -19,15 +19,23 @@ from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .maps import (
+    Field,
+    Kinds,
+    contact_kinds,
     enlarge_contact,
     enlarge_indentation,
-    plot_classes,
+    gap_field,
+    heights_field,
+    indentation_field,
     plot_contact,
     plot_gap,
     plot_heights,
     plot_indentation,
+    plot_map,
     plot_pressure,
     plot_residual,
+    pressure_field,
+    residual_field,
 )
 from .picture import (
     BLACK,
@@ -69,7 +77,7 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     The composite rough surface carries all deformation of both bodies, so the counter surface is drawn flat.
     Without contact the cut goes through the smallest gap.
     """
-    row = _row(result)
+    row = row_of_section(result)
     grid = result.problem.grid
     length = scale(grid.size[0], "m")
     x = length((np.arange(grid.shape[0]) + 0.5) * grid.spacing[0])
@@ -91,7 +99,8 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     return legend_above(ax, 3, 1.04)
 
 
-def _row(result: ContactResult) -> int:
+def row_of_section(result: ContactResult) -> int:
+    """Row of the grid along x through the highest pressure, without contact through the smallest gap."""
     if result.contact.any():
         return int(np.argmax((result.pressure == result.pressure.max()).sum(axis=0)))  # plastic: many are highest
     return int(np.unravel_index(np.argmin(result.gap), result.gap.shape)[1])
@@ -117,7 +126,7 @@ def _draw_pressure(x: RealArray, pressure: RealArray, ax: Axes) -> None:
     largest = float(drawn.max()) or 1.0
     twin = ax.twinx()
     twin.fill_between(x, drawn, color=VERMILLION, alpha=0.25, linewidth=0.0)
-    twin.plot(x, drawn, color=VERMILLION, linewidth=1.0)
+    twin.plot(x, drawn, color=VERMILLION, linewidth=1.0, label="pressure")
     ax.plot([], [], color=VERMILLION, label="pressure")
     twin.set_ylim(0.0, 1.12 * largest / SHARE)
     ticks = [float(tick) for tick in MaxNLocator(3).tick_values(0.0, largest) if tick <= 1.12 * largest]
@@ -179,8 +188,8 @@ KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus",
 """Name and colour of each kind of point, in the order of their numbers."""
 
 
-def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
+def meniscus_kinds(result: ContactResult) -> Kinds:
+    """Where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
 
     Raises InputError if the contact has no film of liquid.
     """
@@ -188,7 +197,15 @@ def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
     kinds = np.where(stands.cut, 1.0, 0.0)
     kinds[stands.menisci] = 2.0
     kinds[result.contact] = 3.0
-    return plot_classes(kinds, result.problem.grid, ax, KINDS)
+    return Kinds(kinds, result.problem.grid, KINDS)
+
+
+def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
+    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
+
+    Raises InputError if the contact has no film of liquid.
+    """
+    return plot_map(meniscus_kinds(result), ax)
 
 
 MENISCI = Plot(
@@ -199,6 +216,7 @@ MENISCI = Plot(
     plot_menisci,
     "map",
     enlarge_contact,
+    shows=meniscus_kinds,
 )
 """The figure of a contact with a film of liquid."""
 
@@ -211,12 +229,24 @@ def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
+def _surface_field(result: ContactResult) -> Field:
+    return heights_field(result.problem.surface)
+
+
 def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
     return plot_heights(result.problem.surface, ax)
 
 
 PLOTS = (
-    Plot("heights", "Heights", "Heights of the rough surface, relative to their mean.", _plot_surface, "map"),
+    Plot(
+        "heights",
+        "Heights",
+        "Heights of the rough surface, relative to their mean.",
+        _plot_surface,
+        "map",
+        shows=_surface_field,
+        by_step=False,
+    ),
     Plot(
         "pressure",
         "Pressure",
@@ -224,6 +254,7 @@ PLOTS = (
         plot_pressure,
         "map",
         beside=enlarge_contact,
+        shows=pressure_field,
     ),
     Plot(
         "pressure_log",
@@ -240,8 +271,17 @@ PLOTS = (
         plot_contact,
         "map",
         beside=enlarge_contact,
+        shows=contact_kinds,
     ),
-    Plot("gap", "Gap", "Gap between the deformed surfaces; grey in contact.", plot_gap, "map", beside=enlarge_contact),
+    Plot(
+        "gap",
+        "Gap",
+        "Gap between the deformed surfaces; grey in contact.",
+        plot_gap,
+        "map",
+        beside=enlarge_contact,
+        shows=gap_field,
+    ),
     Plot(
         "section",
         "Section",
@@ -272,6 +312,7 @@ PLASTIC_PLOTS = (
         plot_indentation,
         "map",
         enlarge_indentation,
+        shows=indentation_field,
     ),
     Plot(
         "residual",
@@ -279,6 +320,7 @@ PLASTIC_PLOTS = (
         "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
         plot_residual,
         "map",
+        shows=residual_field,
     ),
 )
 """The figures of a result that is permanently indented."""

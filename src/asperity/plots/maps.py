@@ -41,43 +41,131 @@ WIDE = 2.0
 """Ratio of width to height above which the colour bar lies above the map instead of beside it."""
 
 
-def plot_heights(surface: Surface, ax: Axes) -> Axes:
-    """Draw the heights of ``surface`` relative to their mean on ``ax``; missing points are grey."""
+@dataclass(frozen=True)
+class Look:
+    """How a field is shown: SI unit, label, colour map; whether colours start at zero, centre on it, are logarithmic.
+
+    ``blank`` is what points without a value are, and ``blank_value`` (SI) what they count as along a line; ``reduced`` says which
+    value stands for a block of points where a map is shown coarser than it is: ``max``, ``min`` or ``mean``.
+    """
+
+    unit: str
+    label: str
+    colours: str
+    from_zero: bool = True
+    about_zero: bool = False
+    log: bool = False
+    blank: str = "no value"
+    blank_value: float | None = None
+    reduced: str = "mean"
+
+
+@dataclass(frozen=True)
+class Depth:
+    """Where a plane in a body lies: ``value`` in m, in words, and name, top and bottom (m) of its layer."""
+
+    value: float
+    words: str
+    layer: tuple[str, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """A map: ``values`` (nx, ny) in SI, NaN where blank, on a grid, how they look, and for a plane in a body its depth."""
+
+    values: RealArray
+    grid: Grid
+    look: Look
+    depth: Depth | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Kinds:
+    """A map of classes: the number of the class of each point (nx, ny), and name and colour of each class."""
+
+    kinds: RealArray
+    grid: Grid
+    classes: tuple[tuple[str, str], ...]
+
+
+def plot_map(shown: Field | Kinds, ax: Axes) -> Axes:
+    """Draw a map on ``ax``."""
+    if isinstance(shown, Kinds):
+        return plot_classes(shown.kinds, shown.grid, ax, shown.classes)
+    return plot_field(shown.values, shown.grid, ax, shown.look)
+
+
+def heights_field(surface: Surface) -> Field:
+    """Heights of ``surface`` relative to their mean; missing points are blank."""
     level = np.nanmean(surface.heights, dtype=np.float64)
     flat = np.nanmax(surface.heights) == np.nanmin(surface.heights)
     heights = np.where(surface.mask, np.nan, 0.0) if flat else surface.heights - level  # not the rounding of the mean
-    return plot_field(heights, surface.grid, ax, Look("m", "height", HEIGHT_MAP, from_zero=False))
+    return Field(heights, surface.grid, Look("m", "height", HEIGHT_MAP, from_zero=False, blank="missing"))
+
+
+def plot_heights(surface: Surface, ax: Axes) -> Axes:
+    """Draw the heights of ``surface`` relative to their mean on ``ax``; missing points are grey."""
+    return plot_map(heights_field(surface), ax)
+
+
+def gap_field(result: ContactResult) -> Field:
+    """Gap between the deformed surfaces of ``result``; points in contact are blank."""
+    gap = np.where(result.contact, np.nan, result.gap)
+    look = Look("m", "gap", GAP_MAP, blank="in contact", blank_value=0.0, reduced="min")
+    return Field(gap, result.problem.grid, look)
 
 
 def plot_gap(result: ContactResult, ax: Axes) -> Axes:
     """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are grey."""
-    gap = np.where(result.contact, np.nan, result.gap)
-    return plot_field(gap, result.problem.grid, ax, Look("m", "gap", GAP_MAP))
+    return plot_map(gap_field(result), ax)
+
+
+def pressure_field(result: ContactResult, *, log: bool = False) -> Field:
+    """Contact pressure of ``result``, with ``log`` on three decades; no contact is blank."""
+    pressure = np.where(result.contact, result.pressure, np.nan)
+    log = log and bool(result.contact.any())
+    look = Look("Pa", "contact pressure", PRESSURE_MAP, log=log, blank="no contact", blank_value=0.0, reduced="max")
+    return Field(pressure, result.problem.grid, look)
 
 
 def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes:
     """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact is grey."""
-    pressure = np.where(result.contact, result.pressure, np.nan)
-    look = Look("Pa", "contact pressure", PRESSURE_MAP, log=log and bool(result.contact.any()))
-    return plot_field(pressure, result.problem.grid, ax, look)
+    return plot_map(pressure_field(result, log=log), ax)
+
+
+def indentation_field(result: ContactResult) -> Field:
+    """Permanent indentation of ``result``: the plastic zone; blank where the surface never yielded."""
+    dents = np.where(result.indented, result.permanent_indentation, np.nan)
+    blank = "never plastic"
+    look = Look("m", "permanent indentation", PRESSURE_MAP, blank=blank, blank_value=0.0, reduced="max")
+    return Field(dents, result.problem.grid, look)
 
 
 def plot_indentation(result: ContactResult, ax: Axes) -> Axes:
     """Draw the permanent indentation of ``result`` on ``ax``: the plastic zone; grey where the surface never yielded."""
-    dents = np.where(result.indented, result.permanent_indentation, np.nan)
-    return plot_field(dents, result.problem.grid, ax, Look("m", "permanent indentation", PRESSURE_MAP))
+    return plot_map(indentation_field(result), ax)
+
+
+def residual_field(result: ContactResult) -> Field:
+    """Heights of the composite surface that is left of ``result`` when the load is taken away."""
+    return heights_field(result.residual_surface())
 
 
 def plot_residual(result: ContactResult, ax: Axes) -> Axes:
     """Draw the heights of the composite surface that is left of ``result`` when the load is taken away on ``ax``."""
-    return plot_heights(result.residual_surface(), ax)
+    return plot_map(residual_field(result), ax)
+
+
+def contact_kinds(result: ContactResult) -> Kinds:
+    """Where the bodies of ``result`` touch: not, elastically, or at the hardness."""
+    kinds = result.contact.astype(float) + result.plastic
+    classes = (("no contact", NO_CONTACT), ("elastic", BLUE), ("plastic", VERMILLION))
+    return Kinds(kinds, result.problem.grid, classes if result.plastic.any() else classes[:2])
 
 
 def plot_contact(result: ContactResult, ax: Axes) -> Axes:
     """Draw where the bodies of ``result`` touch on ``ax``: not, elastically, or at the hardness."""
-    kinds = result.contact.astype(float) + result.plastic
-    classes = (("no contact", NO_CONTACT), ("elastic", BLUE), ("plastic", VERMILLION))
-    return plot_classes(kinds, result.problem.grid, ax, classes if result.plastic.any() else classes[:2])
+    return plot_map(contact_kinds(result), ax)
 
 
 def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[str, str], ...]) -> Axes:
@@ -103,18 +191,6 @@ def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[st
     return ax
 
 
-@dataclass(frozen=True)
-class Look:
-    """How a field is shown: SI unit, label, colour map; whether colours start at zero, centre on it, are logarithmic."""
-
-    unit: str
-    label: str
-    colours: str
-    from_zero: bool = True
-    about_zero: bool = False
-    log: bool = False
-
-
 def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a grid of one row."""
     from matplotlib.colors import LogNorm, Normalize
@@ -130,23 +206,21 @@ def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
         ax.set(xlabel=f"{'xy'[axis]} ({length.symbol})", ylabel=title, xlim=(0.0, float(length(grid.size[axis]))))
         ax.set_yscale("log" if look.log else "linear")
         return ax
-    low, high = _limits(drawn, from_zero=look.from_zero)
-    if look.about_zero:
-        low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
+    low, high = limits(drawn, look)
     norm = LogNorm(high * 10.0**-DECADES, high, clip=True) if look.log else Normalize(low, high)
     image = _image(drawn, grid, ax, cmap=look.colours, norm=norm)
     _colour_bar(image, grid, ax, title)
     return ax
 
 
-def _limits(drawn: RealArray, *, from_zero: bool) -> tuple[float, float]:
-    """Range of colours; equal or absent values get a range of one unit."""
+def limits(drawn: RealArray, look: Look) -> tuple[float, float]:
+    """Range of colours of the values ``drawn``; equal or absent ones get a range of one unit."""
     finite = drawn[np.isfinite(drawn)]
-    low = 0.0 if from_zero or not finite.size else float(finite.min())
+    low = 0.0 if look.from_zero or not finite.size else float(finite.min())
     high = float(finite.max(initial=low))
-    if high > low:
-        return low, high
-    return (low, low + 1.0) if from_zero else (low - 0.5, low + 0.5)
+    if high <= low:
+        low, high = (low, low + 1.0) if look.from_zero else (low - 0.5, low + 0.5)
+    return (-max(abs(low), abs(high)), max(abs(low), abs(high))) if look.about_zero else (low, high)
 
 
 def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:

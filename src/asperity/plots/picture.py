@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,6 +97,13 @@ def scale(values: RealArray | float, unit: str) -> Scale:
     largest = float(magnitude.max(initial=0.0, where=np.isfinite(magnitude)))
     symbol = units.show(largest, unit).split(" ")[1]
     return Scale(symbol, units.unit_factor(symbol, KINDS[unit], "unit of an axis"))
+
+
+def colour_table(name: str) -> bytes:
+    """Red, green and blue of the 256 colours of the colour map ``name``, a byte each."""
+    from matplotlib import colormaps
+
+    return bytes(colormaps[name](np.arange(256), bytes=True)[:, :3].tobytes())
 
 
 def literal(text: str) -> str:
@@ -191,6 +199,28 @@ class Figure:
     caption: str
     picture: bytes
     wide: bool = False
+    kind: str = "curve"
+    """Kind of the figure, as that of ``Plot``."""
+    shows: Callable[[], Any] | None = None
+    """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``stress.Cut``), for a page that lets it be explored."""
+    of_step: Callable[[Any], Any] | None = None
+    """The same map of another step of a load path."""
+    curves: tuple[AxesCurves, ...] = ()
+    """Points of the curves in the picture."""
+
+
+@dataclass(frozen=True, eq=False)
+class AxesCurves:
+    """Curves on axes of a picture.
+
+    ``box`` are left, top, right and bottom of the axes as shares of the picture; of ``x`` and ``y`` label, limits and whether they are
+    logarithmic; ``curves`` are names and points, in the units of the axes.
+    """
+
+    box: tuple[float, float, float, float]
+    x: tuple[str, tuple[float, float], bool]
+    y: tuple[str, tuple[float, float], bool]
+    curves: tuple[tuple[str, RealArray, RealArray], ...]
 
 
 # From drawing functions to PNG: one figure, one set of axes, no window.
@@ -217,6 +247,10 @@ class Plot:
     kind: str = "curve"
     beside: Callable[[Any, Axes], bool] | None = None
     """Draws a part enlarged beside the map; whether it did."""
+    shows: Callable[[Any], Any] | None = None
+    """Gives the map itself, as ``maps.Field`` or ``maps.Kinds``."""
+    by_step: bool = True
+    """Whether the map differs from step to step of a load path."""
 
 
 _PAD = 0.06
@@ -249,16 +283,40 @@ def _figure(plot: Plot, thing: Any) -> Figure:
         enlarged.append(plot.beside is not None and plot.beside(thing, ax))
         return ax
 
+    if plot.kind == "curve":
+        return curve_figure(plot.name, plot.title, plot.caption, draw, size)
     picture = png(draw, size, projection="3d" if plot.kind == "view" else None)
-    return Figure(plot.name, plot.title, plot.caption + (BESIDE if any(enlarged) else ""), picture, any(enlarged))
+    shows = None if plot.shows is None else partial(plot.shows, thing)
+    caption = plot.caption + (BESIDE if any(enlarged) else "")
+    made = Figure(plot.name, plot.title, caption, picture, any(enlarged), plot.kind, shows)
+    return replace(made, of_step=plot.shows if plot.by_step else None)
+
+
+def curve_figure(
+    name: str,
+    title: str,
+    caption: str,
+    draw: Callable[[Axes], Axes],
+    size: tuple[float, float] = CURVE_SIZE,
+    **options: Any,
+) -> Figure:
+    """Figure of the curves that ``draw`` puts on axes of ``size`` inches, with their points; ``options`` are fields of ``Figure``."""
+    curves: list[AxesCurves] = []
+    picture = png(draw, size, curves=curves)
+    return Figure(name, title, caption, picture, curves=tuple(curves), **options)
 
 
 def png(
-    draw: Callable[[Axes], Axes], size: tuple[float, float], *, projection: str | None = None, dpi: int = DPI
+    draw: Callable[[Axes], Axes],
+    size: tuple[float, float],
+    *,
+    projection: str | None = None,
+    dpi: int = DPI,
+    curves: list[AxesCurves] | None = None,
 ) -> bytes:
     """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its content.
 
-    ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch.
+    ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch. The points of its ``curves`` are added to a list.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -270,8 +328,35 @@ def png(
         draw(figure.add_subplot(projection=projection))
         # bbox_inches="tight" finds the same box after drawing the whole figure once more
         content = figure.get_tightbbox(renderer).padded(_PAD)
+        if curves is not None:
+            curves.extend(_curves_of(figure, content))
         figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=content, pil_kwargs={"compress_level": _COMPRESSION})
     return buffer.getvalue()
+
+
+def _curves_of(figure: Any, content: Any) -> Iterator[AxesCurves]:
+    """Curves and bars on every axes of ``figure``, of which the picture shows the ``content`` (a box in inches)."""
+    from matplotlib.patches import StepPatch
+
+    for ax in figure.axes:
+        found = []
+        for line in ax.get_lines():
+            if line.get_transform() == ax.transData and len(line.get_xdata()) > 1:  # others mark a value
+                label = str(line.get_label())
+                x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+                found.append(("" if label.startswith("_") else label, x, y))
+        for patch in ax.patches:
+            if isinstance(patch, StepPatch):
+                bars: Any = patch.get_data()
+                found.append(("", 0.5 * (bars.edges[1:] + bars.edges[:-1]), np.asarray(bars.values, dtype=float)))
+        if not found:
+            continue
+        place = ax.get_window_extent()
+        left, right = ((float(edge) / figure.dpi - content.x0) / content.width for edge in (place.x0, place.x1))
+        top, bottom = (1.0 - (float(edge) / figure.dpi - content.y0) / content.height for edge in (place.y1, place.y0))
+        across = (ax.get_xlabel(), ax.get_xlim(), ax.get_xscale() == "log")
+        up = (ax.get_ylabel(), ax.get_ylim(), ax.get_yscale() == "log")
+        yield AxesCurves((left, top, right, bottom), across, up, tuple(found))
 
 
 def map_size(grid: Grid) -> tuple[float, float]:

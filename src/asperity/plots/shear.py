@@ -10,7 +10,7 @@ from ..contact.fretting import kinds, loop_of
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core.units import show
-from .maps import Look, enlarge_contact, plot_classes, plot_field
+from .maps import Field, Kinds, Look, enlarge_contact, plot_map
 from .picture import BLACK, BLUE, NO_CONTACT, PRESSURE_MAP, VERMILLION, Plot, legend_above, scale
 
 if TYPE_CHECKING:
@@ -20,20 +20,32 @@ CLASSES = (("open", NO_CONTACT), ("sticks", BLUE), ("slips", VERMILLION))
 """Name and colour of each kind of point, in the order of their numbers."""
 
 
+def stick_slip_kinds(result: ContactResult) -> Kinds:
+    """Where the surfaces of ``result`` are open, stick, and slip in the last step; InputError if it has no stick and slip."""
+    return Kinds(np.asarray(kinds(result), dtype=float), result.problem.grid, CLASSES)
+
+
 def plot_stick_slip(result: ContactResult, ax: Axes) -> Axes:
     """Draw on ``ax`` where the surfaces of ``result`` are open, stick, and slip in the last step.
 
     InputError if the result has no stick and slip.
     """
-    return plot_classes(kinds(result), result.problem.grid, ax, CLASSES)
+    return plot_map(stick_slip_kinds(result), ax)
+
+
+def dissipation_field(thing: ContactResult | HistoryResult) -> Field:
+    """Energy per area that slip has dissipated in the step of a result, or in all steps of a history; blank where nothing slips."""
+    steps = thing.steps if isinstance(thing, HistoryResult) else (thing,)
+    density = np.sum([step.require_stick_slip().dissipation_density for step in steps], axis=0)
+    drawn = np.where(density > 0.0, density, np.nan)
+    blank = "no slip"
+    look = Look("J/m²", "energy dissipated by slip", PRESSURE_MAP, blank=blank, blank_value=0.0, reduced="max")
+    return Field(drawn, steps[-1].problem.grid, look)
 
 
 def plot_dissipation(thing: ContactResult | HistoryResult, ax: Axes) -> Axes:
     """Draw the energy per area that slip has dissipated on ``ax``: in the step of a result, or in all steps of a history."""
-    steps = thing.steps if isinstance(thing, HistoryResult) else (thing,)
-    density = np.sum([step.require_stick_slip().dissipation_density for step in steps], axis=0)
-    drawn = np.where(density > 0.0, density, np.nan)
-    return plot_field(drawn, steps[-1].problem.grid, ax, Look("J/m²", "energy dissipated by slip", PRESSURE_MAP))
+    return plot_map(dissipation_field(thing), ax)
 
 
 def plot_shear_section(result: ContactResult, ax: Axes) -> Axes:
@@ -88,6 +100,7 @@ SHEAR_PLOTS = (
         plot_stick_slip,
         "map",
         enlarge_contact,
+        shows=stick_slip_kinds,
     ),
     Plot(
         "shear_section",
@@ -103,6 +116,8 @@ SHEAR_PLOTS = (
         plot_dissipation,
         "map",
         enlarge_contact,
+        shows=dissipation_field,
+        by_step=False,
     ),
 )
 """Figures of a result with stick and slip in the order of a report."""
@@ -120,6 +135,8 @@ LOOP_PLOTS = (
         "Energy per area that slip has dissipated in all steps; grey where nothing has slipped.",
         plot_dissipation,
         "map",
+        shows=dissipation_field,
+        by_step=False,
     ),
 )
 """Figures of a history with stick and slip."""

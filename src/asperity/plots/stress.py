@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
 from textwrap import wrap
@@ -20,15 +20,15 @@ from ..core.grid import Grid
 from ..core.quantity import Quantity
 from ..core.units import show
 from ..stress.field import DERIVED, StressField
+from ..stress.regions import Plane
 from ..stress.survey import StressSurvey, SurveyedSection
-from .maps import Look, enlarge_island, plot_field
+from .maps import Depth, Field, Look, enlarge_island, limits, plot_field
 from .picture import (
     BAR,
     BAR_ROOM,
     BESIDE,
     BLACK,
     BLUE,
-    CURVE_SIZE,
     GREEN,
     ORANGE,
     PURPLE,
@@ -36,6 +36,7 @@ from .picture import (
     VERMILLION,
     Figure,
     apart,
+    curve_figure,
     legend_above,
     literal,
     make_room,
@@ -173,16 +174,45 @@ def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *
     section = field.planes[plane]
     values = getattr(field.only(plane), quantity)[0]
     grid = Grid((field.x.size, field.y.size), field.spacing)
+    return plot_field(values, grid, ax, _look(kind, _place(section)))
+
+
+def _place(section: Plane) -> str:
+    """Where a plane lies, in words."""
     side = "" if section.side in ("surface", "inside") else f", {section.side} the interface"
-    place = "surface" if section.side == "surface" else f"depth {show(section.depth, 'm')}{side}"
-    label = f"{kind.label}, {place}"
-    colours = SIGNED_MAP if kind.name not in MAGNITUDES else UNSIGNED_MAP
-    return plot_field(
-        values,
-        grid,
-        ax,
-        Look("Pa", label, colours, from_zero=kind.name in MAGNITUDES, about_zero=kind.name not in MAGNITUDES),
-    )
+    return "surface" if section.side == "surface" else f"depth {show(section.depth, 'm')}{side}"
+
+
+def _look(kind: Quantity, place: str = "") -> Look:
+    """Colours of a stress: from zero for magnitudes, about zero for those of either sign."""
+    magnitude = kind.name in MAGNITUDES
+    colours, label = (UNSIGNED_MAP if magnitude else SIGNED_MAP), ", ".join(filter(None, (kind.label, place)))
+    reduced = "max" if magnitude else "mean"
+    return Look("Pa", label, colours, from_zero=magnitude, about_zero=not magnitude, reduced=reduced)
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """A stress on a vertical section: ``values`` (planes, points) in Pa, the field they belong to, look and range of the colours."""
+
+    field: StressField
+    values: RealArray
+    look: Look
+    range: tuple[float, float]
+
+    @property
+    def layers(self) -> tuple[tuple[str, float, float], ...]:
+        """Name, top and bottom (m) of the layers, neighbours of one name as one."""
+        runs = [list(run) for _, run in groupby(self.field.regions, key=lambda region: region.name)]
+        return tuple((run[0].name, run[0].top, run[-1].bottom) for run in runs)
+
+
+def _cut(field: StressField, quantity: str) -> Cut:
+    """One ``quantity`` of a section; where tension matters alone colours end at the largest."""
+    values, kind = getattr(field, quantity), QUANTITIES[quantity]
+    look = _look(kind)
+    ends = limits(np.maximum(values, 0.0) if kind.name in TENSIONS and values.max() > 0.0 else values, look)
+    return Cut(field, values, look, ends)
 
 
 def _known(quantity: str) -> Quantity:
@@ -306,9 +336,9 @@ def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
     for number, field in enumerate(survey.profiles, start=1):
         sizes = {name: float(np.abs(getattr(field, name)).max()) for name in PROFILE}
         quantities = tuple(name for name, size in sizes.items() if size > 1e-3 * max(sizes.values()))
-        picture = png(partial(plot_stress_profile, field, quantities=quantities), CURVE_SIZE)
+        draw = partial(plot_stress_profile, field, quantities=quantities)
         caption = "Stresses against depth; a break where a stress jumps at an interface."
-        yield Figure(f"stress_profile_{number}", f"Depth profile {number}", caption, picture)
+        yield curve_figure(f"stress_profile_{number}", f"Depth profile {number}", caption, draw)
 
 
 PEAK = 0.5
@@ -334,7 +364,10 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     caption = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
     caption += BESIDE if any(enlarged) else ""
     title = f"Von Mises stress at {depth}{side}"
-    return Figure(f"stress_plane_{number}", title, caption, picture, any(enlarged))
+    look = _look(QUANTITIES["von_mises"])
+    part, values = section.region, np.asarray(stress, dtype=np.float32)  # without the other components
+    shown = Field(values, grid, look, Depth(section.depth, _place(section), (part.name, part.top, part.bottom)))
+    return Figure(f"stress_plane_{number}", title, caption, picture, any(enlarged), "map", lambda: shown)
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:
@@ -355,10 +388,12 @@ def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[
         log = near is not None and kind.name in MAGNITUDES
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
-        yield Figure(name, title, f"Vertical plane, {caption}{scale}", png(draw, SECTION_SIZE))
+        picture, shows = png(draw, SECTION_SIZE), partial(_cut, field, quantity)
+        yield Figure(name, title, f"Vertical plane, {caption}{scale}", picture, kind="cut", shows=shows)
         if near is not None:
             draw = partial(plot_stress_section, near, quantity=quantity)
-            yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {caption}", png(draw, SECTION_SIZE))
+            picture = png(draw, SECTION_SIZE)
+            yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {caption}", picture, kind="cut")
 
 
 def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> StressField | None:

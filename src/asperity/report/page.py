@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import re
 from collections.abc import Iterable, Mapping
 from importlib import resources
@@ -16,9 +17,14 @@ from ..core.text import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
 from ..plots.picture import Figure
+from .scene import as_json, curves_of
 
 WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
 """Names of options, and numbers with exponents: no line of a page is broken at their hyphens."""
+
+
+POLICY = "default-src 'none'"
+"""Stands in a template for the policy of the page."""
 
 
 def write_page(
@@ -27,26 +33,31 @@ def write_page(
     *,
     citation_keys: Iterable[str],
     figures: Iterable[Figure] = (),
+    scene: Mapping[str, Any] | None = None,
     overwrite: bool = False,
     **values: Any,
 ) -> None:
     """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, to the HTML file ``path``.
 
-    Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows) and ``document`` (its text).
+    A ``scene`` is what its viewer shows (see ``scene``). Values of every page are ``title`` and ``summary``, those of most ``provenance`` (rows) and ``document`` (its text).
 
     Raises
     ------
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
+    code = script()
     with atomic_file(path, overwrite=overwrite) as file:
         page = rendered(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
             figures=shown(figures),
+            scene="" if scene is None else Markup(as_json(scene)),
+            script=Markup(code),
+            policy=POLICY,
             **{"provenance": None, "document": None, **values},
         )
-        file.write_text(page, encoding="utf-8")
+        file.write_text(_secured(page, code), encoding="utf-8")
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -75,8 +86,36 @@ def prose(text: object) -> Markup:
 
 
 def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
-    """``figures`` for a template, the pictures as base64."""
-    return [{**vars(f), "picture": base64.b64encode(f.picture).decode("ascii")} for f in figures]
+    """``figures`` for a template: the pictures as base64, the points of their curves as JSON."""
+    return [
+        {
+            **{key: getattr(figure, key) for key in ("name", "title", "caption", "wide", "kind")},
+            "picture": base64.b64encode(figure.picture).decode("ascii"),
+            "curves": Markup(as_json(curves_of(figure))) if figure.curves else "",
+        }
+        for figure in figures
+    ]
+
+
+def script() -> str:
+    """The viewer of maps and curves: JavaScript that needs no other file."""
+    return _source("viewer.js")
+
+
+def style() -> str:
+    """The style sheet of the viewer."""
+    return _source("viewer.css")
+
+
+def _secured(page: str, code: str) -> str:
+    """``page`` with a policy that forbids everything but embedded pictures, its own style sheet and the script ``code``."""
+    sheet = page[page.index("<style>") + 7 : page.index("</style>")]
+    allowed = f"script-src {_digest(code)}; style-src {_digest(sheet)}"
+    return page.replace(POLICY, f"default-src 'none'; img-src data:; {allowed}; base-uri 'none'; form-action 'none'", 1)
+
+
+def _digest(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
 def software_rows(software: Mapping[str, str], **digests: str) -> Rows:

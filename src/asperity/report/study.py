@@ -27,7 +27,7 @@ from ..plots.campaign import (
     plot_sensitivities,
     plot_transitions,
 )
-from ..plots.picture import CURVE_SIZE, Figure, png, save_pictures
+from ..plots.picture import CURVE_SIZE, Figure, curve_figure, save_pictures
 from ..studies.campaign import Campaign, CampaignState
 from ..studies.collect import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
@@ -89,7 +89,7 @@ def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) ->
     y = labelled(array)
     x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
     picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
-    yield Figure(name, y.quantity.title, f"{y.quantity.title} against {x.quantity.label}{more}.", picture)
+    yield picture(name, y.quantity.title, f"{y.quantity.title} against {x.quantity.label}{more}.")
 
 
 def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -107,21 +107,19 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
         caption = (
             f"Mean of {y.quantity.label} over the samples; the band is one standard deviation on either side{where}."
         )
-        yield Figure(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption, picture)
+        yield picture(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption)
     table = campaign.study.document.monte_carlo
     confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
     whole = estimate(np.asarray(first), confidence)
     samples = Labelled(y.quantity, np.asarray(first, dtype=float))
     picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
-    yield Figure(
-        f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.", picture
-    )
+    yield picture(f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.")
     done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
     running = [estimate(samples.values[: n + 1], confidence) for n in range(done)]
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
     picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
     caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
-    yield Figure(f"{name}_running", f"{y.quantity.title}, running mean", caption, picture)
+    yield picture(f"{name}_running", f"{y.quantity.title}, running mean", caption)
 
 
 def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -134,7 +132,7 @@ def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     y = labelled(array)
     picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
     caption = f"{y.quantity.label} from coarse to fine, and its Richardson extrapolation{more}."
-    yield Figure(name, y.quantity.title, caption, picture)
+    yield picture(name, y.quantity.title, caption)
 
 
 def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -150,7 +148,7 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
         f"{y.quantity.title} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
         f"layer does not matter, above the ceiling what lies under it does not{more}."
     )
-    yield Figure(name, y.quantity.title, caption, picture)
+    yield picture(name, y.quantity.title, caption)
 
 
 def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -159,10 +157,10 @@ def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     base, _ = _first(data[name].isel(parameter=0), "")
     names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
     size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
-    picture = png(lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size)
-    yield Figure(
-        name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.", picture
+    picture = _picture(
+        lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size
     )
+    yield picture(name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.")
 
 
 _DRAWN: dict[str, Draw] = {
@@ -199,8 +197,9 @@ def _spread(count: int) -> Sequence[int]:
     return [int(number) for number in np.linspace(0, count - 1, MOST_CURVES).round()]
 
 
-def _picture(draw: Callable[[Any], Any]) -> bytes:
-    return png(draw, CURVE_SIZE)
+def _picture(draw: Callable[[Any], Any], size: tuple[float, float] = CURVE_SIZE) -> Callable[[str, str, str], Figure]:
+    """Makes the figure that ``draw`` draws from its name, title and caption."""
+    return lambda name, title, caption: curve_figure(name, title, caption, draw, size)
 
 
 # The numbers of a study in words for tables.

@@ -26,6 +26,7 @@ from ..parts.registry import versions
 from ..run.execute import Outcome, analysed
 from ..run.tractions import TractionsDocument, traction_rows
 from .page import shown, software_rows, write_page
+from .scene import scene_of
 
 
 def write_report(
@@ -80,6 +81,7 @@ def write_report(
         certificate=certificate_rows(result),
         results=result_rows(result),
         figures=outcome.pictures,
+        scene=scene_of(outcome),
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
         advice=tuple(dict.fromkeys((*doubts(*path_steps, result), *outcome.findings, *advice))),
         provenance=[

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import io
+import re
 from dataclasses import dataclass, replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -22,7 +24,7 @@ from asperity.core.errors import OutputError
 from asperity.io.words import body_rows, body_text, scalar_text, surface_rows
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
-from asperity.report.page import prose
+from asperity.report.page import prose, script
 from asperity.surfaces.surface import Origin
 
 pytestmark = pytest.mark.usefixtures("unrendered")
@@ -50,7 +52,7 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data: str) -> None:
-        if self.open and self.open[-1] not in ("style", "title"):
+        if self.open and self.open[-1] not in ("style", "title", "script"):
             self.words.append(data)
 
     @property
@@ -106,7 +108,13 @@ def test_nothing_is_loaded_from_elsewhere(page: Page, html: str) -> None:
     loaded = [value for _, attributes in page.tags for key, value in attributes.items() if key in {"src", "href"}]
     assert len(loaded) == len(PLOTS) + len(PLASTIC_PLOTS) + 1
     assert all(value.startswith("data:") for value in loaded)
-    assert page.all("script") == []
+    assert [item for item in page.all("script") if item != {"type": "application/json"}] == [{}], "one script"
+    policy = next(item["content"] for item in page.all("meta") if "http-equiv" in item)
+    digest = base64.b64encode(hashlib.sha256(script().encode()).digest()).decode()
+    assert policy.startswith(f"default-src 'none'; img-src data:; script-src 'sha256-{digest}'; style-src 'sha256-")
+    assert html.count(f"<script>{script()}</script>") == 1
+    assert not re.search(r"""<[^>]* on[a-z]+=""", html.replace(script(), "")), "a handler within an element"
+    assert "eval(" not in script()
     assert "@import" not in html
     assert "url(" not in html
 
@@ -163,7 +171,7 @@ def test_provenance_citations_and_document_are_there(page: Page, result: asp.Con
 
 
 def test_text_from_files_is_escaped(page: Page, html: str) -> None:
-    assert "<script>" not in html
+    assert html.count("<script>") == 1
     assert "<b>'" not in html
     assert "Contact report: <script>alert('x')</script> & co.x3p" in page.text
     assert "Warning: pixel <size> Refine to 5 nm & repeat." in page.text

@@ -1,0 +1,162 @@
+"""What a page holds for its viewer: the coding of maps, how coarse they are, and how large all of it may be."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity as asp
+from asperity.core.arrays import RealArray
+from asperity.plots.picture import colour_table
+from asperity.report.scene import BUDGET, MASKED, MOST_STEPS, as_json, coded, coded_kinds, decoded, reduced, scene_of
+from asperity.run.execute import analysed
+from asperity.run.stored import load_outcome, save_outcome
+
+pytestmark = pytest.mark.usefixtures("unrendered")
+
+RANDOM = np.random.default_rng(5)
+
+
+def values(shape: tuple[int, int] = (37, 22), missing: float = 0.2) -> RealArray:
+    found = RANDOM.standard_normal(shape).cumsum(0) * 1e-9
+    found[RANDOM.random(shape) < missing] = np.nan
+    return found
+
+
+@pytest.mark.parametrize("shape", [(37, 22), (1, 5), (5, 1), (128, 64)])
+def test_values_return_to_half_a_step(shape: tuple[int, int]) -> None:
+    wanted = values(shape)
+    array = coded(wanted, (2e-8, 1e-8))
+    found = decoded(array)
+    assert np.array_equal(np.isnan(found), np.isnan(wanted))
+    span = np.nanmax(wanted) - np.nanmin(wanted)
+    assert array["step"] == pytest.approx(span / (MASKED[16] - 1))
+    assert np.nanmax(np.abs(found - wanted)) <= 0.5 * array["step"] * (1.0 + 1e-9)
+    assert array["shape"] == list(shape)
+    assert array["cell"] == [2e-8, 1e-8]
+
+
+@pytest.mark.parametrize("value", [0.0, 3.5, np.nan])
+def test_equal_values_return_exactly(value: float) -> None:
+    np.testing.assert_array_equal(decoded(coded(np.full((4, 3), value), (1.0, 1.0))), np.full((4, 3), value))
+
+
+def test_every_difference_of_two_numbers_is_coded() -> None:
+    ends = np.array([[0.0, 65534.0], [65534.0, 0.0], [32768.0, 0.0], [np.nan, 32767.0], [1.0, np.nan]]).T
+    np.testing.assert_array_equal(decoded(coded(ends, (1.0, 1.0))), ends)
+
+
+def test_classes_return_exactly() -> None:
+    kinds = RANDOM.integers(0, 4, (9, 14)).astype(float)
+    np.testing.assert_array_equal(decoded(coded_kinds(kinds, (1.0, 1.0))), kinds)
+
+
+@pytest.mark.parametrize(("how", "of"), [("max", np.nanmax), ("min", np.nanmin), ("mean", np.nanmean)])
+def test_a_block_is_its_extreme_or_mean_and_blank_where_all_is_blank(how: str, of: object) -> None:
+    wanted = values((11, 7), missing=0.4)
+    wanted[:3, :3] = np.nan
+    found = reduced(wanted, 3, how)
+    assert found.shape == (4, 3)
+    assert np.isnan(found[0, 0])
+    for i in range(4):
+        for j in range(3):
+            block = wanted[3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
+            if np.isfinite(block).any():
+                assert found[i, j] == pytest.approx(of(block), rel=1e-12)  # type: ignore[operator]
+
+
+def posed(n: int = 32, law: asp.HardWall | asp.Hardness | None = None) -> asp.ContactProblem:
+    noise = np.random.default_rng(7).standard_normal((n, n // 2))
+    heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
+    surface = asp.Surface(heights, 2e-8, 1e-8, periodic=True)
+    return asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), law=law or asp.HardWall())
+
+
+@pytest.fixture(scope="module")
+def path() -> asp.HistoryResult:
+    return asp.solve(posed(law=asp.Hardness(3e9)), asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=3)))
+
+
+def test_a_scene_holds_the_maps_of_the_result() -> None:
+    result = asp.solve(posed(), asp.MeanPressure(2e8))
+    made = scene_of(analysed(result, {"plasticity": True}))
+    assert made is not None
+    maps = {item["name"]: item for item in made["maps"]}
+    assert list(maps) == ["heights", "pressure", "contact", "gap"]
+    pressure = decoded(maps["pressure"]["arrays"][0])
+    np.testing.assert_array_equal(np.isfinite(pressure), result.contact)
+    assert np.nanmax(np.abs(pressure - result.pressure)) <= 0.5 * maps["pressure"]["arrays"][0]["step"] * (1.0 + 1e-9)
+    assert maps["contact"]["arrays"][0]["shares"] == pytest.approx([1.0 - result.area_fraction, result.area_fraction])
+    assert made["line"][1] == made["line"][3]
+    assert made["wraps"] == [True, True]
+    assert made["steps"] is made["depths"] is None
+    assert set(made["palettes"]) == {"cividis", "viridis"}
+    assert len(colour_table("viridis")) == 768
+    assert json.loads(as_json(made)) == made
+
+
+def test_every_step_of_a_path_is_there(path: asp.HistoryResult) -> None:
+    made = scene_of(analysed(path.last, {"path": True, "plasticity": True}, path))
+    assert made is not None
+    maps = {item["name"]: item for item in made["maps"]}
+    assert maps["heights"]["along"] is None
+    assert len(made["steps"]["texts"]) == len(path.steps)
+    for name in ("pressure", "contact", "gap"):
+        assert len(maps[name]["arrays"]) == len(path.steps)
+    for array, step in zip(maps["pressure"]["arrays"], path.steps, strict=True):
+        np.testing.assert_array_equal(np.isfinite(decoded(array)), step.contact)
+    top = max(float(step.pressure.max()) for step in path.steps)
+    assert maps["pressure"]["range"][1] == pytest.approx(top, rel=1e-12)
+
+
+def test_long_paths_are_thinned_with_a_note(path: asp.HistoryResult) -> None:
+    long = replace(path, steps=path.steps * 14)
+    made = scene_of(analysed(long.last, {"plasticity": True}, long))
+    assert made is not None
+    assert len(made["steps"]["texts"]) == MOST_STEPS
+    assert any(f"{MOST_STEPS} of the {len(long.steps)} steps" in note for note in made["notes"])
+
+
+def test_a_coarse_map_says_so_and_loses_no_contact() -> None:
+    result = asp.solve(posed(64), asp.MeanPressure(5e7))
+    made = scene_of(analysed(result, {}), most_points=64 * 32 // 9)
+    assert made is not None
+    assert any("one value for each 4 × 4 points" in note and "Pressure (the largest)" in note for note in made["notes"])
+    pressure = next(item for item in made["maps"] if item["name"] == "pressure")["arrays"][0]
+    assert pressure["shape"] == [16, 8]
+    assert pressure["cell"] == [4 * 2e-8, 4 * 1e-8]
+    blocks = result.pressure.reshape(16, 4, 8, 4).max(axis=(1, 3))
+    np.testing.assert_allclose(np.nan_to_num(decoded(pressure)), blocks, atol=0.51 * pressure["step"])
+
+
+def test_arrays_take_no_more_than_the_budget(path: asp.HistoryResult) -> None:
+    outcome = analysed(path.last, {"path": True, "plasticity": True}, path)
+    for budget in (BUDGET, 8000, 4000):
+        made = scene_of(outcome, budget=budget)
+        assert made is not None
+        assert sum(len(array["data"]) for item in made["maps"] for array in item["arrays"]) <= budget
+    assert any("Shown coarser" in note for note in made["notes"])
+
+
+def test_a_scene_is_the_same_from_a_file(path: asp.HistoryResult, tmp_path: Path) -> None:
+    outcome = analysed(path.last, {"contact": True, "path": True, "plasticity": True}, path)
+    save_outcome(outcome, tmp_path / "r.nc")
+    assert scene_of(load_outcome(tmp_path / "r.nc")) == scene_of(outcome)
+
+
+def test_a_grid_of_one_row_has_no_maps() -> None:
+    surface = asp.Surface(
+        np.cos(np.linspace(0.0, 2.0 * np.pi, 32, endpoint=False))[:, None] * 1e-9, 1e-8, periodic=True
+    )
+    result = asp.solve(asp.ContactProblem(surface, asp.Elastic(1e11, 0.3)), asp.MeanPressure(1e7))
+    assert scene_of(analysed(result, {})) is None
+
+
+def test_text_within_a_page_ends_no_element() -> None:
+    assert "<" not in as_json({"name": "</script><b>"})
+    with pytest.raises(ValueError, match="JSON"):
+        as_json(float("nan"))
