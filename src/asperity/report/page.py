@@ -33,13 +33,13 @@ def write_page(
     *,
     citation_keys: Iterable[str],
     figures: Iterable[Figure] = (),
-    scene: Mapping[str, Any] | None = None,
     overwrite: bool = False,
     **values: Any,
 ) -> None:
     """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, to the HTML file ``path``.
 
-    A ``scene`` is what its viewer shows (see ``scene``). Values of every page are ``title`` and ``summary``, those of most ``provenance`` (rows) and ``document`` (its text).
+    Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows), ``document`` (its text) and ``scene`` (what its
+    viewer shows, see ``scene.scene``).
 
     Raises
     ------
@@ -52,10 +52,9 @@ def write_page(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
             figures=shown(figures),
-            scene="" if scene is None else Markup(as_json(scene)),
             script=Markup(code),
             policy=POLICY,
-            **{"provenance": None, "document": None, **values},
+            **{"provenance": None, "document": None, "scene": None, **values},
         )
         file.write_text(_secured(page, code), encoding="utf-8")
 
@@ -73,6 +72,7 @@ def rendered(template: str, **values: Any) -> str:
         lstrip_blocks=True,
     )
     environment.filters["prose"] = prose
+    environment.filters["json"] = lambda value: Markup(as_json(value))
     return environment.get_template(template).render(**values)
 
 
@@ -91,7 +91,7 @@ def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
         {
             **{key: getattr(figure, key) for key in ("name", "title", "caption", "wide", "kind")},
             "picture": base64.b64encode(figure.picture).decode("ascii"),
-            "curves": Markup(as_json(curves_of(figure))) if figure.curves else "",
+            "curves": curves_of(figure),
         }
         for figure in figures
     ]
