@@ -36,6 +36,7 @@ from typing import Any
 
 import numpy as np
 
+from ..contact.fretting import loop_of
 from ..contact.history import HistoryResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
@@ -335,8 +336,6 @@ def _steps(path: HistoryResult | None) -> list[int]:
 
 def _step_texts(path: HistoryResult, steps: Sequence[int]) -> list[str]:
     """Number and load of the steps, and the force along the surface where there is one."""
-    from ..contact.fretting import loop_of
-
     loop = loop_of(path.steps) if path.steps[-1].stick_slip is not None else None
     texts = []
     for number in steps:
