@@ -85,7 +85,8 @@ def coefficients(ratio: float, nu: float, pixels: int) -> np.ndarray:
     problem = asp.ContactProblem(punch, body, counter_body=body, boundary=asp.Free(), friction=asp.FullStick())
     motions = asp.Creepage(SMALL), asp.Creepage(0.0, SMALL), asp.Creepage(0.0, 0.0, SMALL)
     along, across, spin = (asp.roll(problem, asp.Force(1e-3), motion) for motion in motions)
-    return np.array([along.force_x, across.force_y, spin.force_y, spin.torque]) / SMALL
+    size = np.sqrt(inside.sum() * punch.grid.pixel_area / np.pi)  # of the pixels, whose rim is a staircase
+    return np.array([along.force_x, across.force_y, spin.force_y, spin.torque]) / SMALL / size ** np.array([2, 2, 3, 4])
 
 
 def computed() -> None:
