@@ -41,7 +41,7 @@ its neighbours, which is 4.870 ± 0.005 here."""
 
 COMPUTED = {0.0: (0, 6, 7, 15, 17), 0.25: (0, 1, 3, 4, 7, 8, 10, 13, 17, 18), 0.5: (1, 3, 6, 9, 10, 11, 14, 18)}
 """Places in their row, by ν, of the coefficients that are not Kalker's. They are steady rolling of a punch that sticks, on five grids of 40² to 160² pixels, with a
-parabola in the pixel taken to zero (``validation/kalker_table.py``). Other fits differ by 0.2 % (C33 0.6 %, 1 % at a/b = 10); from the rows of Kalker's so
+parabola in the pixel taken to zero (``validation/kalker_table.py``). Other fits differ by 0.1 % (C33 0.3 %, 1.5 % at a/b = 10); from the rows of Kalker's so
 found differ by 0.2 % on the average (C33 0.5 %) and by 1 % at most, at a/b = 10."""
 
 SMALLEST_RATIO, LARGEST_RATIO = 0.1, 10.0
