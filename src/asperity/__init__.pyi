@@ -6,6 +6,7 @@ from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
 from .contact.couplings.stick_slip import StickSlip
+from .contact.creep import CreepCurve, creep_curve
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
 from .contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
 from .contact.operators import prepare_operator
@@ -13,6 +14,7 @@ from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Step, Unloaded
 from .contact.result import ContactResult
 from .contact.rolling import Creepage, RollingContact, roll
+from .contact.rough_rolling import RoughRolling, roll_rough
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
@@ -98,6 +100,7 @@ __all__ = [
     "Coulomb",
     "CouplingCheck",
     "CpuEngine",
+    "CreepCurve",
     "Creepage",
     "DepthProfile",
     "Elastic",
@@ -145,6 +148,7 @@ __all__ = [
     "Rigid",
     "RigidBase",
     "RollingContact",
+    "RoughRolling",
     "Roughness",
     "Rounds",
     "Section",
@@ -176,6 +180,7 @@ __all__ = [
     "compare",
     "composite",
     "contact_modulus",
+    "creep_curve",
     "cropped",
     "depths_through",
     "despiked",
@@ -214,6 +219,7 @@ __all__ = [
     "rms_height",
     "rms_slope",
     "roll",
+    "roll_rough",
     "roughness",
     "roughness_of",
     "run",

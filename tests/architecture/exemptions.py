@@ -28,6 +28,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "Prepared.__init__": "the choices of solve, for all steps of a history",
         "compare": "independent keyword-only choices of the user, each with a default",
         "roll": "independent keyword-only choices of the user, each with a default",
+        "roll_rough": "independent keyword-only choices of the user, each with a default",
+        "creep_curve": "independent keyword-only choices of the user, each with a default",
         "stress": "independent keyword-only choices of the user, each with a default",
         "stress_planes": "independent keyword-only choices of the user, each with a default",
         "save_gaussian": "independent keyword-only choices of the user, most with a default",

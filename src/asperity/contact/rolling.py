@@ -27,6 +27,7 @@ from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet
 from .solvers.stick_slip.newton import StickSlipNewton
 from .solvers.stick_slip.steady import Direction, RollingQP, SteadyNewton
+from .state import InterfaceState
 from .tangential import about_centre, resultant
 
 Method: TypeAlias = Literal["direct", "transient"]
@@ -116,6 +117,8 @@ class RollingContact:
         Steps taken: Newton steps of the direct method, moves of the transient one.
     status
         How it ended.
+    law
+        Friction law.
     direction
         That in which the contact rolls: ``"x"``, ``"-x"``, ``"y"`` or ``"-y"``.
     """
@@ -133,12 +136,21 @@ class RollingContact:
     steadiness: float
     steps: int
     status: Status
+    law: FrictionLaw
     direction: Rolling = "x"
 
     @property
     def slipping(self) -> BoolArray:
         """(nx, ny), True where the surfaces slip."""
         return np.asarray(np.any(self.slip != 0.0, axis=0))
+
+    @property
+    def slip_area_fraction(self) -> float:
+        """Area that slips over area in contact (pixels); NaN without contact."""
+        touching = self.normal.contact
+        return (
+            float(np.count_nonzero(self.slipping & touching)) / np.count_nonzero(touching) if touching.any() else np.nan
+        )
 
     @property
     def longitudinal_force(self) -> float:
@@ -218,7 +230,7 @@ def roll(
             f"start of rolling must have the shape {problem.grid.shape} of the grid, but has {start.traction.shape[1:]}."
         )
     found = _balanced(bodies, friction, control, (method, tolerance, rounds), start)
-    result = _result(found, creepage, direction, method)
+    result = _result(found, creepage, direction, method, friction)
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
@@ -252,7 +264,7 @@ def _balanced(
         lift = bodies.shear.lift(traction)
     total, change = 0, np.inf
     for _ in range(rounds if coupled else 1):
-        normal = bodies.pressed(profile - lift, control, normal)
+        normal = bodies.pressed(profile - lift, control, None if normal is None else normal.state)
         qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
         found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
         traction, total = found.traction, total + found.steps
@@ -314,12 +326,11 @@ class RollingBodies:
             problem.profile(),
         )
 
-    def pressed(self, heights: RealArray, control: Control, before: ContactResult | None) -> ContactResult:
-        """The contact of a surface of these ``heights`` (nx, ny) in m, started from the one ``before``."""
+    def pressed(self, heights: RealArray, control: Control, before: InterfaceState | None) -> ContactResult:
+        """The contact of a surface of these ``heights`` (nx, ny) in m, started from the state ``before``."""
         problem = replace(self.problem, surface=_with_heights(self.problem.surface, heights))
-        solver = ActiveSet(tolerance=NORMAL_TOLERANCE)
-        state = None if before is None else before.state
-        return solve(problem, control, keep=Keep(stiffness=False), solver=solver, operator=self.operator, state=state)
+        solver, keep = ActiveSet(tolerance=NORMAL_TOLERANCE), Keep(stiffness=False)
+        return solve(problem, control, keep=keep, solver=solver, operator=self.operator, state=before)
 
     def posed(self, bound: RealArray, pressure: RealArray) -> RollingQP:
         """Steady rolling with the ``bound`` under ``pressure``, both (nx, ny) in Pa."""
@@ -386,7 +397,9 @@ def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int,
     return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
 
 
-def _result(balance: _Balance, creepage: Creepage, direction: Rolling, method: Method) -> RollingContact:
+def _result(
+    balance: _Balance, creepage: Creepage, direction: Rolling, method: Method, law: FrictionLaw
+) -> RollingContact:
     """What was found."""
     found, qp, grid = balance.found, balance.qp, balance.qp.operator.grid
     moves = "moves" if method == "transient" else "Newton steps"
@@ -411,5 +424,6 @@ def _result(balance: _Balance, creepage: Creepage, direction: Rolling, method: M
         steadiness=found.steadiness,
         steps=balance.steps,
         status=status,
+        law=law,
         direction=direction,
     )
