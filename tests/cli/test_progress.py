@@ -12,8 +12,8 @@ import pytest
 from rich.console import Console
 from rich.progress import Progress as Bar
 
-from asperity.cli.show import OnBar, done, interruptible, shown
-from asperity.core.status import NoProgress
+from asperity.cli.show import OnBar, interruptible, shown
+from asperity.core.status import NoProgress, share_done
 
 
 def test_silent_without_a_terminal() -> None:
@@ -29,11 +29,11 @@ def test_bar_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_share_is_logarithmic() -> None:
-    assert done(1.0, 1.0, 1e-6) == 0.0
-    assert done(1e-3, 1.0, 1e-6) == pytest.approx(0.5)
-    assert done(1e-7, 1.0, 1e-6) == 1.0
-    assert done(math.inf, math.inf, 1e-6) == 0.0
-    assert done(math.nan, 1.0, 1e-6) == 0.0
+    assert share_done(1.0, 1.0, 1e-6) == 0.0
+    assert share_done(1e-3, 1.0, 1e-6) == pytest.approx(0.5)
+    assert share_done(1e-7, 1.0, 1e-6) == 1.0
+    assert share_done(math.inf, math.inf, 1e-6) == 0.0
+    assert share_done(math.nan, 1.0, 1e-6) == 0.0
 
 
 def test_bar_follows_the_error() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import resources
@@ -18,25 +17,15 @@ from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
-from ..report import write_report
+from ..report.folder import names_in_folder, write_run
 from ..run.build import build, large_grid, stated_points
-from ..run.document import ProblemDocument, checked, dumps, files_of, loads, read_table, relocated, save_document
+from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
-from ..run.stored import save_outcome
 from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid, own_option
 from .show import confirmed, print_files, print_problem, print_result, say, stage
-
-NAMES_IN_FOLDER = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
-"""What a run leaves in its folder."""
-
-PATH_NAMES = ("path.csv",)
-"""What a load path leaves there as well: scalars and energies of its steps."""
-
-STRESS_NAMES = ("stress.csv",)
-"""What stresses leave there as well: the table of the largest ones."""
 
 Out = Annotated[
     Path | None,
@@ -191,10 +180,7 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
         outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
         if folder is not None and out is not None:
             moved = relocated(document, base, out)
-            export_csv(outcome.result, folder / "scalars.csv", scalars=outcome.scalars)
-            if outcome.path is not None:
-                export_csv(outcome.path, folder / PATH_NAMES[0])
-            write_parts(outcome, folder, moved)
+            write_run(outcome, folder, moved)
     if "save_document" in files:
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
     if "csv" in files:
@@ -204,24 +190,8 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
     write_volume(outcome, files, force=force)
     print_problem(outcome, document.title or "Contact")
     print_result(outcome)
-    stressed = STRESS_NAMES if "stress" in outcome.found else ()
-    names = [*NAMES_IN_FOLDER, *stressed, *(PATH_NAMES if outcome.path else ())]
-    print_files([*([] if out is None else [out / name for name in names]), *files.values()])
+    print_files([*([] if out is None else [out / name for name in names_in_folder(outcome)]), *files.values()])
     return OK if outcome.converged else NOT_CONVERGED
-
-
-def write_parts(outcome: Outcome, folder: Path, document: ProblemDocument | None) -> None:
-    """Write document, result file, report and pictures of ``outcome`` into ``folder``."""
-    text, title = (None, "") if document is None else (dumps(document), document.title)
-    if document is not None:
-        save_document(document, folder / "problem.toml")
-    save_outcome(outcome, folder / "result.nc", document=text, title=title)
-    (folder / "plots").mkdir()
-    for figure in itertools.chain(outcome.pictures, *outcome.figures.values()):
-        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
-    write_report(outcome, folder / "report.html", document=text, title=title)
-    if "stress" in outcome.found:
-        export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])
 
 
 def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:

@@ -24,6 +24,7 @@ from ..parts.stress import Stress, stress_request
 from ..plots.contact import figures_of
 from ..plots.picture import save_pictures
 from ..report import write_report
+from ..report.folder import STRESSES, write_parts
 from ..report.write import write_tractions_report
 from ..run.build import build
 from ..run.document import TRACTIONS, ProblemDocument, checked_parts, dumps, load_document, loads, read_table, relocated
@@ -31,7 +32,7 @@ from ..run.execute import analysed, run_tractions
 from ..run.stored import load_outcome, save_tractions
 from ..run.tractions import checked_tractions, traction_rows
 from ..stress.survey import Planned, StressRequest
-from .contact import STRESS_NAMES, Force, Out, file_options, files_in, output_folder, write_parts, write_volume
+from .contact import Force, Out, file_options, files_in, output_folder, write_volume
 from .declared import Given, Option, offers, part_names, part_options, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import solver_options
@@ -154,7 +155,7 @@ def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) ->
         outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)
         if folder is not None and out is not None:
             write_parts(outcome, folder, document and relocated(document, file.parent, out))
-            names = ["report.html", "result.nc", "plots", *STRESS_NAMES, *(["problem.toml"] if document else [])]
+            names = ["report.html", "result.nc", "plots", STRESSES, *(["problem.toml"] if document else [])]
             written = [*(out / name for name in names), *written]
     write_volume(outcome, files, force=force)
     print_problem(outcome, f"Stresses in {file}")
@@ -192,12 +193,12 @@ def _under_tractions(file: Path, given: Given, out: Path | None, files: Mapping[
             for figure in itertools.chain(*outcome.figures.values()):
                 (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
             write_tractions_report(outcome, folder / "report.html", document=document, text=text)
-            export_csv(outcome.found["stress"].detail, folder / STRESS_NAMES[0])
+            export_csv(outcome.found["stress"].detail, folder / STRESSES)
     write_volume(outcome, files, force=force)
     loaded: Any = outcome.result
     console().print(text_table(document.title or f"Tractions of {file}", traction_rows(loaded, document)))
     print_words(outcome)
-    names = ("report.html", "result.nc", "plots", *STRESS_NAMES, "problem.toml")
+    names = ("report.html", "result.nc", "plots", STRESSES, "problem.toml")
     print_files([*([] if out is None else [out / name for name in names]), *files.values()])
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 import os
 import signal
 import sys
@@ -22,7 +21,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..core.errors import InputError
-from ..core.status import NoProgress, Progress, compiling
+from ..core.status import NoProgress, Progress, compiling, share_done
 from ..core.text import printable
 from ..core.units import prefixed, show
 
@@ -234,17 +233,8 @@ class OnBar:
             self._bar.update(self._task, completed=1.0 - error, state=f"step {iteration}")
             return
         self._largest = max(self._largest, error)
-        share = done(error, self._largest, tolerance)
+        share = share_done(error, self._largest, tolerance)
         self._bar.update(self._task, completed=share, state=f"iteration {iteration}, error {error:.1e}")
-
-
-def done(error: float, largest: float, tolerance: float) -> float:
-    """Share of the way from the ``largest`` error to the ``tolerance``, between 0 and 1."""
-    if error <= tolerance:
-        return 1.0
-    if not tolerance > 0.0 or not tolerance < largest < math.inf or not error < math.inf:
-        return 0.0
-    return min(1.0, max(0.0, math.log(largest / error) / math.log(largest / tolerance)))
 
 
 @contextmanager

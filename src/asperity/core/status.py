@@ -64,6 +64,15 @@ class NoProgress:
         """Do nothing."""
 
 
+def share_done(error: float, largest: float, tolerance: float) -> float:
+    """Share of the way from the ``largest`` error to the ``tolerance`` on a logarithmic scale, between 0 and 1."""
+    if error <= tolerance:
+        return 1.0
+    if not tolerance > 0.0 or not tolerance < largest < math.inf or not error < math.inf:
+        return 0.0
+    return min(1.0, max(0.0, math.log(largest / error) / math.log(largest / tolerance)))
+
+
 def peak_memory() -> float:
     """Largest resident memory of the process so far in bytes; NaN where it is not known (Windows)."""
     if importlib.util.find_spec("resource") is None:

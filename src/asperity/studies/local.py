@@ -83,7 +83,7 @@ class _Lane:
         self.orders: SimpleQueue[Task | None] = SimpleQueue()
         self.orders.put(first)
         self._function, self._done, self._ended = function, done, False
-        self._lock, self._environment = threading.Lock(), _environment(threads)
+        self._lock, self._environment = threading.Lock(), worker_environment(threads)
         self._process: subprocess.Popen[str] | None = None
         self._thread = threading.Thread(target=self._serve, daemon=True)
         self._thread.start()
@@ -153,7 +153,7 @@ class _Lane:
             return self._process
 
 
-def _environment(threads: int) -> dict[str, str]:
+def worker_environment(threads: int) -> dict[str, str]:
     """Variables of a worker: so many threads in every library, and the modules that this process finds."""
     paths = os.pathsep.join(path for path in sys.path if path)
     return {**os.environ, **dict.fromkeys(THREAD_VARIABLES, str(threads)), "PYTHONPATH": paths}

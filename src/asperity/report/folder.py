@@ -1,0 +1,46 @@
+"""The folder that a run leaves: document, result file, scalars, report and pictures, the same from every shell."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+from ..io.export import export_csv
+from ..run.document import ProblemDocument, dumps, save_document
+from ..run.execute import Outcome
+from ..run.stored import save_outcome
+from .write import write_report
+
+NAMES = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
+"""What every run leaves in its folder."""
+
+PATH, STRESSES = "path.csv", "stress.csv"
+"""Scalars and energies of the steps of a load path, and the table of the largest stresses."""
+
+
+def names_in_folder(outcome: Outcome) -> tuple[str, ...]:
+    """Names of what ``write_run`` writes for ``outcome``."""
+    stressed = (STRESSES,) if "stress" in outcome.found else ()
+    return (*NAMES, *stressed, *((PATH,) if outcome.path else ()))
+
+
+def write_run(outcome: Outcome, folder: Path, document: ProblemDocument) -> None:
+    """Write everything that a run leaves into ``folder``; paths in ``document`` start there."""
+    export_csv(outcome.result, folder / "scalars.csv", scalars=outcome.scalars)
+    if outcome.path is not None:
+        export_csv(outcome.path, folder / PATH)
+    write_parts(outcome, folder, document)
+
+
+def write_parts(outcome: Outcome, folder: Path, document: ProblemDocument | None) -> None:
+    """Write document, result file, report and pictures of ``outcome`` into ``folder``."""
+    text, title = (None, "") if document is None else (dumps(document), document.title)
+    if document is not None:
+        save_document(document, folder / "problem.toml")
+    save_outcome(outcome, folder / "result.nc", document=text, title=title)
+    (folder / "plots").mkdir()
+    for figure in itertools.chain(outcome.pictures, *outcome.figures.values()):
+        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+    write_report(outcome, folder / "report.html", document=text, title=title)
+    if "stress" in outcome.found:
+        export_csv(outcome.found["stress"].detail, folder / STRESSES)
