@@ -7,6 +7,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "assemble": "one line for each field of the result",
     },
     "parameters": {
+        "app": "one for each option of the command line",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "survey": "a compiled pass takes its arrays and numbers one by one",
         "survey_capped": "a compiled pass takes its arrays and numbers one by one",

@@ -23,6 +23,7 @@ HEAVY = {
     "jinja2": "0.1 s",
     "joblib": "0.1 s",
     "matplotlib": "0.5 s",
+    "nicegui": "an extra that may be missing; 0.5 s",
     "numba": "0.3 s",
     "numpy": "0.1 s: `asperity --help` must answer within 0.2 s",
     "pandas": "0.4 s",
@@ -32,6 +33,7 @@ HEAVY = {
     "rich": "0.1 s, only where something is printed",
     "scipy": "0.05 to 0.3 s for every part of it",
     "tomli_w": "only where a document is written",
+    "uvicorn": "comes with nicegui",
     "xarray": "0.4 s",
 }
 """Libraries that may be imported late, and why. Parts of scipy count one by one."""

@@ -31,6 +31,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "stress": "results",
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),
+        "app": "app",
         "info": "info",
         "generate": "generate",
         "theory": "theory",
@@ -77,8 +78,8 @@ class Program(Listing):
         from .declared import built
 
         module = importlib.import_module(f".{COMMANDS[cmd_name]}", __package__)
-        if hasattr(module, "app"):
-            return typer.main.get_command(module.app)
+        if isinstance(found := getattr(module, "app", None), typer.Typer):
+            return typer.main.get_command(found)
         return built(getattr(module, cmd_name), cmd_name)
 
     def invoke(self, ctx: Any) -> Any:

@@ -1,0 +1,48 @@
+"""With what a session begins: the demonstration, files that were named, or nothing."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from ..core.errors import InputError
+from ..run.document import read_table
+from .session import Kept, Session
+
+LEVELLED = MappingProxyType({"step": "level", "form": "plane"})
+FILLED = MappingProxyType({"step": "fill", "method": "harmonic"})
+"""What is done to every measured surface unless it is removed, as on the command line."""
+
+
+def measured(path: str) -> dict[str, Any]:
+    """Table of the surface in the file ``path``."""
+    return {"kind": "file", "path": path, "prepare": [dict(LEVELLED), dict(FILLED)]}
+
+
+def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) -> None:
+    """Fill the document of a new session with the demonstration, or the ``files`` that were named.
+
+    Raises
+    ------
+    InputError
+        If one is no file.
+    """
+    if demo:
+        text = resources.files("asperity").joinpath("data", "demo.toml").read_text(encoding="utf-8")
+        session.draft.replace(tomllib.loads(text))
+    for file in files:
+        if not file.is_file():
+            raise InputError(
+                f"FILE must be a file with heights or a problem document, but {file} is none; check the path."
+            )
+        if file.suffix.lower() in (".toml", ".json"):
+            session.draft.replace(read_table(file))
+            continue
+        path = str(file.absolute())
+        session.files.append(Kept(path, str(file)))
+        if session.draft.get("surface") is None:
+            session.draft.set(("surface",), measured(path))

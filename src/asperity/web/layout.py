@@ -1,0 +1,161 @@
+"""The frame of every page: steps of the work, undo, copying as Python, command or document, keeping the session."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import MappingProxyType
+
+from nicegui import ui
+
+from ..core.errors import AsperityError
+from .draft import forms_of
+from .session import Place, Session
+
+STEPS = MappingProxyType(
+    {
+        "surface": ("Surface", "terrain"),
+        "prepare": ("Prepare", "tune"),
+        "roughness": ("Roughness", "show_chart"),
+        "bodies": ("Bodies", "layers"),
+        "load": ("Load and physics", "compress"),
+        "run": ("Run", "play_arrow"),
+    }
+)
+"""Pages in the order of the work: title and icon."""
+
+
+@contextmanager
+def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]:
+    """Header and steps of the page ``step``; its content is drawn inside."""
+    title, _ = STEPS[step]
+    ui.page_title(f"{title} – asperity")
+    look()
+    dark = ui.dark_mode(value=None)
+    drawer = ui.left_drawer(value=False, bordered=True).classes("steps").props("width=210 breakpoint=900 show-if-above")
+    with drawer, ui.element("nav").props('aria-label="steps"'):
+        for number, (name, (text, icon)) in enumerate(STEPS.items(), start=1):
+            with ui.link(target=f"/s/{key}/{name}").classes("step" + (" here" if name == step else "")) as link:
+                if name == step:
+                    link.props('aria-current="page"')
+                ui.icon(icon)
+                ui.label(f"{number}  {text}")
+    with ui.header().classes("bar"):
+        ui.button(icon="menu", on_click=lambda: drawer.toggle()).props('flat round dense aria-label="steps"').classes(
+            "only-small"
+        )
+        ui.link("asperity", "/start").classes("brand")
+        ui.label(str(session.draft.get("title") or "")).classes("of")
+        ui.space()
+        ui.button(icon="undo", on_click=lambda: _back(session)).props('flat round dense aria-label="undo"').tooltip(
+            "undo"
+        )
+        ui.button(icon="redo", on_click=lambda: _back(session, again=True)).props(
+            'flat round dense aria-label="redo"'
+        ).tooltip("redo")
+        _copies(session)
+        _keeping(place, session)
+        ui.button(icon="contrast", on_click=lambda: dark.set_value(not dark.value)).props(
+            'flat round dense aria-label="dark or light"'
+        ).tooltip("dark or light")
+    with ui.element("main").classes("content"):
+        ui.html(f"<h1>{title}</h1>", sanitize=False)
+        yield
+    _watch(session)
+
+
+def look() -> None:
+    """Style and scripts of every page."""
+    ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
+    ui.add_head_html('<link rel="stylesheet" href="/static/app.css"><script defer src="/static/app.js"></script>')
+
+
+def _back(session: Session, *, again: bool = False) -> None:
+    """Undo or redo, and draw the page again."""
+    session.draft.redo() if again else session.draft.undo()
+    session.touched()
+    ui.navigate.reload()
+
+
+def _watch(session: Session) -> None:
+    """Draw the page again when another window has changed the document."""
+    own, seen = ui.context.client.id, session.version
+
+    def look() -> None:
+        nonlocal seen
+        if session.version != seen:
+            seen = session.version
+            if session.changed_by not in ("", own):
+                ui.navigate.reload()
+
+    ui.timer(1.0, look)
+
+
+def _copies(session: Session) -> None:
+    """The menu that copies the problem as it stands."""
+
+    def copy(kind: str) -> None:
+        forms = forms_of(session.draft.table, session.labels)
+        text = {"Python": forms.python, "command": forms.command, "document": forms.document}[kind]
+        with ui.dialog() as dialog, ui.card().classes("copy"):
+            ui.label(f"The problem as {kind}").classes("table-title")
+            ui.code(text, language={"Python": "python", "command": "bash", "document": "toml"}[kind]).classes("code")
+            with ui.row():
+                ui.button("Copy", icon="content_copy", on_click=lambda: ui.clipboard.write(text)).props("no-caps")
+                name = {"Python": "problem.py", "command": "problem.sh", "document": "problem.toml"}[kind]
+                ui.button("Save as file", icon="download", on_click=lambda: ui.download.content(text, name)).props(
+                    "no-caps outline"
+                )
+                ui.button("Close", on_click=dialog.close).props("no-caps flat")
+        dialog.open()
+
+    with ui.button("Copy as", icon="content_copy").props("flat dense no-caps").classes("copy-as"), ui.menu():
+        for kind in ("Python", "command", "document"):
+            ui.menu_item(kind, on_click=lambda k=kind: copy(k))
+
+
+def _keeping(place: Place, session: Session) -> None:
+    """The dialog that keeps the session in a folder."""
+
+    def keep() -> None:
+        try:
+            session.save_as(place.allowed(str(folder.value or "")))
+        except AsperityError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        ui.notify(f"Kept in {session.folder}", type="positive")
+        dialog.close()
+
+    with ui.dialog() as dialog, ui.card():
+        ui.label("Keep this session").classes("table-title")
+        ui.label("All files, results and the document go into a folder, from where the session can be opened again.")
+        folder = ui.input("New or empty folder", placeholder="~/contacts/disk").classes("wide")
+        with ui.row():
+            ui.button("Keep", on_click=keep).props("no-caps")
+            ui.button("Close", on_click=dialog.close).props("no-caps flat")
+
+    def opened() -> None:
+        if session.kept:
+            ui.notify(f"This session is kept in {session.folder}")
+        else:
+            dialog.open()
+
+    ui.button(icon="save", on_click=opened).props('flat round dense aria-label="keep the session"').tooltip(
+        "keep the session in a folder"
+    )
+
+
+def failure(text: str) -> None:
+    """A message that something could not be done."""
+    with ui.card().classes("failure").props('flat bordered role="alert"'):
+        ui.label(text)
+
+
+def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
+    """Label and text of each row."""
+    with ui.element("dl").classes("rows"):
+        for label, text in pairs:
+            with ui.element("dt"):
+                ui.label(str(label))
+            with ui.element("dd"):
+                ui.label(str(text))

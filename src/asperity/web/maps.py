@@ -1,0 +1,147 @@
+"""Pictures of a page as plain tables for Plotly, whose script NiceGUI brings: maps, curves and surfaces in space."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+import numpy as np
+
+from ..core.units import show, unit_factor
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Colours of Okabe & Ito, distinct under every common colour blindness."""
+
+CONFIG = {
+    "displaylogo": False,
+    "responsive": True,
+    "modeBarButtonsToRemove": ["select2d", "lasso2d", "toImage"],
+    "modeBarButtonsToAdd": ["toImage"],
+    "toImageButtonOptions": {"format": "svg"},
+}
+"""Buttons of a picture; it is saved as SVG."""
+
+GREY = "#8a8f98"
+
+
+def packed(values: Any) -> dict[str, Any]:
+    """Array in the binary form that Plotly reads, single precision."""
+    array = np.ascontiguousarray(values, dtype="<f4")
+    shape = ", ".join(map(str, array.shape))
+    return {"dtype": "f4", "bdata": base64.b64encode(array.tobytes()).decode("ascii"), "shape": shape}
+
+
+def scaled(largest: float, unit: str = "m", kind: str = "length") -> tuple[str, float]:
+    """Prefixed unit in which ``largest`` is between 1 and 1000, and its SI value."""
+    if not np.isfinite(largest) or largest == 0.0:
+        return unit, 1.0
+    symbol = show(float(largest), unit).split(" ")[1]
+    return symbol, unit_factor(symbol, kind, "unit of an axis")
+
+
+def layout(**more: Any) -> dict[str, Any]:
+    """Layout that suits dark and light."""
+    return {
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "font": {"color": GREY, "family": "system-ui, sans-serif", "size": 12},
+        "margin": {"l": 60, "r": 12, "t": 30, "b": 48},
+        "colorway": list(COLOURS),
+        **more,
+    }
+
+
+def axis(title: str, **more: Any) -> dict[str, Any]:
+    """One axis."""
+    return {
+        "title": {"text": title},
+        "gridcolor": "rgba(138,143,152,.25)",
+        "zerolinecolor": "rgba(138,143,152,.4)",
+        "linecolor": GREY,
+        **more,
+    }
+
+
+def height_map(values: Any, spacing: tuple[float, float], title: str) -> dict[str, Any]:
+    """Map of heights (ny, nx) in m on a grid of that spacing."""
+    ny, nx = values.shape
+    x_unit, x_scale = scaled(max(nx * spacing[0], ny * spacing[1]))
+    z_unit, z_scale = scaled(float(np.nanmax(np.abs(values), initial=0.0)))
+    return {
+        "data": [
+            {
+                "type": "heatmap",
+                "z": packed(values / z_scale),
+                "x0": 0.5 * spacing[0] / x_scale,
+                "dx": spacing[0] / x_scale,
+                "y0": 0.5 * spacing[1] / x_scale,
+                "dy": spacing[1] / x_scale,
+                "colorscale": "Cividis",
+                "colorbar": {"title": {"text": z_unit}, "thickness": 12, "outlinewidth": 0},
+                "hovertemplate": f"x %{{x:.4g}} {x_unit}<br>y %{{y:.4g}} {x_unit}<br>height %{{z:.4g}} {z_unit}<extra></extra>",
+            }
+        ],
+        "layout": layout(
+            title={"text": title, "font": {"size": 13}},
+            xaxis=axis(f"x / {x_unit}", constrain="domain"),
+            yaxis=axis(f"y / {x_unit}", scaleanchor="x", constrain="domain"),
+        ),
+        "config": CONFIG,
+    }
+
+
+def in_space(heights: Any, colours: Any, spacing: tuple[float, float], title: str, scale: str) -> dict[str, Any]:
+    """Surface (ny, nx) in space, heights in m, coloured by ``colours`` with the name ``title`` and a colour ``scale``."""
+    ny, nx = heights.shape
+    x_unit, x_scale = scaled(max(nx * spacing[0], ny * spacing[1]))
+    z_unit, z_scale = scaled(float(np.nanmax(np.abs(heights), initial=0.0)))
+    return {
+        "data": [
+            {
+                "type": "surface",
+                "z": packed(heights / z_scale),
+                "x": packed((np.arange(nx) + 0.5) * spacing[0] / x_scale),
+                "y": packed((np.arange(ny) + 0.5) * spacing[1] / x_scale),
+                "surfacecolor": packed(colours),
+                "colorscale": scale,
+                "colorbar": {"title": {"text": title}, "thickness": 12, "outlinewidth": 0},
+            }
+        ],
+        "layout": layout(
+            margin={"l": 0, "r": 0, "t": 10, "b": 0},
+            scene={
+                "xaxis": axis(f"x / {x_unit}"),
+                "yaxis": axis(f"y / {x_unit}"),
+                "zaxis": axis(f"z / {z_unit}"),
+                "aspectmode": "manual",
+                "aspectratio": {"x": 1.0, "y": ny * spacing[1] / (nx * spacing[0]), "z": 0.3},
+            },
+        ),
+        "config": CONFIG,
+    }
+
+
+def curves(
+    lines: list[tuple[str, Any, Any]], x: str, y: str, *, log: bool = False, points: bool = True
+) -> dict[str, Any]:
+    """Curves with their names over one pair of axes with the titles ``x`` and ``y``."""
+    return {
+        "data": [
+            {
+                "type": "scatter",
+                "mode": "lines+markers" if points else "lines",
+                "name": name,
+                "x": [float(value) for value in xs],
+                "y": [None if not np.isfinite(value) else float(value) for value in ys],
+                "connectgaps": True,
+            }
+            for name, xs, ys in lines
+        ],
+        "layout": layout(
+            xaxis=axis(x, type="log" if log else "linear"),
+            yaxis=axis(y),
+            showlegend=len(lines) > 1,
+            legend={"orientation": "h", "y": 1.12},
+        ),
+        "config": CONFIG,
+    }

@@ -1,0 +1,285 @@
+"""Pages on the surface: where its heights come from, what prepares them, and how rough they are."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import events, ui
+
+from ..core.units import show
+from ..io.schemas.surfaces import FileSurface
+from ..run.document import document_model
+from . import maps
+from .beginning import measured
+from .draft import Keys
+from .forms import asked_of
+from .layout import failure, rows
+from .session import Session
+from .widgets import Context, entry, kinds, listed
+
+SURFACE = "surface"
+
+
+class Preview:
+    """Map of the surface as it stands, computed by the helper of the session a moment after the last change."""
+
+    def __init__(self, session: Session, title: str, steps: Callable[[], int | None], name: str) -> None:
+        self.session, self.title, self.steps = session, title, steps
+        self.view: tuple[float, float, float, float] | None = None
+        self.answer: dict[str, Any] = {}
+        self._file = session.scratch / f"{name}.bin"
+        self._wanted = 0
+        self.box = ui.element("section").classes("preview")
+        self._client = ui.context.client
+
+    def later(self) -> None:
+        """Compute it soon; only the last of many changes counts."""
+        self._wanted += 1
+        asyncio.get_running_loop().create_task(self._soon(self._wanted))
+
+    async def _soon(self, number: int) -> None:
+        await asyncio.sleep(0.3)
+        if number == self._wanted:
+            await self.now()
+
+    async def now(self) -> None:
+        """Compute and draw it."""
+        table = self.session.draft.get(SURFACE)
+        if not isinstance(table, dict) or not table.get("kind"):
+            with self.box.clear() or self.box:
+                ui.label("Choose a file or a generator: the surface is then shown here.").classes("hint")
+            return
+        number = self._wanted
+        task = {"table": table, "steps": self.steps(), "folder": str(self.session.folder), "out": str(self._file)}
+        answer = await self.session.helper.call("surface", **task)
+        if number == self._wanted and not self._client.is_deleted:
+            self.answer = answer
+            self.draw()
+
+    def draw(self) -> None:
+        """Draw what was computed."""
+        self.box.clear()
+        with self.box:
+            if "error" in self.answer:
+                failure(self.session.said(self.answer["error"]))
+                return
+            nx, ny = self.answer["shape"]
+            values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
+            figure = maps.height_map(values, tuple(self.answer["spacing"]), self.title)
+            ui.plotly(figure).classes("map").props('role="img" aria-label="map of heights"').on(
+                "plotly_relayout", self._moved, list(AXES)
+            )
+            full = self.answer["full"]
+            text = f"{full[0]} × {full[1]} points, rms height {show(self.answer['Sq'], 'm', 4)}, peak to valley {show(self.answer['Sz'], 'm', 4)}"
+            ui.label(text).classes("numbers")
+            if self.answer["step"] > 1:
+                ui.label(f"Shown with every {self.answer['step']}th point along both sides.").classes("hint")
+            with ui.expansion("What this surface is").classes("wide"):
+                rows(self.answer["rows"])
+                for step in self.answer["history"]:
+                    ui.label(step).classes("hint")
+
+    def _moved(self, event: events.GenericEventArguments) -> None:
+        found = [event.args.get(name) for name in AXES]
+        if all(isinstance(value, int | float) for value in found):
+            _, scale = maps.scaled(max(self.answer["size"]))
+            x0, x1, y0, y1 = (float(value) * scale for value in found)
+            lx, ly = self.answer["size"]
+            self.view = (max(0.0, x0), min(lx, x1), max(0.0, y0), min(ly, y1))
+
+
+AXES = ("xaxis.range[0]", "xaxis.range[1]", "yaxis.range[0]", "yaxis.range[1]")
+"""What Plotly reports of a part that was chosen with the mouse."""
+
+
+def surface_page(key: str, session: Session) -> None:
+    """Choose a file or a generator; the preview follows."""
+    shown: dict[str, Preview] = {}
+
+    def changed(keys: Keys) -> None:
+        shown["map"].later()
+
+    context = Context(session, changed)
+    item = next(item for item in asked_of(document_model()) if item.name == SURFACE)
+    assert item.tables is not None
+    generators = tuple(word for word in item.tables if word != "file")
+    leave = frozenset({"prepare", "mirror", "place", "kind"})
+
+    @ui.refreshable
+    def source() -> None:
+        if (session.draft.get(SURFACE) or {}).get("kind") == "file":
+            _file_form(context, leave)
+        else:
+            kinds(context, item, (SURFACE,), leave, generators)
+
+    def choose(kind: str) -> None:
+        if kind == "file":
+            path = session.files[-1].path if session.files else None
+            context.set((SURFACE,), {"kind": "file"} if path is None else measured(path))
+        else:
+            context.set((SURFACE,), {"kind": "rough", "points": "256, 256", "size": "10 um x 10 um", "seed": 1})
+        source.refresh()
+
+    def uploaded(event: events.GenericEventArguments) -> None:
+        path = str(event.args.get("path") if isinstance(event.args, dict) else "")
+        if path in session.labels:
+            context.set((SURFACE,), measured(path))
+            ui.navigate.reload()
+
+    with ui.element("div").classes("two"):
+        with ui.element("section"):
+            with (
+                ui.element("div")
+                .classes("drop")
+                .props(
+                    f'tabindex=0 role="button" data-upload="/upload/{key}" aria-label="drop files with heights, or choose them"'
+                )
+            ):
+                ui.icon("upload_file").classes("drop-icon")
+                ui.label("Drop files with heights here, or press to choose")
+                ui.label(
+                    "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine"
+                ).classes("hint")
+                ui.label("").classes("drop-state").props('role="status"')
+            ui.on("asperity-uploaded", uploaded)
+            kind = "file" if (session.draft.get(SURFACE) or {}).get("kind") == "file" else "made"
+            ui.toggle({"file": "A file", "made": "A generator"}, value=kind, on_change=lambda e: choose(e.value)).props(
+                "no-caps dense"
+            )
+            source()
+            with ui.expansion("Counter surface (rough, too)").classes("wide"):
+                other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
+                kinds(context, other, ("counter_surface",))
+        shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface")
+    ui.timer(0.01, shown["map"].now, once=True)
+
+
+def _file_form(context: Context, leave: frozenset[str]) -> None:
+    """Which file and channel, and what the file does not say itself."""
+    session = context.session
+    path = session.draft.get(SURFACE, "path")
+    box = ui.element("div")
+    entries = {item.name: item for item in asked_of(FileSurface, leave)}
+
+    async def look() -> None:
+        answer = await session.helper.call("inspect", path=path) if path in session.labels else {}
+        with box:
+            if "error" in answer:
+                failure(session.said(answer["error"]))
+            found = answer.get("channels", [])
+            if len(found) > 1:
+                options = {item["index"]: item["text"] for item in found}
+                ui.select(
+                    options,
+                    label="Channel",
+                    value=session.draft.get(SURFACE, "channel"),
+                    clearable=True,
+                    on_change=lambda e: context.set((SURFACE, "channel"), e.value),
+                ).props('dense data-key="surface.channel"').classes("field wide")
+
+    with ui.card().classes("table").props("flat bordered"):
+        entry(context, entries["path"], (SURFACE, "path"))
+        with ui.element("div").classes("fields"):
+            for name, item in entries.items():
+                if name not in ("path", "channel"):
+                    entry(context, item, (SURFACE, name))
+        ui.label("Size and units are asked only where the file does not state them.").classes("hint")
+    ui.timer(0.01, look, once=True)
+
+
+def prepare_page(key: str, session: Session) -> None:
+    """Steps of preparation beside their effect."""
+    shown: dict[str, Preview] = {}
+
+    def changed(keys: Keys = ()) -> None:
+        for item in shown.values():
+            item.later()
+
+    context = Context(session, changed)
+    item = next(item for item in asked_of(FileSurface) if item.name == "prepare")
+
+    def crop() -> None:
+        view = shown["after"].view or shown["before"].view
+        if view is None:
+            ui.notify("Draw a rectangle on one of the maps first.")
+            return
+        x0, x1, y0, y1 = (f"{value * 1e6:.9g} um" for value in view)
+        present = session.draft.get(SURFACE, "prepare") or []
+        at = next((n for n, step in enumerate(present) if step.get("step") != "level"), len(present))
+        if shown["after"].view is not None:
+            at = len(present)
+        step = {"step": "crop", "x": [x0, x1], "y": [y0, y1]}
+        context.set((SURFACE, "prepare"), [*present[:at], step, *present[at:]])
+        ui.navigate.reload()
+
+    if not isinstance(session.draft.get(SURFACE), dict):
+        ui.label("Choose a surface first.")
+        ui.link("Surface", f"/s/{key}/surface")
+        return
+    with ui.element("div").classes("two"):
+        with ui.element("section"):
+            ui.label("The steps below are the history that the document keeps; every change can be undone.").classes(
+                "hint"
+            )
+            ui.button("Crop to the rectangle drawn", icon="crop", on_click=crop).props("no-caps outline")
+            listed(context, item, (SURFACE, "prepare"), titled=False)
+        with ui.element("section"):
+            shown["after"] = Preview(session, "After all steps", lambda: None, "after")
+            shown["before"] = Preview(session, "Before any step", lambda: 0, "before")
+
+    async def both() -> None:
+        await shown["after"].now()
+        await shown["before"].now()
+
+    ui.timer(0.01, both, once=True)
+
+
+def roughness_page(key: str, session: Session) -> None:
+    """All parameters of the prepared surface, with their curves."""
+    out = session.scratch / "roughness"
+    client = ui.context.client
+    box = ui.element("section")
+
+    async def compute() -> None:
+        table = session.draft.get(SURFACE)
+        box.clear()
+        if not isinstance(table, dict):
+            with box:
+                ui.label("Choose a surface first.")
+            return
+        with box, ui.row():
+            ui.spinner()
+            ui.label("measuring the surface")
+        answer = await session.helper.call("roughness", table=table, folder=str(session.folder), out=str(out))
+        if client.is_deleted:
+            return
+        box.clear()
+        with box:
+            _roughness(key, answer)
+
+    ui.timer(0.01, compute, once=True)
+
+
+def _roughness(key: str, answer: dict[str, Any]) -> None:
+    if "error" in answer:
+        failure(answer["error"])
+        return
+    with ui.element("div").classes("tiles"):
+        for name, text in answer["headline"]:
+            with ui.element("div").classes("tile"):
+                ui.label(text).classes("value")
+                ui.label(name).classes("hint")
+    ui.link("Report of the roughness", f"/files/{key}/roughness/roughness.html", new_tab=True)
+    with ui.element("div").classes("gallery"):
+        for name, title, caption in answer["figures"]:
+            with ui.element("figure"):
+                ui.image(f"/files/{key}/roughness/{name}.png").props(f'alt="{name}"')
+                with ui.element("figcaption"):
+                    ui.label(title).classes("table-title")
+                    ui.label(caption).classes("hint")
+    for title, lines in answer["groups"]:
+        with ui.expansion(title).classes("wide"):
+            rows([(name, text) for name, text, _ in lines])

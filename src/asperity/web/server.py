@@ -1,0 +1,105 @@
+"""The application as a server: addresses, files that it gives out, uploads, and how it starts and ends."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import InputError
+from ..core.spectral import thread_count
+from .beginning import fill
+from .security import MIB, Guard, host_names, is_loopback
+from .session import Place
+from .workers import Limits
+
+
+@dataclass(frozen=True)
+class Options:
+    """How the application is started; see ``asperity app --help``."""
+
+    files: Sequence[Path] = ()
+    demo: bool = False
+    host: str = "127.0.0.1"
+    port: int = 0
+    folder: Path | None = None
+    most_upload: float = 512.0
+    time_limit: float = 12 * 3600.0
+    memory: float | None = None
+    threads: int | None = None
+
+
+def serve(options: Options, opened: Callable[[str], None]) -> None:
+    """Serve until interrupted; ``opened`` is told the address with its token when it can be opened.
+
+    Raises
+    ------
+    InputError
+        If the host is no address of this machine, the port is taken, or a file cannot be used.
+    """
+    import uvicorn
+
+    from .application import application
+
+    with _listening(options) as listener:
+        port = listener.getsockname()[1]
+        place = _place(options)
+        try:
+            token = secrets.token_urlsafe(24)
+            app = application(place)
+            guard: Any = Guard(app, host_names(options.host, port), token, place.largest)
+            config = uvicorn.Config(
+                guard,
+                log_level="error",
+                lifespan="on",
+                proxy_headers=False,
+                server_header=False,
+                timeout_graceful_shutdown=2,
+            )
+            server = uvicorn.Server(config)
+            shown = f"[{options.host}]" if ":" in options.host else options.host
+            opened(f"http://{shown}:{port}/?token={token}")
+            server.run(sockets=[listener])
+        except KeyboardInterrupt:
+            pass
+        finally:
+            place.close()
+
+
+def _listening(options: Options) -> socket.socket:
+    family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
+    if options.host in ("0.0.0.0", "::", ""):
+        raise InputError(
+            f"--host must be one address or name of this machine by which others reach it, such as 192.168.1.5, but is "
+            f"{options.host!r}: the names under which the application answers must be known."
+        )
+    try:
+        return socket.create_server((options.host, options.port), family=family)
+    except OSError as error:
+        raise InputError(
+            f"--host and --port must be free addresses of this machine, but {options.host}:{options.port} is not: "
+            f"{error.strerror}; leave --port out for any free one."
+        ) from None
+
+
+def _place(options: Options) -> Place:
+    """Where sessions live, with the first one if there is anything to begin with."""
+    usual = Limits.usual(options.time_limit)
+    limits = usual if options.memory is None else Limits(options.memory * 2**30, options.time_limit)
+    private = Path(tempfile.mkdtemp(prefix="asperity-app-"))
+    private.chmod(0o700)
+    roots = () if is_loopback(options.host) else (Path.cwd().resolve(),)
+    threads = thread_count(options.threads)
+    place = Place(private, limits, threads, int(options.most_upload * MIB), roots)
+    if options.files or options.demo or options.folder is not None:
+        try:
+            _, session = place.new(options.folder)
+            fill(session, files=options.files, demo=options.demo)
+        except BaseException:
+            place.close()
+            raise
+    return place

@@ -1,0 +1,214 @@
+"""What workers do for the pages: plain values in, plain values and files out. A failure is an answer with the key ``error``."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import json
+import math
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from pydantic import create_model
+
+from ..core.errors import AsperityError
+from ..core.settings import Settings, validated
+from ..core.status import Progress, share_done
+from ..core.units import prefixed, show
+from ..io.atomic import atomic_folder
+from ..io.schemas.surfaces import SurfaceTable
+from ..io.words import surface_rows
+from ..plots.picture import drawn
+from ..plots.surface import SURFACE_PLOTS
+from ..report.folder import write_run
+from ..report.roughness import headline_values, quantity_rows, write_roughness_report
+from ..run.build import build, build_surface
+from ..run.document import load_document, relocated
+from ..run.execute import execute
+from ..studies.campaign import prepare_study
+from ..surfaces.characterise.heights import height_parameters
+from ..surfaces.characterise.summary import characterise
+from ..surfaces.read import channels
+
+Task: TypeAlias = Mapping[str, Any]
+
+MOST_SHOWN = 512
+"""Points of a preview along its longer side; larger surfaces are thinned out, and the page says so."""
+
+
+def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str, Any]]:
+    """``work`` under the limit of memory, whose failures are answers."""
+
+    def call(task: Task) -> dict[str, Any]:
+        _limit(task.get("memory"))
+        try:
+            with warnings.catch_warnings(), np.errstate(all="ignore"):
+                warnings.simplefilter("ignore")
+                return work(task)
+        except AsperityError as error:
+            return {"error": prefixed(str(error)), "kind": type(error).__name__}
+        except MemoryError:
+            return {"error": "Not enough memory: crop the surface or resample it to fewer points."}
+        except Exception as error:
+            return {"error": f"Internal error, {type(error).__name__}: {' '.join(str(error).split())[:300]}"}
+
+    return call
+
+
+def _limit(memory: float | None) -> None:
+    """Keep the data of this process below ``memory`` bytes, where systems can."""
+    if memory is None or importlib.util.find_spec("resource") is None:
+        return
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    wanted = int(memory) if hard == resource.RLIM_INFINITY else min(int(memory), hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (wanted, hard))
+
+
+# Files with heights, and surfaces on their way through the steps of preparation.
+
+
+@guarded
+def inspect(task: Task) -> dict[str, Any]:
+    """Channels of the file at ``path``, and what it does not say itself."""
+    found = channels(task["path"])
+    return {
+        "channels": [
+            {
+                "index": item.index,
+                "name": item.name,
+                "text": _channel_text(item),
+            }
+            for item in found
+        ],
+    }
+
+
+def _channel_text(item: Any) -> str:
+    size = "" if item.size is None else f", {show(item.size[0], 'm', 3)} × {show(item.size[1], 'm', 3)}"
+    return f"{item.name or item.index}: {item.shape[0]} × {item.shape[1]} points{size}"
+
+
+@guarded
+def surface(task: Task) -> dict[str, Any]:
+    """The surface of the document ``table`` after ``steps`` of its preparation, as a picture in numbers at ``out``."""
+    found = _built(task)
+    values = np.asarray(found.heights, dtype=float)
+    step = max(1, math.ceil(max(values.shape) / MOST_SHOWN))
+    thin = values[::step, ::step].astype("<f4")
+    missing = getattr(found, "mask", None)
+    if missing is not None and np.any(missing):
+        thin = thin.copy()
+        thin[np.asarray(missing)[::step, ::step]] = np.nan
+    Path(task["out"]).write_bytes(np.ascontiguousarray(thin.T).tobytes())
+    heights = height_parameters(found)
+    return {
+        "shape": list(thin.shape),
+        "full": list(values.shape),
+        "spacing": [step * spacing for spacing in found.grid.spacing],
+        "size": list(found.size),
+        "step": step,
+        "rows": [[str(label), str(text)] for label, text in surface_rows(found)],
+        "history": [str(text) for text in found.origin.history],
+        "Sq": heights.Sq,
+        "Sz": heights.Sz,
+    }
+
+
+def _built(task: Task) -> Any:
+    """The surface of ``table``, prepared by the first ``steps`` of its steps, or all."""
+    table = dict(task["table"])
+    if task.get("steps") is not None:
+        table["prepare"] = list(table.get("prepare", ()))[: task["steps"]]
+    alone: Any = create_model("Alone", __base__=Settings, surface=(SurfaceTable, ...))
+    return build_surface(validated(alone, {"surface": table}, "surface").surface, Path(task["folder"]))
+
+
+@guarded
+def roughness(task: Task) -> dict[str, Any]:
+    """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in the folder ``out``."""
+    found = characterise(_built(task))
+    out = Path(task["out"])
+    out.mkdir(parents=True, exist_ok=True)
+    write_roughness_report(found, out / "roughness.html", overwrite=True)
+    figures = drawn(SURFACE_PLOTS, found)
+    for figure in figures:
+        (out / f"{figure.name}.png").write_bytes(figure.picture)
+    return {
+        "headline": [[name, text] for name, text in headline_values(found)],
+        "groups": [[title, [list(row) for row in rows]] for title, rows in quantity_rows(found)],
+        "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
+    }
+
+
+# The contact itself: the one executor, and the folder that it leaves.
+
+
+class _Reporter:
+    """Progress of a stage, written to a file ten times a second at most."""
+
+    def __init__(self, file: Path, stage: str) -> None:
+        self._file, self._stage, self._largest, self._last = file, stage, 0.0, 0.0
+        self._write(0.0, "")
+
+    def update(self, iteration: int, error: float, tolerance: float) -> None:
+        """Write how far the stage is."""
+        if time.monotonic() - self._last < 0.1:
+            return
+        if tolerance == 0.0:
+            self._write(1.0 - error, f"step {iteration}")
+            return
+        self._largest = max(self._largest, error)
+        self._write(share_done(error, self._largest, tolerance), f"iteration {iteration}, error {error:.1e}")
+
+    def _write(self, share: float, text: str) -> None:
+        self._last = time.monotonic()
+        partial = self._file.with_suffix(".part")
+        partial.write_text(json.dumps({"stage": self._stage, "share": float(share), "text": text}), encoding="utf-8")
+        partial.replace(self._file)
+
+
+def _stage(file: Path) -> Callable[[str], Any]:
+    @contextlib.contextmanager
+    def stage(name: str) -> Iterator[Progress]:
+        yield _Reporter(file, name)
+
+    return stage
+
+
+@guarded
+def contact(task: Task) -> dict[str, Any]:
+    """Run the document at ``document``, whose paths start at ``folder``, as ``asperity contact`` does, into the folder ``out``."""
+    base, out, stage = Path(task["folder"]), Path(task["out"]), _stage(Path(task["progress"]))
+    document = load_document(task["document"])
+    with stage("reading and preparing"):
+        case = build(document, base)
+    with atomic_folder(out) as folder:
+        outcome = execute(case, stage=stage)
+        with stage("writing report and pictures"):
+            write_run(outcome, folder, relocated(document, base, out))
+    return {"converged": outcome.converged, "message": outcome.status.message, "remedy": outcome.status.remedy}
+
+
+@guarded
+def study(task: Task) -> dict[str, Any]:
+    """Run or resume the study ``table`` in the folder ``out``; its curves can be read while it grows."""
+    file = Path(task["progress"])
+
+    class Watch:
+        def update(self, done: int, failed: int, found: int, total: int) -> None:
+            text = f"{found + done} of {total} cases" + (f", {failed} failed" if failed else "")
+            partial = file.with_suffix(".part")
+            state = {"stage": "cases", "share": (found + done) / max(total, 1), "text": text}
+            partial.write_text(json.dumps(state), encoding="utf-8")
+            partial.replace(file)
+
+    campaign = prepare_study(task["table"], task["out"], start=Path(task["folder"]))
+    campaign.run(workers=task.get("workers"), watch=Watch())
+    state = campaign.state()
+    return {"done": state.done, "failed": state.failed, "missing": state.missing}

@@ -1,0 +1,176 @@
+"""Nobody but the owner reaches the application, and nothing that is sent to it gets further than it may."""
+
+from __future__ import annotations
+
+import http.client
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("nicegui", reason="the extra web is not installed")
+
+from asperity.web.security import host_names, is_loopback
+from asperity.web.session import label_of
+
+from .app_server import AppServer
+
+CAP = 1
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[AppServer]:
+    with AppServer(("--demo", "--most-upload", str(CAP))) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def cookie(app: AppServer) -> str:
+    return app.cookie()
+
+
+def test_only_this_machine_listens(app: AppServer) -> None:
+    assert app.host.startswith("127.0.0.1:")
+
+
+def test_without_the_token_nothing_is_served(app: AppServer) -> None:
+    for path in ("/", "/start", "/static/app.js", "/_nicegui/client", "/?token=wrong", "/files/a/b/c"):
+        status, headers, body = app.ask("GET", path)
+        assert status == 403, path
+        assert b"asperity app" in body
+        assert "default-src 'none'" in headers["content-security-policy"]
+
+
+def test_the_token_is_exchanged_for_a_cookie_that_scripts_and_other_sites_do_not_get(app: AppServer) -> None:
+    status, headers, body = app.ask("GET", f"/?token={app.token}")
+    assert status == 200
+    assert "HttpOnly" in headers["set-cookie"]
+    assert "SameSite=Strict" in headers["set-cookie"]
+    assert app.token not in headers["set-cookie"]
+    assert app.token.encode() not in body
+
+
+def test_another_name_of_this_machine_is_refused(app: AppServer, cookie: str) -> None:
+    port = app.host.partition(":")[2]
+    for host in ("evil.example", f"evil.example:{port}", "127.0.0.1", f"127.0.0.1.evil.example:{port}", ""):
+        assert app.ask("GET", "/start", cookie=cookie, Host=host)[0] == 403, host
+    assert app.ask("GET", "/start", cookie=cookie, Host=f"localhost:{port}")[0] == 200
+
+
+def test_other_pages_cannot_send_anything(app: AppServer, cookie: str) -> None:
+    session = app.session(cookie)
+    path = f"/upload/{session}?name=a.txt"
+    for headers in (
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": "http://127.0.0.1:1"},
+        {"Origin": f"https://{app.host}"},
+        {},
+    ):
+        assert app.ask("POST", path, body=b"1", cookie=cookie, **headers)[0] == 403, headers
+    socket = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec_WebSocket_Version": "13"}
+    key = {"Sec_WebSocket_Key": "dGhlIHNhbXBsZSBub25jZQ=="}
+    for origin in ({"Origin": "http://evil.example"}, {}):
+        status, _, _ = app.ask("GET", "/_nicegui_ws/socket.io/?EIO=4", cookie=cookie, **socket, **key, **origin)
+        assert status == 403
+    assert app.ask("GET", "/start", cookie=cookie, Sec_Fetch_Site="cross-site", Sec_Fetch_Mode="no-cors")[0] == 403
+
+
+def test_pages_may_run_their_own_scripts_only(app: AppServer, cookie: str) -> None:
+    _, headers, body = app.ask("GET", "/start", cookie=cookie)
+    policy = headers["content-security-policy"]
+    scripts = next(part for part in policy.split(";") if part.strip().startswith("script-src"))
+    assert "'unsafe-inline'" not in scripts
+    assert "http:" not in policy.replace(f"ws://{app.host}", "")
+    nonce = re.search(r"'nonce-([^']+)'", scripts)
+    assert nonce is not None
+    assert f'<script nonce="{nonce[1]}"'.encode() in body
+    again = app.ask("GET", "/start", cookie=cookie)[1]["content-security-policy"]
+    assert nonce[1] not in again, "a nonce is for one answer"
+    assert headers["x-content-type-options"] == "nosniff"
+
+
+def test_uploads_over_the_cap_are_counted_and_refused_in_words(app: AppServer, cookie: str) -> None:
+    session = app.session(cookie)
+    status, answer = app.upload(cookie, session, "large.txt", b"0" * (CAP * 2**20 + 1))
+    assert status == 413
+    assert f"{CAP} MiB" in answer["error"]
+    assert "asperity app FILE" in answer["error"]
+
+
+def test_a_body_that_hides_its_length_is_counted(app: AppServer, cookie: str) -> None:
+    connection = http.client.HTTPConnection(app.host, timeout=30)
+    connection.putrequest("POST", f"/upload/{app.session(cookie)}?name=a.txt")
+    for key, value in (("Transfer-Encoding", "chunked"), ("Cookie", cookie), ("Origin", f"http://{app.host}")):
+        connection.putheader(key, value)
+    connection.endheaders()
+    block = b"%x\r\n%s\r\n" % (2**16, b"0" * 2**16)
+    try:
+        for _ in range(CAP * 16 + 2):
+            connection.send(block)
+        connection.send(b"0\r\n\r\n")
+    except (BrokenPipeError, ConnectionResetError):
+        pass  # refused before the end
+    assert connection.getresponse().status == 413
+    connection.close()
+
+
+NAMES = (
+    "../../../../etc/passwd",
+    "..\\..\\evil.txt",
+    "/etc/cron.d/evil",
+    "a\x00b.txt",
+    "<img src=x onerror=alert(1)>.txt",
+    "x" * 5000 + ".txt",
+    "CON.txt",
+    "\u202egnp.exe",
+    ".htaccess",
+    "",
+    "a.t%2fxt",
+    "; rm -rf ~ #.csv",
+)
+
+
+def test_names_of_uploads_are_never_paths(app: AppServer, cookie: str) -> None:
+    session = app.session(cookie)
+    for name in NAMES:
+        status, answer = app.upload(cookie, session, name, b"1 2\n3 4\n")
+        assert status == 200, name
+        path = Path(answer["path"])
+        assert re.fullmatch(r"[0-9a-f]{16}(\.[a-z0-9]{1,12})?", path.name)
+        assert path.parent.name == "files"
+        assert path.parents[2].name.startswith("asperity-app-")
+        assert path.parents[2].stat().st_mode & 0o077 == 0, "the folder of uploads is private"
+        assert path.read_bytes() == b"1 2\n3 4\n"
+
+
+def test_labels_show_no_folders_and_no_hidden_letters() -> None:
+    labels = [label_of(name) for name in NAMES]
+    assert labels[0] == "passwd"
+    assert labels[1] == "evil.txt"
+    assert all(label.isprintable() and 0 < len(label) <= 80 for label in labels)
+
+
+def test_no_path_leads_out_of_what_is_given_out(app: AppServer, cookie: str) -> None:
+    session = app.session(cookie)
+    for path in (
+        f"/files/{session}/roughness/../../../etc/passwd",
+        f"/files/{session}/roughness/%2e%2e/%2e%2e/session.json",
+        f"/files/{session}/..%2f..%2fetc/passwd",
+        f"/files/{session}//etc/passwd",
+        "/static/..%2fserver.py",
+        "/static/%2e%2e/server.py",
+    ):
+        status, _, body = app.ask("GET", path, cookie=cookie)
+        assert status in (404, 307, 200), path
+        assert b"root:" not in body
+        assert b"uvicorn" not in body
+        assert b"asperity_session" not in body
+
+
+def test_hosts_and_addresses() -> None:
+    assert "localhost:8000" in host_names("127.0.0.1", 8000)
+    assert "[::1]:8000" in host_names("::1", 8000)
+    assert all(map(is_loopback, ("127.0.0.1", "127.8.0.1", "localhost", "::1")))
+    assert not any(map(is_loopback, ("0.0.0.0", "192.168.1.5", "localhost.evil.example", "")))
