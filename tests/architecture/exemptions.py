@@ -5,6 +5,7 @@ from __future__ import annotations
 LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "assemble": "one line for each field of the result",
+        "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
     },
     "parameters": {
         "app": "one for each option of the command line",
@@ -21,8 +22,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "update_solution": "a compiled pass takes its arrays and numbers one by one",
         "add_clipped": "a compiled pass takes its arrays and numbers one by one",
         "rescale": "a compiled pass takes its arrays and numbers one by one",
-        "factorise": "a compiled pass takes its arrays and numbers one by one",
-        "cell_deflections": "a compiled pass takes its arrays and numbers one by one",
+        "sweep": "a compiled pass takes its arrays and numbers one by one",
         "subtract_deflections": "a compiled pass takes its arrays and numbers one by one",
         "execute": "independent keyword-only choices of the callers, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",

@@ -22,126 +22,83 @@ START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL
 
 
 @compiled
-def sum_points(level, shape, rows, index, values, s):  # type: ignore[no-untyped-def]
-    """First level of cells: s = sum of the values of its points; unit values where ``values`` is empty."""
+def sweep(span, levels, weights, way, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
+    """In the hierarchies of the span: sums s of the levels ``way[0]`` up to ``way[1]``, deflections down to ``way[2]``.
+
+    Those of level 1 are the sums of ``values`` at the points ``index``, those of row i from ``rows[i]`` on, or of unit values
+    if there is none. If ``way[3]``, g = 1 / (1 + w s) is set on the way up. From the coarsest level, or from deflections
+    that lie in s, it goes down: the deflection is g (that of the parent + w s). On the rim g, and so s, is 0.
+
+    One function, since what it calls would be compiled once more in every caller.
+    """
     unit = values.size == 0
     one = s.dtype.type(1.0)
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        s[base : base + level[COLUMNS]] = 0.0
-        first = (cell << level[MERGE_X]) - level[OFFSET_X]
-        for moved in range(max(first, 0), min(first + 1 + level[MERGE_X], shape[0])):
-            row = moved - level[ROLL_X]
-            row += shape[0] if row < 0 else 0
-            shift = level[OFFSET_Y] + level[ROLL_Y] - row * shape[1]
-            end = shape[1] + level[OFFSET_Y]
-            for k in range(rows[row], rows[row + 1]):
-                column = index[k] + shift
-                column -= shape[1] if column >= end else 0
-                place = base + (column >> level[MERGE_Y])
-                s[place] += one if unit else values[k]
-
-
-@compiled
-def _restrict_level(below, level, g, s):  # type: ignore[no-untyped-def]
-    """s of a level = sum of g s over the parts of its cells."""
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        part = below[START] + ((cell << level[MERGE_X]) - level[OFFSET_X]) * below[STRIDE] - level[OFFSET_Y]
-        other = part + below[STRIDE]
-        n = level[COLUMNS]
-        if level[MERGE_X] and level[MERGE_Y]:
-            for j in range(n):
-                a, b = part + 2 * j, other + 2 * j
-                s[base + j] = g[a] * s[a] + g[a + 1] * s[a + 1] + g[b] * s[b] + g[b + 1] * s[b + 1]
-        elif level[MERGE_Y]:
-            for j in range(n):
-                a = part + 2 * j
-                s[base + j] = g[a] * s[a] + g[a + 1] * s[a + 1]
-        elif level[MERGE_X]:
-            for j in range(n):
-                s[base + j] = g[part + j] * s[part + j] + g[other + j] * s[other + j]
-        else:
-            for j in range(n):
-                s[base + j] = g[part + j] * s[part + j]
-
-
-@compiled
-def _prolong_level(above, level, weight, g, s):  # type: ignore[no-untyped-def]
-    """s = g (deflection of the parent + weight s), the parent's standing in its own s. On the rim g, and so s, is 0."""
-    for cell in range(level[ROWS]):
-        parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
-        base = level[START] + cell * level[STRIDE] - above[OFFSET_Y]
-        if above[MERGE_Y]:
-            for j in range(above[COLUMNS]):
-                d = s[parent + j]
-                a = base + 2 * j
-                s[a] = g[a] * (d + weight * s[a])
-                s[a + 1] = g[a + 1] * (d + weight * s[a + 1])
-        else:
-            for j in range(above[COLUMNS]):
-                s[base + j] = g[base + j] * (s[parent + j] + weight * s[base + j])
-
-
-@compiled
-def restrict(levels, first, last, g, s):  # type: ignore[no-untyped-def]
-    """Sums s of the levels beyond the ``first`` up to the ``last``."""
-    for depth in range(first + 1, last + 1):
-        _restrict_level(levels[depth - 1], levels[depth], g, s)
-
-
-@compiled
-def prolong(levels, weights, first, last, g, s):  # type: ignore[no-untyped-def]
-    """Deflections, in s, of the levels below the ``first`` down to the ``last``."""
-    for depth in range(first - 1, last - 1, -1):
-        _prolong_level(levels[depth + 1], levels[depth], weights[depth], g, s)
-
-
-@compiled
-def cycle(levels, weights, depth, g, s):  # type: ignore[no-untyped-def]
-    """Deflections, in s, of the level ``depth`` under its sums s: one cycle up to the coarsest level and down again."""
-    last = levels.shape[0] - 1
-    restrict(levels, depth, last, g, s)
-    top = levels[last]
-    for cell in range(top[ROWS]):
-        base = top[START] + cell * top[STRIDE]
-        for j in range(base, base + top[COLUMNS]):
-            s[j] *= g[j] * weights[last]
-    prolong(levels, weights, last, depth, g, s)
-
-
-@compiled
-def factorise(span, levels, weights, shape, rows, index, nothing, g, s):  # type: ignore[no-untyped-def]
-    """g = 1 / (1 + w T) in the hierarchies of the span, for the points ``index``, those of row i from ``rows[i]`` on."""
+    last = levels.shape[1] - 1
     for hierarchy in range(span[0], span[1]):
-        last = levels.shape[1] - 1
-        for depth in range(1, last + 1):
+        for depth in range(way[0], way[1] + 1):
             level = levels[hierarchy, depth]
-            if depth == 1:
-                sum_points(level, shape, rows, index, nothing, s)
-            else:
-                _restrict_level(levels[hierarchy, depth - 1], level, g, s)
-            weight = weights[depth]
+            below = levels[hierarchy, depth - 1]
+            start, columns, stride = level[START], level[COLUMNS], level[STRIDE]
+            merge_x, merge_y, offset_y = level[MERGE_X], level[MERGE_Y], level[OFFSET_Y]
             for cell in range(level[ROWS]):
-                base = level[START] + cell * level[STRIDE]
-                for j in range(base, base + level[COLUMNS]):
-                    g[j] = 1.0 / (1.0 + weight * s[j])
-
-
-@compiled
-def cell_deflections(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
-    """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads ``values``."""
-    for hierarchy in range(span[0], span[1]):
-        sum_points(levels[hierarchy, 1], shape, rows, index, values, s)
-        cycle(levels[hierarchy], weights, 1, g, s)
-
-
-@compiled
-def _row_of_cells(row, level, shape):  # type: ignore[no-untyped-def]
-    """Where the cells of the level that hold points of this row begin."""
-    moved = row + level[ROLL_X]
-    moved -= shape[0] if moved >= shape[0] else 0
-    return level[START] + ((moved + level[OFFSET_X]) >> level[MERGE_X]) * level[STRIDE]
+                base = start + cell * stride
+                first = (cell << merge_x) - level[OFFSET_X]
+                if depth == 1:
+                    for j in range(base, base + columns):
+                        s[j] = 0.0
+                    for moved in range(first, first + 1 + merge_x):
+                        if moved < 0 or moved >= shape[0]:
+                            continue
+                        row = moved - level[ROLL_X]
+                        row += shape[0] if row < 0 else 0
+                        shift = offset_y + level[ROLL_Y] - row * shape[1]
+                        end = shape[1] + offset_y
+                        for k in range(rows[row], rows[row + 1]):
+                            column = index[k] + shift
+                            column -= shape[1] if column >= end else 0
+                            s[base + (column >> merge_y)] += one if unit else values[k]
+                    continue
+                part = below[START] + first * below[STRIDE] - offset_y
+                other = part + below[STRIDE]
+                if merge_x and merge_y:
+                    out = s[base : base + columns]
+                    ga, sa = g[part:other], s[part:other]
+                    gb, sb = g[other : 2 * other - part], s[other : 2 * other - part]
+                    for j in range(columns):
+                        k = 2 * j
+                        out[j] = ga[k] * sa[k] + ga[k + 1] * sa[k + 1] + gb[k] * sb[k] + gb[k + 1] * sb[k + 1]
+                else:  # pairs along one axis
+                    step, pair = 1 + merge_y, other - part if merge_x else 1
+                    for j in range(columns):
+                        a = part + step * j
+                        s[base + j] = g[a] * s[a] + g[a + pair] * s[a + pair]
+            if way[3]:
+                weight = weights[depth]
+                for cell in range(level[ROWS]):
+                    base = start + cell * stride
+                    for j in range(base, base + columns):
+                        g[j] = one / (one + weight * s[j])
+        if way[1] == last and way[2] <= last:
+            top = levels[hierarchy, last]
+            for cell in range(top[ROWS]):
+                base = top[START] + cell * top[STRIDE]
+                for j in range(base, base + top[COLUMNS]):
+                    s[j] *= g[j] * weights[last]
+        for depth in range(way[1] - 1, way[2] - 1, -1):
+            above, level, weight = levels[hierarchy, depth + 1], levels[hierarchy, depth], weights[depth]
+            columns, merge_y = above[COLUMNS], above[MERGE_Y]
+            for cell in range(level[ROWS]):
+                parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
+                base = level[START] + cell * level[STRIDE] - above[OFFSET_Y]
+                if merge_y:
+                    for j in range(columns):
+                        d = s[parent + j]
+                        a = base + 2 * j
+                        s[a] = g[a] * (d + weight * s[a])
+                        s[a + 1] = g[a + 1] * (d + weight * s[a + 1])
+                else:
+                    for j in range(columns):
+                        s[base + j] = g[base + j] * (s[parent + j] + weight * s[base + j])
 
 
 @compiled
@@ -152,7 +109,11 @@ def subtract_deflections(span, levels, shape, rows, index, values, other, s, out
     merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
     end_one, end_two = shape[1] + one[OFFSET_Y], shape[1] + two[OFFSET_Y]
     for row in range(span[0], span[1]):
-        base_one, base_two = _row_of_cells(row, one, shape), _row_of_cells(row, two, shape)
+        moved_one, moved_two = row + one[ROLL_X], row + two[ROLL_X]
+        moved_one -= shape[0] if moved_one >= shape[0] else 0
+        moved_two -= shape[0] if moved_two >= shape[0] else 0
+        base_one = one[START] + ((moved_one + one[OFFSET_X]) >> one[MERGE_X]) * one[STRIDE]
+        base_two = two[START] + ((moved_two + two[OFFSET_X]) >> two[MERGE_X]) * two[STRIDE]
         shift_one = one[OFFSET_Y] + one[ROLL_Y] - row * shape[1]
         shift_two = two[OFFSET_Y] + two[ROLL_Y] - row * shape[1]
         total = 0.0
@@ -172,86 +133,3 @@ def subtract_deflections(span, levels, shape, rows, index, values, other, s, out
         sums[row, 0] = total
         sums[row, 1] = with_values
         sums[row, 2] = with_other
-
-
-# Coarse correction: sweeps that end at the cells of one level, whose true compliance is a convolution A.
-#
-# With S and T what the levels below pass up for given and for unit loads, the loads f on the cells follow from
-# (1/T + A) f = S/T, and the deflections are d = A f = (S - f)/T. Nested cells from there on up give a guess d0 and hence
-# f0 = S - T d0, whose residual is d0 - A f0; one step of conjugate gradients follows, preconditioned by nested cells again.
-#
-# ``hierarchy`` holds levels, weights, g, s of one hierarchy as above, and the number of the level; ``fields`` for each cell
-# of the level T, d0, the direction t of the step over T, the argument of a product with A, and the product.
-
-
-UNIT, GUESS, STEP, FIELD, RESPONSE = range(5)
-
-
-@compiled
-def copy_level(level, s, unit):  # type: ignore[no-untyped-def]
-    """unit = s of the level."""
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(level[COLUMNS]):
-            unit[cell, j] = s[base + j]
-
-
-@compiled
-def coarse_guess(hierarchy, shape, rows, index, values, fields):  # type: ignore[no-untyped-def]
-    """Guess d0 by nested cells under the loads ``values`` of points; f0 is the argument of a product."""
-    levels, weights, g, s, depth = hierarchy
-    unit, guess, field = fields[UNIT], fields[GUESS], fields[FIELD]
-    sum_points(levels[1], shape, rows, index, values, s)
-    restrict(levels, 1, depth, g, s)
-    copy_level(levels[depth], s, field)
-    cycle(levels, weights, depth, g, s)
-    level = levels[depth]
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(level[COLUMNS]):
-            guess[cell, j] = s[base + j]
-            field[cell, j] -= unit[cell, j] * s[base + j]
-
-
-@compiled
-def coarse_direction(hierarchy, fields):  # type: ignore[no-untyped-def]
-    """From the product A f0 the direction t, the argument of the next; its product with the residual is returned."""
-    levels, weights, g, s, depth = hierarchy
-    unit, guess, step, field, response = fields[UNIT], fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
-    level = levels[depth]
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(level[COLUMNS]):
-            residual = guess[cell, j] - response[cell, j]
-            step[cell, j] = residual
-            s[base + j] = unit[cell, j] * residual
-    cycle(levels, weights, depth, g, s)
-    product = 0.0
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(level[COLUMNS]):
-            residual = step[cell, j]
-            direction = residual - s[base + j]
-            t = unit[cell, j] * direction
-            product += np.float64(t) * residual
-            step[cell, j] = direction
-            field[cell, j] = t
-    return product
-
-
-@compiled
-def coarse_step(hierarchy, fields, product):  # type: ignore[no-untyped-def]
-    """From the product A t the deflections d0 - length t / T, prolonged down to the finest cells."""
-    levels, weights, g, s, depth = hierarchy
-    guess, step, field, response = fields[GUESS], fields[STEP], fields[FIELD], fields[RESPONSE]
-    level = levels[depth]
-    curvature = 0.0
-    for cell in range(level[ROWS]):
-        for j in range(level[COLUMNS]):
-            curvature += np.float64(field[cell, j]) * (step[cell, j] + response[cell, j])
-    length = s.dtype.type(product / curvature if curvature > 0.0 else 0.0)
-    for cell in range(level[ROWS]):
-        base = level[START] + cell * level[STRIDE]
-        for j in range(level[COLUMNS]):
-            s[base + j] = guess[cell, j] - length * step[cell, j]
-    prolong(levels, weights, depth, 1, g, s)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
+from .corrected_cells import CorrectedCells
 from .protocol import (
     SQUARE_SIDE,
     Cells,
@@ -85,6 +86,7 @@ ROW_PAD = 16
 """Gap in floats (one cache line) between the rows of a field in single precision, see ``CpuEngine.field``."""
 
 _NO_CAP = np.full(1, np.inf)
+_ZERO = {dtype: np.zeros(1, dtype) for dtype in ("float32", "float64")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,6 +207,10 @@ def bound(cap: RealArray | None) -> RealArray:
 # Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
 
 
+_Way = tuple[int, int, int, int]
+"""First and last level of sums, last of deflections, and whether to factorise, see ``cell_kernels.sweep``."""
+
+
 class CpuCells:
     """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
 
@@ -229,23 +235,24 @@ class CpuCells:
 
     def factorise(self, free: FreeSet, conductance: RealArray | None = None) -> None:
         """g of all cells for the points of ``free``, see ``solve_yielding`` for those of another ``conductance`` than one."""
-        self._sweep("factorise", free, self._nothing if conductance is None else conductance, self.g)
+        last = len(self.weights) - 1
+        self._sweep(free, self._nothing if conductance is None else conductance, self.g, (1, last, last + 1, 1))
 
     def solve_yielding(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
         """Inverse times ``r`` where each point deflects under its own load by 1 / ``conductance`` (in (0, 1]) instead of by one."""
-        self._sweep("cell_deflections", free, conductance * r, self.g)
+        self._sweep(free, conductance * r, self.g, self._cycle)
         return np.asarray(conductance * self.at_points(free, r, r, np.empty_like(r)).vector)
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, see ``protocol.Cells``."""
-        self._sweep("cell_deflections", free, r, self.g)
+        self._sweep(free, r, self.g, self._cycle)
         return self.at_points(free, r, other, out)
 
     def predicted_residual(
         self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
     ) -> RealArray:
         """r - factor times the deflection of the cells."""
-        self._sweep("cell_deflections", loaded, change * change.dtype.type(factor), self._all)
+        self._sweep(loaded, change * change.dtype.type(factor), self._all, self._cycle)
         return np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
 
     def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
@@ -258,11 +265,32 @@ class CpuCells:
         total, first, second = (float(value) for value in sums.sum(axis=0))
         return Products(out, total, first, second)
 
-    def _sweep(self, kernel: str, free: FreeSet, values: RealArray, g: RealArray) -> None:
+    @property
+    def serial(self) -> bool:
+        """Whether both hierarchies are swept by one thread."""
+        return self.g.size < SERIAL_BELOW
+
+    @property
+    def _cycle(self) -> _Way:
+        return 1, len(self.weights) - 1, 1, 0
+
+    def level(self, number: int, depth: int) -> RealArray:
+        """Sums or deflections s of the cells of the level ``depth`` of one hierarchy, (cells along x, along y)."""
+        start, nx, ny, stride = self.levels[number, depth, :4]
+        return self.s[start : start + nx * stride].reshape(nx, stride)[:, :ny]
+
+    def sweep_one(self, number: int, free: FreeSet, values: RealArray, way: _Way) -> None:
+        """Sweep of one hierarchy."""
         assert isinstance(free, _CpuFreeSet)
-        arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, g, self.s)
-        call = getattr(self._blocks.cell_kernels, kernel)
-        self._blocks.share(call, len(self.levels), *arguments, serial=self.g.size < SERIAL_BELOW)
+        points = self._shape, free.rows, free.index
+        self._blocks.cell_kernels.sweep(
+            (number, number + 1), self.levels, self.weights, way, *points, values, self.g, self.s
+        )
+
+    def _sweep(self, free: FreeSet, values: RealArray, g: RealArray, way: _Way) -> None:
+        assert isinstance(free, _CpuFreeSet)
+        arguments = (self.levels, self.weights, way, self._shape, free.rows, free.index, values, g, self.s)
+        self._blocks.share(self._blocks.cell_kernels.sweep, len(self.levels), *arguments, serial=self.serial)
 
 
 def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
@@ -283,59 +311,6 @@ def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) ->
 def merged(n: int, pairs: bool, offset: int) -> int:
     """Number of cells that ``n`` cells form in ``pairs`` (or stay), the first alone if ``offset`` is 1."""
     return ((n - 1 + offset) >> 1) + 1 if pairs else n
-
-
-# Nested cells of the CPU engine with a coarse correction by convolution.
-
-
-class _CpuCorrectedCells:
-    """Inverse of nested cells with coarse correction (see ``cell_kernels``), a hierarchy and a product per thread."""
-
-    def __init__(
-        self,
-        blocks: Blocks,
-        cells: CpuCells,
-        coarse: CoarseCompliance,
-        products: tuple[Convolution, ...],
-        dtype: str,
-    ) -> None:
-        self._blocks = blocks
-        self._cells = cells
-        self._depth = coarse.depth
-        self._products = products
-        self._fields = np.zeros((len(products), 5, *coarse.cells), dtype)
-
-    def factorise(self, free: FreeSet) -> None:
-        """g of all cells and T of the coarse ones for the points of ``free``."""
-        self._cells.factorise(free)
-        kernels = self._blocks.cell_kernels
-        for levels, fields in zip(self._cells.levels, self._fields, strict=True):
-            kernels.copy_level(levels[self._depth], self._cells.s, fields[kernels.UNIT])
-
-    def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        assert isinstance(free, _CpuFreeSet)
-        self._blocks.share(self._deflect, len(self._products), free, r, serial=self._cells.g.size < SERIAL_BELOW)
-        return self._cells.at_points(free, r, other, out)
-
-    def predicted_residual(
-        self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
-    ) -> RealArray:
-        """r - factor times the deflection of nested cells without coarse correction, which is near enough."""
-        return self._cells.predicted_residual(free, r, loaded, change, factor)
-
-    def _deflect(self, span: tuple[int, int], free: _CpuFreeSet, r: RealArray) -> None:
-        """Deflections of the finest cells of the hierarchies of the span."""
-        kernels: Any = self._blocks.cell_kernels
-        cells = self._cells
-        for number in range(*span):
-            hierarchy = cells.levels[number], cells.weights, cells.g, cells.s, self._depth
-            fields, apply = self._fields[number], self._products[number].apply
-            field, response = fields[kernels.FIELD], fields[kernels.RESPONSE]
-            kernels.coarse_guess(hierarchy, free.shape, free.rows, free.index, r, fields)
-            apply(field, response)
-            product = kernels.coarse_direction(hierarchy, fields)
-            apply(field, response)
-            kernels.coarse_step(hierarchy, fields, product)
 
 
 class CpuEngine:
@@ -411,7 +386,7 @@ class CpuEngine:
         transform = RealTransform(parts[0], threads) if parts[0] == parts[1] else PaddedTransform(*parts, threads)
         serial = Blocks(1)
         products = tuple(_Convolution(serial, transform, coarse.kernel, dtype) for _ in hierarchies)
-        return _CpuCorrectedCells(self.blocks, cells, coarse, products, dtype)
+        return CorrectedCells(self.blocks, cells, coarse, products, dtype)
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
@@ -453,12 +428,15 @@ class CpuEngine:
     def add(self, field: RealArray, factor: float, values: RealArray) -> None:
         """values += factor field."""
         row, stride = field.shape[1], field.strides[0] // field.itemsize
-        self.blocks.run(self.blocks.kernels.add, values.size, memory(field), row, stride, factor, values.ravel())
+        arguments = (memory(field), row, stride, factor, values.ravel())
+        self.blocks.share(self.blocks.kernels.add, len(field), *arguments, serial=values.size < SERIAL_BELOW)
 
     def clear_field(self, free: FreeSet, field: RealArray) -> None:
         """field = 0 on the set."""
         assert isinstance(free, _CpuFreeSet)
-        self.blocks.run(self.blocks.kernels.clear_field, free.size, free.place(field), memory(field))
+        self.blocks.run(
+            self.blocks.kernels.scatter, free.size, free.place(field), _ZERO[field.dtype.name], memory(field)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -480,16 +458,16 @@ class _CpuSurvey:
         counts = np.zeros((len(levels), 2), dtype=np.int64)
         flat = self.p, self.u, self.h
         if self.cap is None:
-            loaded = self.squares[..., 0]
-            self._share(kernels.mark_free_elastic, *flat, row, SQUARE_SIDE, levels, loaded, mask, counts)
+            lines = levels[..., 0].repeat(SQUARE_SIDE, axis=1)
+            self._share(kernels.mark_free_elastic, *flat, row, SQUARE_SIDE, lines, self.squares, mask, counts)
         else:
             self._share(kernels.mark_free, *flat, bound(self.cap), row, SQUARE_SIDE, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
         index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=dtype)
-        words = SQUARE_SIDE // 8 * row  # of eight points of the mask, in a band of squares
-        self._share(kernels.fill_free, self.u, self.h, level, scale, words, mask, starts, index, residual)
+        masks, length = (mask, mask.view(np.uint64)), SQUARE_SIDE // 8 * row  # words in a band of squares
+        self._share(kernels.fill_free, self.u, self.h, level, scale, length, masks, starts, index, residual)
         return _CpuFreeSet(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:
@@ -505,19 +483,26 @@ class _Convolution:
         self._blocks = blocks
         self._transform = transform
         self._kernel = np.ascontiguousarray(kernel, dtype=dtype).ravel()
-        self._mean_factor = 0.5 / float(kernel.max() or 1.0)
         self._spectrum = np.empty(transform.spectrum_shape, np.complex128 if dtype == "float64" else np.complex64)
+        self._parts = self._spectrum.view(dtype).ravel()  # real and imaginary in turn
 
     def apply(self, field: RealArray, out: RealArray) -> RealArray:
-        spectrum = self._transform.forward(field, self._spectrum)
-        self._blocks.run(self._blocks.kernels.scale_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
-        return self._transform.backward(spectrum, out)
+        return self._product(field, self._kernel, out)
 
     def solve(self, field: RealArray, out: RealArray) -> RealArray:
+        return self._product(field, self._inverse, out)
+
+    @cached_property
+    def _inverse(self) -> RealArray:
+        """One over the kernel; for the mean, see ``protocol``."""
+        inverse = np.empty_like(self._kernel)
+        np.divide(1.0, self._kernel[1:], out=inverse[1:])
+        inverse[0] = 0.5 / float(self._kernel.max() or 1.0)
+        return inverse
+
+    def _product(self, field: RealArray, kernel: RealArray, out: RealArray) -> RealArray:
         spectrum = self._transform.forward(field, self._spectrum)
-        mean = spectrum[0, 0]
-        self._blocks.run(self._blocks.kernels.divide_spectrum, spectrum.size, spectrum.ravel(), self._kernel)
-        spectrum[0, 0] = mean * self._mean_factor
+        self._blocks.run(self._blocks.kernels.scale_spectrum, kernel.size, self._parts, kernel)
         return self._transform.backward(spectrum, out)
 
 

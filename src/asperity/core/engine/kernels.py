@@ -15,24 +15,23 @@ from .protocol import NEAR_CAP
 BLOCK = 1 << 14
 """Elements per block: what a thread takes at a time, 128 KiB of float64, small enough for the second-level cache."""
 
-compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+# What a first solve compiles is waited for. Cheap to compile are plain loops with conditional expressions: every function of
+# NumPy or Python in a kernel (max, sum, slices, complex products) is compiled on its own first, as is a wrapper for C.
 
-in_order: Any = njit(nogil=True, cache=True, error_model="numpy")
+_OPTIONS: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
+in_order: Any = njit(**_OPTIONS)
 """For differences of differences, which must be rounded one by one: equal residuals are then at no distance from each other."""
+
+compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
 
 
 @compiled
 def scale_spectrum(span, spectrum, factor):  # type: ignore[no-untyped-def]
-    """spectrum *= factor."""
-    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, spectrum.size)):
-        spectrum[i] *= factor[i]
-
-
-@compiled
-def divide_spectrum(span, spectrum, divisor):  # type: ignore[no-untyped-def]
-    """spectrum /= divisor."""
-    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, spectrum.size)):
-        spectrum[i] *= 1.0 / divisor[i]
+    """spectrum *= factor, the complex spectrum given as real and imaginary parts in turn."""
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, factor.size)):
+        spectrum[2 * i] *= factor[i]
+        spectrum[2 * i + 1] *= factor[i]
 
 
 @compiled
@@ -65,10 +64,11 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
                     pi = np.float64(p[i])
                     ri = u[i] - np.float64(h[i])
                     carries = 1.0 if pi > 0.0 else 0.0
-                    lowest = min(lowest, ri)
-                    total += max(pi, 0.0)
-                    pu += max(pi, 0.0) * u[i]
-                    pr += max(pi, 0.0) * ri
+                    lowest = ri if ri < lowest else lowest
+                    carried = pi if pi > 0.0 else 0.0
+                    total += carried
+                    pu += carried * u[i]
+                    pr += carried * ri
                     loaded += carries
                     level += carries * ri
                     spread += carries * ri * ri
@@ -138,12 +138,12 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
         deepest = 0.0
         for i in range(b * BLOCK, min((b + 1) * BLOCK, p.size)):
             gap = np.float64(u[i]) - h[i] - level
-            pi = max(np.float64(p[i]), 0.0)
+            pi = np.float64(p[i]) if p[i] > 0.0 else 0.0
             room = cap[i * each] - pi
             if gap > 0.0:
                 above += gap * pi
             elif gap < 0.0 and room > 0.0:
-                deepest = max(deepest, -gap)
+                deepest = -gap if -gap > deepest else deepest
                 below -= gap * room
         sums[b, 0] = above
         sums[b, 1] = below
@@ -152,29 +152,21 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
 
 @compiled
 def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-def]
-    """values += factor field, the rows of the field (of length ``row``) ``stride`` apart."""
-    for b in range(span[0], span[1]):
-        i = b * BLOCK
-        end = min((b + 1) * BLOCK, values.size)
-        while i < end:
-            gaps = i // row * (stride - row)
-            last = min(end, (i // row + 1) * row)
-            for j in range(i, last):
-                values[j] += factor * field[j + gaps]
-            i = last
+    """values += factor field in the rows of the span, of length ``row``, those of the field ``stride`` apart."""
+    for i in range(span[0], span[1]):
+        for j in range(row):
+            values[i * row + j] += factor * field[i * stride + j]
 
 
 @compiled
-def mark_free_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  # type: ignore[no-untyped-def]
-    """``mark_free`` without a cap; ``loaded`` holds the number of loaded points per square.
+def mark_free_elastic(span, p, u, h, row, side, lines, loaded, mask, counts):  # type: ignore[no-untyped-def]
+    """``mark_free`` without a cap; ``lines`` holds the level of each point along a band, ``loaded`` the loaded points per square.
 
     Row by row and with one comparison per point the loop vectorises, which is five times as fast.
     """
-    line = np.empty(row)
     for band in range(span[0], span[1]):
-        for j in range(row):
-            line[j] = levels[band, j // side, 0]
         members = np.int64(0)
+        line = lines[band]
         for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
             pressure, deflection, heights = p[start : start + row], u[start : start + row], h[start : start + row]
             inside = mask[start : start + row]
@@ -185,7 +177,9 @@ def mark_free_elastic(span, p, u, h, row, side, levels, loaded, mask, counts):  
             for j in range(row):
                 members += np.int64(inside[j])
         counts[band, 0] = members
-        counts[band, 1] = members - int(loaded[band].sum())
+        for square in range(loaded.shape[1]):
+            members -= np.int64(loaded[band, square, 0])
+        counts[band, 1] = members
 
 
 @compiled
@@ -216,9 +210,12 @@ def mark_free(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ign
 
 
 @compiled
-def fill_free(span, u, h, level, scale, length, mask, starts, index, residual):  # type: ignore[no-untyped-def]
-    """Indices of the points of the mask in order, and (level - r) / scale there; a band has ``length`` words of the mask."""
-    words = mask.view(np.uint64)
+def fill_free(span, u, h, level, scale, length, masks, starts, index, residual):  # type: ignore[no-untyped-def]
+    """Indices of the points of the mask in order, and (level - r) / scale there; a band has ``length`` words of the mask.
+
+    ``masks`` are the mask point by point and in words of eight points.
+    """
+    mask, words = masks
     for band in range(span[0], span[1]):
         k = starts[band]
         for word in range(band * length, min((band + 1) * length, words.size)):
@@ -240,24 +237,18 @@ def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # 
         for j in range(out.shape[1]):
             p = coarse[i >> 1, j >> 1]
             value = p + stiffness * (heights[i, j] - coarse_heights[i >> 1, j >> 1])
-            out[i, j] = max(value, 0.0) if p > 0.0 else 0.0
+            out[i, j] = value if p > 0.0 and value > 0.0 else 0.0
 
 
 # Passes over the points of a free set, at ``index`` in flat arrays or ``place`` in a field.
 
 
 @compiled
-def clear_field(span, index, field):  # type: ignore[no-untyped-def]
-    """field[index] = 0."""
-    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
-        field[index[k]] = 0.0
-
-
-@compiled
 def scatter(span, index, values, field):  # type: ignore[no-untyped-def]
-    """field[index] = values."""
+    """field[index] = values, or the only one of them."""
+    each = 1 if values.size > 1 else 0
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
-        field[index[k]] = values[k]
+        field[index[k]] = values[k * each]
 
 
 @compiled
@@ -272,7 +263,7 @@ def clear_tension(span, index, p, factor, scale, change):  # type: ignore[no-unt
     """p[index] = factor max(p, 0); change = what that adds to p over scale."""
     for k in range(span[0] * BLOCK, min(span[1] * BLOCK, index.size)):
         old = np.float64(p[index[k]])
-        value = factor * max(old, 0.0)
+        value = factor * old if old > 0.0 else 0.0
         p[index[k]] = value
         change[k] = (value - old) / scale
 
@@ -350,8 +341,8 @@ def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-de
             i = index[k]
             value = p[i] + scale * np.float64(d[k])
             p[i] = value
-            tensile += int(value < 0.0)
-            tension += max(-value, 0.0)
+            tensile += 1 if value < 0.0 else 0
+            tension -= value if value < 0.0 else 0.0
         sums[b, 0] = tensile
         sums[b, 1] = tension
 
