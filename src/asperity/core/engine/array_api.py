@@ -131,6 +131,9 @@ class _ArrayFreeSet:
         """``vector``, which nothing changes in place."""
         return vector
 
+    def square(self, vector: Any) -> float:
+        return self.library.numbers([self._sum(vector * vector)])[0]
+
     def gather(self, values: Any) -> tuple[Any, float]:
         vector = self.library.select(self.inside, values)
         return vector, self.library.numbers([self._sum(vector)])[0]

@@ -130,6 +130,9 @@ class _CpuFreeSet:
     def copy(self, vector: RealArray) -> RealArray:
         return vector.copy()
 
+    def square(self, vector: RealArray) -> float:
+        return float(np.dot(vector, vector))
+
     def gather(self, values: RealArray) -> tuple[RealArray, float]:
         out = np.empty(self.size, values.dtype)
         return out, self._sums("gather", 1, self.index, values.ravel(), out)[0]

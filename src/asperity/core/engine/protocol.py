@@ -150,6 +150,9 @@ class FreeSet(Protocol):
     def copy(self, vector: Any) -> Any:
         """Copy of ``vector`` that may be overwritten."""
 
+    def square(self, vector: Any) -> float:
+        """Sum of the squares of ``vector``."""
+
     def gather(self, values: Any) -> tuple[Any, float]:
         """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
 
