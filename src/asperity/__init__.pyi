@@ -1,17 +1,43 @@
 from . import theories
 from .contact import solvers
+from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
+from .contact.couplings.adhesion import AdhesiveContact
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
 from .contact.couplings.stick_slip import StickSlip
 from .contact.creep import CreepCurve, creep_curve
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
-from .contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
+from .contact.laws import (
+    Coulomb,
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    FullStick,
+    Hardness,
+    HardWall,
+    LayeredHardness,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    TrescaFriction,
+    VanDerWaalsAdhesion,
+)
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
-from .contact.problem import Approach, ContactProblem, Flat, Force, MeanGap, MeanPressure, Step, Unloaded
+from .contact.problem import (
+    Approach,
+    ContactProblem,
+    FixedGrips,
+    Flat,
+    Force,
+    MeanGap,
+    MeanPressure,
+    Pull,
+    Step,
+    Unloaded,
+)
 from .contact.result import ContactResult
 from .contact.rolling import Creepage, RollingContact, roll
 from .contact.rough_rolling import RoughRolling, roll_rough
@@ -84,6 +110,8 @@ from .theories.statistics.roughness import Roughness
 __version__: str
 
 __all__ = [
+    "AdhesionLoop",
+    "AdhesiveContact",
     "Advice",
     "Approach",
     "ArrayEngine",
@@ -102,12 +130,16 @@ __all__ = [
     "CpuEngine",
     "CreepCurve",
     "Creepage",
+    "CustomAdhesion",
     "DepthProfile",
+    "DugdaleAdhesion",
     "Elastic",
     "EnergyBalance",
     "Everywhere",
+    "ExponentialAdhesion",
     "ExponentialGrading",
     "FileFormatError",
+    "FixedGrips",
     "Flat",
     "Force",
     "Free",
@@ -126,7 +158,9 @@ __all__ = [
     "Layer",
     "Layered",
     "LayeredHardness",
+    "LennardJonesAdhesion",
     "LineLoad",
+    "LinearAdhesion",
     "LinearGrading",
     "Liquid",
     "LiquidFilm",
@@ -145,6 +179,7 @@ __all__ = [
     "PlasticLoad",
     "PointLoad",
     "PowerGrading",
+    "Pull",
     "Rigid",
     "RigidBase",
     "RollingContact",
@@ -167,12 +202,15 @@ __all__ = [
     "TrescaFriction",
     "UnitError",
     "Unloaded",
+    "VanDerWaalsAdhesion",
     "Viscoelastic",
     "VonMises",
     "WetTheory",
     "WilliamsLandelFerry",
     "YieldReport",
     "__version__",
+    "adhesion_cycle",
+    "adhesion_loop",
     "advise",
     "channels",
     "characterise",

@@ -248,8 +248,8 @@ class HistoryResult(Stored):
 class EnergyBalance:
     """Energies after each step of a history in J, counted from the touching of the unloaded bodies, dented as it found them.
 
-    A history that goes on from a loaded interface is counted from its first step instead. Integrals are trapezia through
-    the steps. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
+    A history that goes on from a loaded interface, or with adhesion, is counted from its first step instead. Integrals are trapezia through
+    the steps. With adhesion F is less the attraction, and what a jump dissipates is in the residual. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
     change of the elastic energy, K being symmetric, the work of the displacement by shear, which is part of u, and the
     plastic work, p being the hardness where dw > 0. F is the external force and that of the menisci. Periodic
     bodies are measured without the mean mode on both sides.
@@ -265,7 +265,8 @@ class EnergyBalance:
     meniscus_work
         The part of it that the menisci do.
     elastic_energy
-        Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start.
+        Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start; with
+        adhesion the energy of the interface too.
     plastic_work
         Sum of the plastic works of the steps.
     shear_work
@@ -304,13 +305,16 @@ def _balance(history: HistoryResult) -> EnergyBalance:
     from scipy.integrate import cumulative_trapezoid
 
     force, approach, elastic = history.force, history.approach, history.elastic_energy
-    plastic, pull = np.cumsum(history.plastic_work), history.force - history.external_force
+    adhesive = [0.0 if step.adhesion is None else step.adhesion.interface_energy for step in history.steps]
+    force = force - [0.0 if step.adhesion is None else step.adhesion.attractive_force for step in history.steps]
+    elastic = elastic + adhesive
+    plastic, pull = np.cumsum(history.plastic_work), force - history.external_force
     shear, along = _shear_works(history), _tangential_works(history)
     elastic = elastic + [
         0.0 if step.stick_slip is None else step.stick_slip.tangential_energy for step in history.steps
     ]
     start = history.start
-    if start is None or not start.pressure.any():
+    if history.steps[0].adhesion is None and (start is None or not start.pressure.any()):
         virgin = history.steps[0].problem.profile()
         dented = virgin if start is None else virgin - start.permanent_indentation
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
@@ -20,7 +21,7 @@ from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
-from .laws import Coulomb, FrictionLaw, HardWall, InterfaceLaw
+from .laws import Adhesion, Coulomb, FrictionLaw, HardWall, InterfaceLaw
 from .tangential import Tangential
 from .wetting import LiquidFilm
 
@@ -78,6 +79,48 @@ class MeanGap:
 
 
 @dataclass(frozen=True)
+class Pull:
+    """Tensile normal force on the grid in N, > 0, that adhesion bears; only for a problem with ``adhesion``."""
+
+    value: float
+    name: ClassVar[str] = "pull"
+    unit: ClassVar[str] = "N"
+
+    def __post_init__(self) -> None:
+        require.positive(self.value, "pull (N)", "Use Force(...) to press the bodies together.")
+
+
+@dataclass(frozen=True)
+class FixedGrips:
+    """Approach of a testing machine that holds the bodies by a spring, of either sign; only for a problem with ``adhesion``.
+
+    The bodies are at the approach δ = value - F/stiffness under the force F > 0 that presses them together.
+
+    Parameters
+    ----------
+    value
+        Approach in m from first touch of the undeformed surfaces (``Approach``); negative where they were apart.
+    stiffness
+        Stiffness of the machine in N/m, > 0; infinite by default.
+
+    Raises
+    ------
+    InputError
+        If the approach is not finite or the stiffness not positive.
+    """
+
+    value: float
+    stiffness: float = math.inf
+    name: ClassVar[str] = "approach of the grips"
+    unit: ClassVar[str] = "m"
+
+    def __post_init__(self) -> None:
+        require.finite(self.value, "approach of the grips (m)")
+        if not self.stiffness > 0.0:
+            raise InputError(f"stiffness of the machine (N/m) must be positive, but is {self.stiffness:g}.")
+
+
+@dataclass(frozen=True)
 class Unloaded:
     """No load: the bodies, dented as they are, just touch with their highest point. Ends the unloading of a load path."""
 
@@ -91,7 +134,7 @@ def mean_pressure(control: MeanPressure | Force, grid: Grid) -> float:
     return control.value if isinstance(control, MeanPressure) else control.value / grid.area
 
 
-Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded
+Control: TypeAlias = MeanPressure | Force | Approach | MeanGap | Unloaded | Pull | FixedGrips
 """A prescribed quantity."""
 
 
@@ -167,6 +210,8 @@ class ContactProblem(Shown):
     friction
         ``Coulomb(mu)``, ``TrescaFriction(strength)`` or ``FullStick()``; None for none. Under Coulomb friction all points slide unless a
         step prescribes a ``Shift`` or ``TangentialForce``; under the others the counter body does not shift until then.
+    adhesion
+        Attraction of the surfaces, such as ``ExponentialAdhesion(0.05, 1e-9)``; None for none.
 
     Notes
     -----
@@ -187,6 +232,7 @@ class ContactProblem(Shown):
     law: InterfaceLaw = HardWall()
     film: LiquidFilm | None = None
     friction: FrictionLaw | None = None
+    adhesion: Adhesion | None = None
 
     def __post_init__(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
@@ -202,12 +248,8 @@ class ContactProblem(Shown):
             "friction",
             "Coulomb(coefficient), TrescaFriction(strength), FullStick() or None",
         )
-        for body in (self.body, self.counter_body):
-            layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
-            for solid in (*layers, body.base if isinstance(body, Layered) else body):
-                if isinstance(solid, Elastic):
-                    require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
-        contact_modulus(self.body, self.counter_body)
+        self._check_adhesion()
+        self._check_materials()
         for spacing in self.grid.spacing:
             require.magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
@@ -228,6 +270,22 @@ class ContactProblem(Shown):
             raise InputError(
                 f"hardness array must have the shape {self.surface.shape} of the surface, but has {cap.shape}."
             )
+
+    def _check_adhesion(self) -> None:
+        _require(self.adhesion, Adhesion | None, "adhesion", "a law such as ExponentialAdhesion(work, range) or None")
+        if self.adhesion is not None and self.adhesion.spacing > 0.0:
+            raise InputError(
+                f"adhesion of a contact must be a law beside a hard wall, but {self.adhesion.name} has a core that repels at a distance. "
+                "Use VanDerWaalsAdhesion(...), or ExponentialAdhesion(...) of the same work and strength."
+            )
+
+    def _check_materials(self) -> None:
+        for body in (self.body, self.counter_body):
+            layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
+            for solid in (*layers, body.base if isinstance(body, Layered) else body):
+                if isinstance(solid, Elastic):
+                    require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
+        contact_modulus(self.body, self.counter_body)
 
     def _check_friction(self) -> None:
         values = {"coefficient": "friction coefficient", "strength": "shear strength of the interface"}
@@ -263,7 +321,7 @@ class ContactProblem(Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the problem rests on."""
         pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
-        physics = [part for part in (self.law, self.film, self.friction) if part is not None]
+        physics = [part for part in (self.law, self.film, self.friction, self.adhesion) if part is not None]
         parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, *physics)
         return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 

@@ -29,6 +29,7 @@ from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, least_
 from .state import InterfaceState
 
 if TYPE_CHECKING:
+    from .couplings.adhesion import AdhesiveContact
     from .couplings.stick_slip import StickSlip
 
 LARGEST_DUALITY_GAP = 1e-3
@@ -231,7 +232,7 @@ class ContactResult(Stored):
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
-        What each coupling found, by its name: ``menisci``, ``sliding``, ``stick_slip``.
+        What each coupling found, by its name: ``adhesion``, ``menisci``, ``sliding``, ``stick_slip``.
     memory
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
@@ -307,6 +308,25 @@ class ContactResult(Stored):
         """Shear traction and slip of a step with stick and slip; None in other contacts."""
         return self.couplings.get("stick_slip")
 
+    @property
+    def adhesion(self) -> AdhesiveContact | None:
+        """What the attraction of the surfaces does; None without adhesion."""
+        return self.couplings.get("adhesion")
+
+    def require_adhesion(self) -> AdhesiveContact:
+        """What the attraction of the surfaces does.
+
+        Raises
+        ------
+        InputError
+            If the problem has no adhesion.
+        """
+        if self.adhesion is None:
+            raise InputError(
+                "problem of the result must have adhesion, but has none. Give it as adhesion=ExponentialAdhesion(work, range)."
+            )
+        return self.adhesion
+
     def require_stick_slip(self) -> StickSlip:
         """Shear traction and slip of the step.
 
@@ -324,7 +344,9 @@ class ContactResult(Stored):
 
     @property
     def external_force(self) -> float:
-        """Force in N that is applied from outside: ``force`` less what menisci pull."""
+        """Force in N that is applied from outside: ``force`` less what menisci and adhesion pull."""
+        if self.adhesion is not None:
+            return self.adhesion.external_force - (0.0 if self.menisci is None else self.menisci.meniscus_force)
         return self.force if self.menisci is None else self.menisci.external_force
 
     @property
@@ -392,6 +414,7 @@ def assemble(
     before: InterfaceState | None,
     memories: Mapping[str, Memory],
     lift: RealArray | None,
+    attraction: RealArray | None,
     stiffness: bool,
     certificate: Certificate,
     outcomes: Mapping[str, Any],
@@ -401,6 +424,7 @@ def assemble(
 
     ``before`` is the interface before this load, ``memories`` what the couplings leave, ``outcomes`` what they found, ``lift`` the
     elastic displacement (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
+    ``attraction`` (nx, ny) in Pa is the part of the traction beside the pressure.
     """
     p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
     offset = -found.level
@@ -416,6 +440,8 @@ def assemble(
     load, work = found.totals.pressure, found.totals.deflected
     if lift is not None:
         work += float(np.multiply(p, lift, dtype=np.float64).sum())
+    if attraction is not None:
+        work -= float((attraction * displacement).sum())
     engine = found.qp.operator.engine
     later = Later(lambda result: stiffness_of(result, engine=engine)) if stiffness and lift is None else np.nan
     return ContactResult(

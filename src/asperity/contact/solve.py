@@ -14,6 +14,8 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
+from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
+from .couplings.adhesion import AdhesionCoupling, require_adhesion
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
@@ -27,7 +29,18 @@ from .couplings.stick_slip import StickSlipCoupling
 from .history import History, HistoryResult
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import Approach, ContactProblem, Control, MeanGap, Step, Unloaded, as_step, mean_pressure
+from .problem import (
+    Approach,
+    ContactProblem,
+    Control,
+    FixedGrips,
+    MeanGap,
+    Pull,
+    Step,
+    Unloaded,
+    as_step,
+    mean_pressure,
+)
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
@@ -80,7 +93,7 @@ def solve(
     problem
         Surfaces, bodies, boundary, physics of the interface.
     control
-        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``; a ``Step`` with one of these and a ``Shift`` or
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``, with adhesion also ``Pull`` or ``FixedGrips``; a ``Step`` with one of these and a ``Shift`` or
         ``TangentialForce``, under which the surfaces stick and slip; or a ``History`` of such steps, each of which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
         All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted.
     solver
@@ -115,7 +128,7 @@ def solve(
         start = options.get("state")
         return HistoryResult(tuple(steps(problem, control, on_failure=on_failure, **options)), start)
     if not isinstance(control, Control | Step):
-        kinds = "MeanPressure, Force, Approach, MeanGap, Unloaded, a Step or a History of them"
+        kinds = "MeanPressure, Force, Approach, MeanGap, Unloaded, Pull, FixedGrips, a Step or a History of them"
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     state = options.pop("state", None)
     keep = options.pop("keep", None) or Keep()
@@ -194,9 +207,10 @@ class Prepared:
             state.require_shape(self.profile.shape)
             dented = self.profile - state.permanent_indentation
             start = state.pressure if state.pressure.any() else None
+        require_adhesion(self.problem, control)
         if isinstance(control, Approach | MeanGap):
             require.magnitude(control.value, f"{control.name} (m)")
-        elif not isinstance(control, Unloaded):
+        elif not isinstance(control, Unloaded | Pull | FixedGrips):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
         scale = _height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
@@ -221,6 +235,9 @@ class Prepared:
         ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
         lift = next((found[name].shear_displacement for name in ("sliding", "stick_slip") if name in found), None)
+        attraction = found["adhesion"].attraction if "adhesion" in found else None
+        if attraction is not None:
+            lift = (0.0 if lift is None else lift) - self.operator.apply(attraction)
         certificate = certify(
             contact.qp,
             contact.solution,
@@ -231,8 +248,9 @@ class Prepared:
         )
         certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
         status = doubted(settled.status, certificate)
-        if status.converged and "stick_slip" in found and not found["stick_slip"].status.converged:
-            status = found["stick_slip"].status
+        for name in ("stick_slip", "adhesion"):
+            if status.converged and name in found and not found[name].status.converged:
+                status = found[name].status
         shown = replace(contact, solution=replace(contact.solution, status=status))
         papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
         return assemble(
@@ -241,6 +259,7 @@ class Prepared:
             before=state,
             memories={name: memory for name, (memory, _) in ends.items()},
             lift=lift if lift is not None and lift.any() else None,
+            attraction=attraction,
             stiffness=self.keep.stiffness,
             certificate=certificate,
             outcomes=found,
@@ -291,6 +310,8 @@ def couplings_of(
         tolerance = tolerances.get("menisci", MENISCUS_TOLERANCE)
         dry = friction if isinstance(friction, Coulomb) else Coulomb(0.0)
         found.append(MeniscusCoupling(film, problem.boundary.wraps, dry, tolerance))
+    if problem.adhesion is not None:
+        found.append(AdhesionCoupling.prepared(problem, operator, tolerances.get("adhesion", ADHESION_TOLERANCE)))
     threads = getattr(operator.engine, "threads", None)
     if sticks:
         tolerance = tolerances.get("stick_slip", STICK_SLIP_TOLERANCE)
@@ -320,7 +341,7 @@ def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> fl
         return rms
     if isinstance(control, Approach | MeanGap):
         return control.value
-    if isinstance(control, Unloaded):
+    if isinstance(control, Unloaded | Pull | FixedGrips):
         return 1.0
     uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
     return float(np.abs(operator.apply(uniform)).max()) or 1.0

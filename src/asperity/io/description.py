@@ -15,7 +15,18 @@ import numpy as np
 
 from ..contact.boundary import Boundary
 from ..contact.couplings.driver import CouplingCheck
-from ..contact.laws import Coulomb, FullStick, Hardness, HardWall, LayeredHardness, TrescaFriction
+from ..contact.laws import (
+    Coulomb,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    FullStick,
+    Hardness,
+    HardWall,
+    LayeredHardness,
+    LinearAdhesion,
+    TrescaFriction,
+    VanDerWaalsAdhesion,
+)
 from ..contact.problem import Control, Flat
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
@@ -38,18 +49,22 @@ TYPES: tuple[type, ...] = (
     *get_args(TemperatureShift),
     Coulomb,
     CouplingCheck,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
     Flat,
     FullStick,
     Hardness,
     HardWall,
     LayeredHardness,
     Layer,
+    LinearAdhesion,
     LiquidFilm,
     Region,
     RigidBase,
     Strength,
     TrescaFriction,
     Viscoelastic,
+    VanDerWaalsAdhesion,
 )
 """Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 

@@ -28,6 +28,16 @@ from ..core.status import Outcome, Status
 from ..core.text import require_file
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
+from .adhesion_files import (
+    ADHESION,
+    ATTRACTION,
+    FOLLOWING,
+    STICK_SLIP,
+    adhesion_columns,
+    adhesion_from,
+    adhesion_text,
+    following,
+)
 from .description import describe, provenance, rebuild, software, surface_provenance
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .stress_files import field_from, field_node
@@ -45,7 +55,7 @@ Result: TypeAlias = ContactResult | HistoryResult | StressField
 PARTS = ("body", "counter_body", "boundary", "law", "control")
 """Attributes that describe problem and control, each a JSON text."""
 
-PHYSICS = ("film", "friction")
+PHYSICS = ("film", "friction", "adhesion")
 """The same for physics that a problem need not have."""
 
 _CHECKS = ("couplings", "rounds")
@@ -78,9 +88,6 @@ ENERGIES = (
     Quantity("residual", "J", "external and tangential work less all other energies"),
 )
 """Entries of an energy balance."""
-
-STICK_SLIP = "stick_slip"
-"""Coupling, and group, whose memory follows from what it found."""
 
 SPOTS = Quantity("spot_areas", "m**2", "areas of the contact spots", dims=("spot",))
 """Areas of contact spots, largest first; of a load path those of one step after the other."""
@@ -261,7 +268,7 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
         groups |= {} if result.menisci is None else {"film": film_node(result, result.menisci)}
         shear = result.stick_slip
         groups |= {} if shear is None else {STICK_SLIP: shear_node(shear, grid_lines(result))}
-        memories = {name: _memory_node(memory) for name, memory in result.memory.items() if name != STICK_SLIP}
+        memories = {name: _memory_node(memory) for name, memory in result.memory.items() if name not in FOLLOWING}
         groups |= {"memory": Node((), {}, memories)} if memories else {}
         return Node((), root_attributes(result, document), groups)
     raise InputError(
@@ -298,6 +305,9 @@ def contact_node(result: ContactResult) -> Node:
         attributes["counter_surface"] = _surface_text(problem.counter_surface)
     values += [_field(item, getattr(result, item.name)) for item in (*FIELDS, *MARKS)]
     values += [] if result.sliding is None else [_field(LIFT, result.sliding.shear_displacement)]
+    if result.adhesion is not None:
+        values.append(_field(ATTRACTION, result.adhesion.attraction))
+        attributes["adhesion_found"] = adhesion_text(result.adhesion)
     values += [] if result.earlier is None else [_field(EARLIER, result.earlier)]
     values += [_field(MAPS.get(name, Quantity(name, "Pa", "hardness")), array) for name, array in arrays.items()]
     values += [Labelled(SPOTS, result.spot_areas)]
@@ -323,7 +333,7 @@ def contact_from(
     parts |= {part: rebuild(json.loads(attributes[part]), arrays) for part in PHYSICS if part in attributes}
     problem = ContactProblem(surface=surface, **parts)
     numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
-    couplings = _couplings(problem, arrays, numbers)
+    couplings = _couplings(problem, arrays, numbers, attributes.get("adhesion_found"))
     memories = {} if memory is None else {name: _memory(child) for name, child in memory.children.items()}
     if shear is not None and problem.friction is not None:
         couplings[STICK_SLIP] = shear_in(shear, problem.friction)
@@ -336,7 +346,7 @@ def contact_from(
         status=status_from(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
         couplings=couplings,
-        memory=memories | _shear_memory(couplings),
+        memory=memories | following(couplings, arrays["gap"], float(node["approach"])),
         earlier=arrays.get(EARLIER.name),
         **_values(arrays, FIELDS),
         **_values(node, _STORED),
@@ -347,14 +357,13 @@ def film_node(result: ContactResult, menisci: Menisci) -> Node:
     """Group of the liquid film of a contact: where menisci stand, and scalars."""
     fields_ = (Labelled(item, getattr(menisci.wetting, item.name)) for item in WET_FIELDS)
     scalars = (Labelled(item, getattr(menisci, item.name)) for item in WET_SCALARS)
-    attributes = {"menisci": _numbers_text(menisci), "regime": menisci.wetting.regime}
-    return Node((*grid_lines(result), *fields_, *scalars), attributes)
+    texts = {"menisci": _numbers_text(menisci), "regime": menisci.wetting.regime}
+    return Node((*grid_lines(result), *fields_, *scalars), texts)
 
 
 def _with_film(node: Node, contact: ContactResult) -> ContactResult:
     """The ``contact`` of a file in which wet contacts were results of their own, with what its group of the film holds."""
-    attributes = node.attributes
-    film = rebuild(json.loads(attributes["film"]))
+    film = rebuild(json.loads((attributes := node.attributes)["film"]))
     if not isinstance(film, LiquidFilm):
         raise ValueError("film")
     stored: dict[str, Any] = {name: float(attributes[f"stored_{name}"]) for name in _MENISCI}
@@ -412,6 +421,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
         for item in WET_SCALARS:
             yield _column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
         yield _column(Quantity("menisci", "", "numbers of the menisci, as JSON"), list(map(_numbers_text, found)))
+    yield from adhesion_columns([step.adhesion for step in steps if step.adhesion is not None])
     yield from shear_columns([step.stick_slip for step in steps if step.stick_slip is not None])
     for name in _CHECKS:
         texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
@@ -421,7 +431,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
             {
                 key: {name: np.asarray(a).tolist() for name, a in memory.items()}
                 for key, memory in step.memory.items()
-                if key != STICK_SLIP
+                if key not in FOLLOWING
             }
         )
         for step in steps
@@ -444,7 +454,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
     before = None if start is None or not start.pressure.any() else start.pressure
     for step in range(len(ends)):
         at = {item.quantity.name: item.values[step] for item in node.values if item.quantity.dims[:1] == ("step",)}
-        couplings, friction = _couplings(last.problem, at, at.get("menisci")), last.problem.friction
+        couplings, friction = _couplings(last.problem, at, at.get("menisci"), at.get(ADHESION)), last.problem.friction
         if f"{PREFIX}tangential" in at and friction is not None:
             couplings[STICK_SLIP] = shear_from(at, friction, PREFIX)
         result = replace(
@@ -459,7 +469,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
                 key: {name: np.asarray(value) for name, value in item.items()}
                 for key, item in json.loads(at["memory"]).items()
             }
-            | _shear_memory(couplings),
+            | following(couplings, at["gap"], float(at["approach"])),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )
@@ -476,9 +486,12 @@ def _certificate(attributes: Mapping[str, Any]) -> Certificate:
     return Certificate(**found)
 
 
-def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str | None) -> dict[str, Any]:
-    """What the couplings found, from the fields of a contact and the ``numbers`` of its menisci."""
-    found: dict[str, Any] = {}
+def _couplings(
+    problem: ContactProblem, arrays: Mapping[str, Any], numbers: str | None, text: str | None
+) -> dict[str, Any]:
+    """What the couplings found, from the fields of a contact, the ``numbers`` of its menisci and the ``text`` of its adhesion."""
+    law = problem.adhesion
+    found: dict[str, Any] = {} if law is None or text is None else {ADHESION: adhesion_from(arrays, law, str(text))}
     if problem.film is not None and numbers is not None:
         contact = arrays["pressure"] > 0.0
         stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
@@ -488,10 +501,6 @@ def _couplings(problem: ContactProblem, arrays: Mapping[str, Any], numbers: str 
     if isinstance(friction, Coulomb) and LIFT.name in arrays:
         found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
     return found
-
-
-def _shear_memory(couplings: Mapping[str, Any]) -> dict[str, Any]:
-    return {STICK_SLIP: couplings[STICK_SLIP].memory} if STICK_SLIP in couplings else {}
 
 
 def _numbers_text(menisci: Menisci) -> str:

@@ -205,7 +205,7 @@ class _Iteration:
         by_offset = (
             isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode
         )  # as the solver can hold it
-        if posed.external_force is None and not by_offset:
+        if posed.external_force is None and not by_offset and not any(coupling.positions for coupling in couplings):
             alone = not any(coupling.feedback for coupling in couplings)
             caps = [coupling.share(self.exchanges[name]).cap for name, coupling in self.couplings.items()]
             elastic = all(isinstance(cap, float) and cap == np.inf for cap in caps)
@@ -318,7 +318,8 @@ class _Iteration:
                 unlimited = isinstance(cap, float) and cap == np.inf
                 cap = share.cap if unlimited else np.minimum(cap, share.cap)
             qp = ContactQP(self.posed.operator, profile, cap, FixedOffset(0.0), self.posed.height_scale)
-            constraint = self._constraint(qp, sum(share.load for share in shares))
+            given = [share.constraint for share in shares if share.constraint is not None]
+            constraint = given[0] if given else self._constraint(qp, sum(share.load for share in shares))
             if isinstance(constraint, FixedOffset):
                 return replace(qp, constraint=constraint)
             if isinstance(cap, float) and cap >= constraint.mean_pressure * profile.size:
@@ -367,7 +368,7 @@ class _Iteration:
 
     def _solved(self, qp: ContactQP, tolerance: float) -> Contact:
         """Contact of ``qp`` started from the last pressures."""
-        if self.posed.external_force is not None and isinstance(qp.constraint, FixedOffset):
+        if isinstance(qp.constraint, FixedOffset) and float(qp.profile.max()) <= qp.constraint.offset:
             none = np.zeros_like(qp.profile)
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))

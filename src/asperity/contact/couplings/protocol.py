@@ -13,8 +13,8 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Totals
 from ...core.errors import NoSolutionError
 from ..operators.convolution import Operator
-from ..problem import Control, Force, MeanPressure, Unloaded, mean_pressure
-from ..solvers.protocol import ContactQP, Solution, level_of
+from ..problem import Control, Force, MeanPressure, Pull, Unloaded, mean_pressure
+from ..solvers.protocol import Constraint, ContactQP, Solution, level_of
 from ..tangential import Tangential
 
 Memory: TypeAlias = Mapping[str, RealArray]
@@ -61,7 +61,9 @@ class Posed:
 
     @property
     def external_force(self) -> float | None:
-        """Prescribed external force in N, zero if unloaded; None where the position is prescribed."""
+        """Prescribed external force in N, zero if unloaded, negative if it pulls; None where the position is prescribed."""
+        if isinstance(self.control, Pull):
+            return -self.control.value
         if isinstance(self.control, Unloaded):
             return 0.0
         if isinstance(self.control, MeanPressure | Force):
@@ -141,13 +143,15 @@ class Share:
 
     Shares combine: loads (N), lifts and indentations (m) add, the smallest cap (Pa) holds at every point. At a prescribed position
     the loads are passive: they change what holds the bodies there, not the contact. An indentation is a lift at points that
-    yield in this step: their pressure is then what the limit must be.
+    yield in this step: their pressure is then what the limit must be. A coupling that finds the position itself gives the
+    ``constraint`` that takes the place of the control.
     """
 
     load: float = 0.0
     lift: RealArray | float = 0.0
     cap: RealArray | float = np.inf
     indentation: RealArray | float = 0.0
+    constraint: Constraint | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,6 +225,11 @@ class Coupling(Protocol):
     @property
     def remedy(self) -> str:
         """What to do if it does not settle."""
+
+    @property
+    def positions(self) -> bool:
+        """Whether its share holds the bodies at the position prescribed."""
+        return False
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """Exchange before the first round, from the ``memory`` of the step before (empty for a virgin interface)."""

@@ -1,18 +1,36 @@
 """THE place for new interface physics: what the two surfaces do to each other where they meet."""
 
+from .adhesion import (
+    Adhesion,
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+    cohesive_length,
+)
 from .friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from .layered_hardness import LayeredHardness
 from .protocol import Hardness, HardWall, InterfaceLaw, LimitByDepth, work_density
 
 __all__ = [
+    "Adhesion",
     "Coulomb",
+    "CustomAdhesion",
+    "DugdaleAdhesion",
+    "ExponentialAdhesion",
     "FrictionLaw",
     "FullStick",
     "HardWall",
     "Hardness",
     "InterfaceLaw",
     "LayeredHardness",
+    "LennardJonesAdhesion",
     "LimitByDepth",
+    "LinearAdhesion",
     "TrescaFriction",
+    "VanDerWaalsAdhesion",
+    "cohesive_length",
     "work_density",
 ]

@@ -1,0 +1,447 @@
+"""Adhesion as a coupling: the surfaces attract each other where they do not touch, and the attraction bends them together.
+
+Its unknown is the attraction (nx, ny). The normal problem takes it as a fixed pull: a lift -Kσ and the load Σσ. Its own solver
+(``solvers.adhesion``) finds both together, nearest downhill from the attraction of the step before, so that a history follows its
+branch until that ends; the normal solve of the next round confirms the contact, and other couplings see it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from ...core.arrays import BoolArray, RealArray
+from ...core.errors import InputError, NoSolutionError
+from ...core.grid import Grid
+from ...core.late import Shown
+from ...core.status import Status
+from ...solids.compliance.halfspace import Compliance
+from ..laws import Adhesion, cohesive_length
+from ..operators import Operator, prepare_operator
+from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
+from ..solvers.adhesion.problem import Adhered, AdhesiveProblem, Linearised
+from ..solvers.adhesion.solver import AdhesiveSolution, MajoriseMinimise
+from ..solvers.protocol import FixedMean, FixedOffset
+from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+TOLERANCE = 1e-5
+"""Change of the attraction over its largest value that does not count."""
+
+_FINAL = 1e-13
+"""Error of the last normal solve: the attraction changes with the gap, whose error goes with its root."""
+
+RESOLVED = 5.0
+"""Pixels that the cohesive length must span for the pull-off to be right to 1e-3 (an error of second order)."""
+
+PINNED = 1.0
+"""Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the hysteresis is one of the grid."""
+
+_JUMP = 0.25
+"""Share of |ΔF Δδ| above which energy that is lost in a step is that of a jump: a smooth branch loses none to second order."""
+
+_FAR = 2.0
+"""Change of the gap over that of the approach above which it is no smooth response."""
+
+_POSITIONS = 40
+_POSITION_ERROR = 1e-9
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AdhesiveContact(Shown):
+    """What adhesion does in a contact; fields are (nx, ny) arrays, all values SI.
+
+    Attributes
+    ----------
+    law
+        The attraction.
+    attraction
+        σ in Pa, >= 0, also where the surfaces touch; the net traction is the pressure less this.
+    attractive_force
+        Σσ dA in N.
+    external_force
+        Force between the solids less the attraction, in N: negative where the contact is pulled.
+    grips
+        Approach in m of the machine that holds the bodies; that of the bodies where it is rigid.
+    adhesive_area_fraction
+        Area without touch and a gap below the range ϱ over nominal area.
+    interface_energy
+        Σφ(g) dA in J, <= 0.
+    elastic_energy
+        Half of net traction times displacement in J.
+    margin
+        1 - ρ, ρ being the largest eigenvalue of |σ'|^½ (K/C) |σ'|^½ on the free points: its sign is that of the smallest
+        eigenvalue of the Hessian of the energy there. Positive: the contact is a minimum at what is prescribed.
+    cohesive_length
+        ℓ = E* w/σ0² in m.
+    pixel
+        Larger spacing of the grid in m.
+    dissipated
+        Energy in J that was lost in this step: the work of the grips by the trapezoidal rule less the change of the energy.
+    jumped
+        Whether that is the loss of a jump.
+    jumps
+        Number of jumps since the first contact.
+    total_dissipated
+        Energy in J lost since then.
+    residual
+        Largest difference of attraction and σ(gap) over σ0.
+    energies
+        Energy in J after every step of the solver; none is larger than the one before.
+    steps, newton_steps, fft_pairs
+        Work of the adhesive solver in this step.
+    status
+        How it ended.
+    """
+
+    law: Adhesion
+    attraction: RealArray
+    attractive_force: float
+    external_force: float
+    grips: float
+    adhesive_area_fraction: float
+    interface_energy: float
+    elastic_energy: float
+    margin: float
+    cohesive_length: float
+    pixel: float
+    dissipated: float
+    jumped: bool
+    jumps: int
+    total_dissipated: float
+    residual: float
+    energies: tuple[float, ...]
+    steps: int
+    newton_steps: int
+    fft_pairs: float
+    status: Status
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of law and method."""
+        return (*self.law.citation_keys, *MajoriseMinimise.citation_keys)
+
+    def memory(self, gap: RealArray, approach: float) -> Memory:
+        """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m of this one."""
+        numbers = {
+            "energy": self.elastic_energy + self.interface_energy,
+            "force": self.external_force,
+            "approach": approach,
+            "jumps": self.jumps,
+            "dissipated": self.total_dissipated,
+        }
+        return {"attraction": self.attraction, "gap": gap} | {key: np.asarray(value) for key, value in numbers.items()}
+
+    @property
+    def pixels_per_length(self) -> float:
+        """ℓ over the pixel."""
+        return self.cohesive_length / self.pixel
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the grid resolves the attracting zone, ``RESOLVED`` pixels in ℓ."""
+        return self.pixels_per_length >= RESOLVED
+
+    @property
+    def needed_pixel(self) -> float:
+        """Largest pixel in m that resolves the attracting zone."""
+        return self.cohesive_length / RESOLVED
+
+    @property
+    def stable(self) -> bool:
+        """Whether the energy is at a minimum."""
+        return self.margin > 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Before:
+    """Energy (J), external force (N), approach (m), gap (nx, ny) in m, jumps and energy lost (J) so far; NaN before a first step."""
+
+    energy: float = math.nan
+    force: float = math.nan
+    approach: float = math.nan
+    gap: RealArray | float = math.nan
+    jumps: int = 0
+    total: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Note:
+    """The step's beginning, the profile (nx, ny) in m and problem of the last solution, and that."""
+
+    posed: Posed
+    before: _Before
+    base: RealArray
+    solution: AdhesiveSolution
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """Compliance of the bodies with that of a testing machine of ``stiffness`` (N/m) in series, on ``grid``."""
+
+    bodies: Compliance
+    stiffness: float
+    grid: Grid
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Those of the bodies."""
+        return self.bodies.citation_keys
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """That of the bodies."""
+        return self.bodies.spectral(wavenumber)
+
+    def mean_mode(self) -> float:
+        """Of the bodies and, in the area of the grid, of the machine, in m/Pa."""
+        return self.bodies.mean_mode() + self.grid.area / self.stiffness
+
+    def influence(self, grid: Grid) -> RealArray:
+        """Coefficients in m/Pa, shape (nx, ny): a pixel moves the whole machine."""
+        return self.bodies.influence(grid) + grid.pixel_area / self.stiffness
+
+    def line_influence(self, grid: Grid, datum: float) -> RealArray:
+        """Coefficients in m/Pa, shape (nx, 1)."""
+        return self.bodies.line_influence(grid, datum) + grid.pixel_area / self.stiffness
+
+
+@dataclass(frozen=True, eq=False)
+class AdhesionCoupling(Coupling):
+    """Attraction of the surfaces; the unknown is the attraction (nx, ny) in Pa that the contact is posed with."""
+
+    law: Adhesion
+    operator: Operator = field(repr=False)
+    E_star: float
+    solver: MajoriseMinimise = MajoriseMinimise()
+    tolerance: float = TOLERANCE
+    name: ClassVar[str] = "adhesion"
+    feedback: ClassVar[bool] = True
+    positions: ClassVar[bool] = True
+    remedy: ClassVar[str] = "Take smaller steps of load or position, or a grid that resolves the adhesion."
+
+    @classmethod
+    def prepared(cls, problem: ContactProblem, operator: Operator, tolerance: float) -> Self:
+        """Coupling of the bodies of ``problem``."""
+        assert problem.adhesion is not None
+        solver = MajoriseMinimise(tolerance=0.1 * tolerance)
+        return cls(problem.adhesion, operator, problem.contact_modulus, solver, tolerance)
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """The attraction that is remembered, followed to this load or position."""
+        before = _Before()
+        pull: RealArray = np.zeros(posed.profile.shape)
+        if memory:
+            pull = np.array(memory["attraction"], dtype=float)
+            energy, force, approach, total = (
+                float(memory[key]) for key in ("energy", "force", "approach", "dissipated")
+            )
+            jumps = int(memory["jumps"])
+            before = _Before(energy, force, approach, np.asarray(memory["gap"], dtype=float), jumps, total)
+        elif posed.external_force is not None and posed.external_force <= 0.0:
+            pull = self._touching(posed)
+        solution = self._solved(posed, posed.dented, np.inf, self._mean(posed), pull, posed.start)
+        note = _Note(posed, before, posed.dented, solution)
+        x = solution.state.pull
+        return Exchange(x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=self.law.strength, note=note)
+
+    def _touching(self, posed: Posed) -> RealArray:
+        """Attraction (nx, ny) in Pa of the contact without load that surfaces find which were brought to touch."""
+        first = self.law.attraction(posed.dented.max() - posed.dented)
+        problem = AdhesiveProblem(self.operator, posed.dented, self.law, FixedMean(0.0))
+        return self.solver.solve(problem, first).state.attraction
+
+    def _mean(self, posed: Posed) -> float | None:
+        force = posed.external_force
+        return None if force is None else force / posed.operator.grid.area
+
+    def _solved(
+        self,
+        posed: Posed,
+        profile: RealArray,
+        cap: float | RealArray,
+        mean: float | None,
+        pull: RealArray,
+        pressure: RealArray | None,
+    ) -> AdhesiveSolution:
+        """Equilibrium under the ``mean`` external pressure, or at the position prescribed where that is None."""
+        if mean is not None:
+            return self.solver.solve(
+                AdhesiveProblem(self.operator, profile, self.law, FixedMean(mean), cap), pull, pressure
+            )
+        control = posed.control
+        if isinstance(control, MeanGap):
+            return self._at_gap(profile, cap, control.value, pull, pressure)
+        stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
+        operator = self.operator if math.isinf(stiffness) else self._with_machine(stiffness)
+        offset = posed.top - control.value
+        _require_open(operator, profile, offset)
+        problem = AdhesiveProblem(operator, profile, self.law, FixedOffset(offset), cap)
+        return _of_bodies(self.solver.solve(problem, pull, pressure), operator, stiffness)
+
+    def _with_machine(self, stiffness: float) -> Operator:
+        own = self.operator
+        return prepare_operator(Machine(own.compliance, stiffness, own.grid), own.grid, own.boundary, engine=own.engine)
+
+    def _at_gap(
+        self, profile: RealArray, cap: float | RealArray, wanted: float, pull: RealArray, pressure: RealArray | None
+    ) -> AdhesiveSolution:
+        """Equilibrium of this mean gap (m), by the rule of false position for the offset where it is not known."""
+        offset = wanted + float(profile.mean())
+        places: list[tuple[float, float]] = []
+        for _ in range(_POSITIONS):
+            problem = AdhesiveProblem(self.operator, profile, self.law, FixedOffset(offset), cap)
+            found = self.solver.solve(problem, pull, pressure)
+            miss = float(found.state.gap.mean()) - wanted
+            if abs(miss) <= _POSITION_ERROR * wanted + 1e-12 * float(np.ptp(profile)):
+                return found
+            pull, pressure = found.state.attraction, found.state.pressure
+            slope = 1.0
+            if places and places[-1][0] != offset:
+                slope = (miss - places[-1][1]) / (offset - places[-1][0])
+            places.append((offset, miss))
+            offset -= miss / max(slope, 0.1)
+        raise NoSolutionError(
+            f"mean gap must be one that the contact reaches without a jump, but {wanted:.6g} m is not. Prescribe FixedGrips(...).",
+            subject="mean gap",
+        )
+
+    def share(self, exchange: Exchange) -> Share:
+        """The attraction as a lift and a load; the load between the solids that the position came to."""
+        grid, note = self.operator.grid, exchange.note
+        constraint: FixedMean | FixedOffset | None = None
+        if note.posed.external_force is None:
+            mean = float(note.solution.state.pressure.mean())
+            constraint = FixedMean(mean) if mean > 0.0 else FixedOffset(note.solution.state.offset)
+        load = float(exchange.x.sum()) * grid.pixel_area
+        return Share(load=load, lift=-self.operator.apply(exchange.x), constraint=constraint)
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """The attraction of the gap of ``contact``; solved anew where other couplings have moved it."""
+        note: _Note = exchange.note
+        attraction = self.law.attraction(contact.gap)
+        residual = float(np.abs(attraction - exchange.x).max()) / self.law.strength
+        base = contact.qp.profile - self.operator.apply(exchange.x)
+        if residual <= self.tolerance or (self._same(note, base, contact) and note.solution.status.converged):
+            return replace(exchange, target=exchange.x, residual=residual)
+        mean = self._mean(note.posed)
+        if mean is not None and isinstance(contact.qp.constraint, FixedMean):
+            mean = contact.qp.constraint.mean_pressure - float(exchange.x.mean())
+        solution = self._solved(note.posed, base, contact.qp.cap, mean, exchange.x, contact.pressure)
+        x = solution.state.pull
+        return replace(exchange, target=x, residual=residual, note=replace(note, base=base, solution=solution))
+
+    def _same(self, note: _Note, base: RealArray, contact: Contact) -> bool:
+        """Whether the last solution is of this profile already, so that only the normal solve is to be more accurate."""
+        moved = float(np.abs(base - note.base).max())
+        return contact.qp.elastic and moved <= 1e-12 * max(float(np.ptp(base)), self.law.range)
+
+    def settled(self, exchange: Exchange) -> str:
+        """That the attraction is."""
+        return "The attraction is settled"
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """The change of the attraction."""
+        return f"The attraction still changes by {exchange.residual:.1e} of its largest value"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, AdhesiveContact]:
+        """Memory of attraction and energies; what adhesion did."""
+        found = self._outcome(exchange, contact)
+        posed: Posed = exchange.note.posed
+        return found.memory(contact.gap, posed.top + contact.level), found
+
+    def _outcome(self, exchange: Exchange, contact: Contact) -> AdhesiveContact:
+        note: _Note = exchange.note
+        grid, solution = self.operator.grid, note.solution
+        pressure, gap = np.asarray(contact.pressure, dtype=float), contact.gap
+        traction = pressure - exchange.x
+        elastic = 0.5 * float((traction * self.operator.apply(traction)).sum()) * grid.pixel_area
+        interface = float(self.law.energy(gap).sum()) * grid.pixel_area
+        force = float(traction.sum()) * grid.pixel_area
+        approach = note.posed.top + contact.level
+        lost, jumped = _lost(note.before, force, approach, elastic + interface, gap)
+        held = _held(note, self.operator, self.law, contact)
+        state = Adhered(pressure, exchange.x, contact.solution.state.deflection, gap, exchange.x, -contact.level)
+        margin = 1.0 - Linearised(held, state).largest()
+        return AdhesiveContact(
+            law=self.law,
+            attraction=exchange.x,
+            attractive_force=float(exchange.x.sum()) * grid.pixel_area,
+            external_force=force,
+            grips=note.posed.control.value if isinstance(note.posed.control, FixedGrips) else approach,
+            adhesive_area_fraction=float(np.mean(self._zone(pressure, gap))),
+            interface_energy=interface,
+            elastic_energy=elastic,
+            margin=margin,
+            cohesive_length=cohesive_length(self.law, self.E_star),
+            pixel=max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1),
+            dissipated=lost,
+            jumped=jumped,
+            jumps=note.before.jumps + int(jumped),
+            total_dissipated=note.before.total + lost,
+            residual=exchange.residual,
+            energies=solution.energies,
+            steps=solution.steps,
+            newton_steps=solution.newton_steps,
+            fft_pairs=solution.fft_pairs,
+            status=solution.status,
+        )
+
+    def _zone(self, pressure: RealArray, gap: RealArray) -> BoolArray:
+        return (pressure <= 0.0) & (gap < self.law.range)
+
+
+def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> AdhesiveProblem:
+    """The problem whose Hessian tells whether ``contact`` is stable under what is prescribed."""
+    force = note.posed.external_force
+    if force is not None:
+        return AdhesiveProblem(operator, note.base, law, FixedMean(force / operator.grid.area), contact.qp.cap)
+    control: Control = note.posed.control
+    if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
+        machine = Machine(operator.compliance, control.stiffness, operator.grid)
+        operator = prepare_operator(machine, operator.grid, operator.boundary, engine=operator.engine)
+    return AdhesiveProblem(operator, note.base, law, FixedOffset(-contact.level), contact.qp.cap)
+
+
+def _of_bodies(solution: AdhesiveSolution, operator: Operator, stiffness: float) -> AdhesiveSolution:
+    """``solution`` with the deflection of the machine counted as position."""
+    if math.isinf(stiffness):
+        return solution
+    state = solution.state
+    yielded = float(state.traction.sum()) * operator.grid.pixel_area / stiffness
+    bodies = replace(state, offset=state.offset + yielded, deflection=state.deflection - yielded)
+    return replace(solution, state=bodies)
+
+
+def _require_open(operator: Operator, profile: RealArray, offset: float) -> None:
+    if operator.zero_mean_mode and offset <= float(profile.mean()):
+        most = float(profile.max() - profile.mean())
+        raise NoSolutionError(
+            f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its mean gap zero, but is "
+            f"{float(profile.max()) - offset:.6g} m. Prescribe MeanPressure(...) to go beyond full contact.",
+            subject="approach",
+        )
+
+
+def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, bool]:
+    """Energy (J) lost since the step before, and whether in a jump: more than a smooth branch loses by the step's length.
+
+    A smooth branch loses nothing to second order, and its gap changes about as much as the approach.
+    """
+    if math.isnan(before.energy):
+        return 0.0, False
+    step = approach - before.approach
+    lost = 0.5 * (force + before.force) * step - (energy - before.energy)
+    farthest = float(np.abs(gap - before.gap).max())
+    jumped = lost > _JUMP * abs((force - before.force) * step) and farthest > _FAR * abs(step)
+    return lost, jumped
+
+
+def require_adhesion(problem: ContactProblem, control: Control) -> None:
+    """Refuse with an InputError what only adhesion bears, in a ``problem`` without."""
+    if problem.adhesion is None and isinstance(control, Pull | FixedGrips):
+        raise InputError(
+            f"control of a problem without adhesion must be one that presses, but is {control!r}. Give "
+            "ContactProblem(..., adhesion=ExponentialAdhesion(work, range)), or prescribe Force(...) or Approach(...)."
+        )

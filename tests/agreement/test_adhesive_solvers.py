@@ -1,0 +1,212 @@
+"""The adhesive solver against a dense bound-constrained method; its energy falls, its states restart, couplings agree."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from adhesive_cases import APPROACH, BODY, E_STAR, FORCE, LENGTH, RADIUS, WORK, sphere, strength_of
+from refusals import refused
+
+import asperity as asp
+from asperity.contact.adhesive_cycles import adhesion_cycle, adhesion_loop
+from asperity.contact.laws import (
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+)
+from asperity.contact.operators import prepare_operator
+from asperity.contact.solvers.adhesion.problem import AdhesiveProblem
+from asperity.contact.solvers.adhesion.solver import MajoriseMinimise
+from asperity.contact.solvers.protocol import FixedOffset
+from asperity.contact.solvers.reference.adhesive import adhesive_gap
+from asperity.core.errors import InputError, NoSolutionError
+
+RANGE = WORK / strength_of(1.0)
+EXPONENTIAL = ExponentialAdhesion(WORK, RANGE)
+OWN = CustomAdhesion(EXPONENTIAL.attraction, EXPONENTIAL.energy, EXPONENTIAL.slope, far=40.0 * RANGE)
+LAWS = (EXPONENTIAL, LinearAdhesion(WORK, RANGE), VanDerWaalsAdhesion(WORK, 2.0 * RANGE), OWN)
+
+
+def rough(points: int, seed: int, boundary: object, layered: bool = False) -> asp.ContactProblem:
+    """Random heights on a few waves, so that contact and attraction are spread over the grid."""
+    generator = np.random.default_rng(seed)
+    x = np.arange(points) / points
+    heights = np.zeros((points, points))
+    for m, n in ((1, 0), (0, 1), (1, 1), (2, 1), (1, 2)):
+        phase = generator.uniform(0.0, 2.0 * np.pi)
+        heights += generator.normal() * np.cos(2.0 * np.pi * (m * x[:, None] + n * x[None, :]) + phase) / (m + n)
+    surface = asp.Surface(1.5 * APPROACH * heights, 6.0 * LENGTH / points)
+    body = asp.Layered([asp.Layer(BODY, 2.0 * LENGTH)], asp.RigidBase()) if layered else BODY
+    return asp.ContactProblem(surface, body, boundary=boundary, adhesion=EXPONENTIAL)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.name)
+@pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()], ids=["free", "periodic"])
+def test_dense_quasi_newton_finds_the_same_gap(law, boundary):
+    problem = rough(16, 3, boundary, layered=True)
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    profile = problem.profile()
+    posed = AdhesiveProblem(operator, profile, law, FixedOffset(float(profile.max()) - 0.4 * APPROACH))
+    found = MajoriseMinimise(tolerance=1e-9).solve(posed, np.zeros(profile.shape))
+    assert found.status.converged
+    assert found.newton_steps or found.steps < 30
+    gap = adhesive_gap(posed, 1.02 * found.state.gap + 0.02 * law.range)
+    # the energy is quadratic about its minimum: gradients to 1e-12 are gaps to 1e-6 of the range
+    assert found.state.gap == pytest.approx(gap, abs=3e-5 * law.range)
+    assert (gap > 0.0).any()
+    assert (found.state.gap == 0.0).any()
+
+
+@pytest.mark.parametrize("law", [*LAWS, DugdaleAdhesion(WORK, RANGE)], ids=lambda law: law.name)
+def test_energy_never_rises(law):
+    problem = rough(32, 5, asp.Free())
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    profile = problem.profile()
+    for newton in (True, False):
+        posed = AdhesiveProblem(operator, profile, law, FixedOffset(float(profile.max()) - 0.2 * APPROACH))
+        found = MajoriseMinimise(newton=newton).solve(posed, np.zeros(profile.shape))
+        assert found.status.converged
+        assert np.diff(found.energies).max() <= 1e-12 * abs(found.energy)
+
+
+def test_newton_reaches_the_same_state_in_fewer_steps():
+    problem = sphere(64, 6.0, ExponentialAdhesion(WORK, WORK / strength_of(1.5)))
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    profile = problem.profile()
+    steps = {}
+    states = {}
+    for newton in (True, False):
+        posed = AdhesiveProblem(operator, profile, problem.adhesion, FixedOffset(float(profile.max()) + 0.3 * APPROACH))
+        start = problem.adhesion.attraction(profile.max() - profile)
+        found = MajoriseMinimise(tolerance=1e-8, newton=newton).solve(posed, start)
+        steps[newton], states[newton] = found.steps, found.state
+    assert steps[True] < 0.6 * steps[False]
+    assert states[True].gap == pytest.approx(states[False].gap, abs=1e-6 * problem.adhesion.range)
+
+
+@pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()], ids=["free", "periodic"])
+def test_history_goes_on_from_its_state(boundary):
+    problem = rough(24, 7, boundary)
+    controls = adhesion_cycle(-1.5 * APPROACH, 0.5 * APPROACH, steps=4)
+    whole = asp.solve(problem, asp.History(controls))
+    first = asp.solve(problem, asp.History(controls[:4]))
+    rest = asp.solve(problem, asp.History(controls[4:]), state=first.state)
+    assert rest.external_force == pytest.approx(whole.external_force[4:], rel=1e-5, abs=1e-6 * FORCE)
+    assert rest.last.adhesion.jumps == whole.last.adhesion.jumps
+
+
+def test_loss_of_a_smooth_branch_is_of_second_order():
+    """Stiff bodies approach and part on one branch: what the trapezoidal rule misses falls with the square of the step."""
+    problem = sphere(32, 8.0, ExponentialAdhesion(WORK, WORK / strength_of(0.3)))
+    lost = []
+    for steps in (4, 8):
+        loop = adhesion_loop(
+            asp.solve(problem, asp.History(adhesion_cycle(-2.0 * APPROACH, APPROACH, steps=steps))).steps
+        )
+        assert not loop.jumped.any()
+        # the attraction is right to 1e-6 of its largest value at every step
+        assert abs(loop.hysteresis) < 1e-5 * abs(loop.work).max()
+        lost.append(abs(loop.dissipated[steps]))
+    assert lost[1] < 0.35 * lost[0]
+
+
+def test_compliant_sphere_jumps_and_loses_what_the_cycle_takes():
+    problem = sphere(96, 5.0, ExponentialAdhesion(WORK, WORK / strength_of(2.0)))
+    loop = adhesion_loop(asp.solve(problem, asp.History(adhesion_cycle(-1.2 * APPROACH, 0.0, steps=12))).steps)
+    assert loop.jumped.sum() == 2
+    assert loop.hysteresis > 0.03 * WORK * LENGTH**2
+    assert loop.margin.min() > 0.0
+    assert loop.work[-1] == pytest.approx(loop.hysteresis, rel=1e-3)
+
+
+COUPLED = {
+    "hardness": {"law": asp.Hardness(0.12 * E_STAR)},
+    "sliding": {"friction": asp.Coulomb(0.3, coupled=True)},
+    "both": {"law": asp.Hardness(0.12 * E_STAR), "friction": asp.Coulomb(0.3, coupled=True)},
+}
+
+
+@pytest.mark.parametrize("more", COUPLED.values(), ids=COUPLED)
+def test_other_couplings_join(more):
+    problem = sphere(24, 6.0, EXPONENTIAL, **more)
+    for control in (asp.Force(FORCE), asp.FixedGrips(0.5 * APPROACH)):
+        found = asp.solve(problem, control)
+        assert found.converged
+        if isinstance(control, asp.Force):
+            assert found.external_force == pytest.approx(FORCE, rel=1e-9)
+        else:
+            assert found.approach == pytest.approx(0.5 * APPROACH, rel=1e-5)
+        attraction = EXPONENTIAL.attraction(found.gap)
+        assert found.adhesion.attraction == pytest.approx(attraction, abs=2e-5 * EXPONENTIAL.strength)
+
+
+def test_stick_and_slip_joins():
+    problem = sphere(24, 6.0, EXPONENTIAL, friction=asp.Coulomb(0.3))
+    found = asp.solve(problem, asp.Step(asp.Force(FORCE), asp.Shift(1e-8)))
+    assert found.converged
+    assert found.stick_slip.force_x > 0.0
+
+
+def test_line_contact_pulls_off():
+    """Exponential law and a cylinder: JKR's -3(πE*w²R/16)^(1/3) is met from below, for the zone has a width."""
+    length = (RADIUS**2 * WORK / E_STAR) ** (1.0 / 3.0)
+    n, size = 256, 12.0 * length
+    x = (np.arange(n) - 0.5 * (n - 1)) * size / n
+    surface = asp.Surface((-(x**2) / (2.0 * RADIUS))[:, None], size / n, 1.0)
+    law = ExponentialAdhesion.of_strength(WORK, 3.0 * (E_STAR**2 * WORK / RADIUS) ** (1.0 / 3.0))
+    problem = asp.ContactProblem(surface, BODY, boundary=asp.FreeLine(), adhesion=law)
+    jkr = 3.0 * (np.pi * E_STAR * WORK**2 * RADIUS / 16.0) ** (1.0 / 3.0)
+    history = asp.History([asp.Unloaded(), asp.Pull(0.5 * jkr), asp.Pull(0.9 * jkr)])
+    assert asp.solve(problem, history).converged
+    with refused(NoSolutionError, "Step 4 of the history: force"):
+        asp.solve(problem, asp.History([*history, asp.Pull(1.15 * jkr)]))
+
+
+def test_what_adhesion_does_not_bear_is_refused():
+    problem = sphere(16, 6.0, EXPONENTIAL)
+    with refused(NoSolutionError, "force"):
+        asp.solve(problem, asp.Pull(3.0 * FORCE))
+    dry = sphere(16, 6.0, EXPONENTIAL, adhesion=None)
+    for control in (asp.Pull(FORCE), asp.FixedGrips(APPROACH)):
+        with refused(InputError, "control of a problem without adhesion"):
+            asp.solve(dry, control)
+    with refused(InputError, "adhesion of a contact"):
+        sphere(16, 6.0, LennardJonesAdhesion(WORK, RANGE))
+    with refused(InputError, "problem of the result"):
+        asp.solve(dry, asp.Force(FORCE)).require_adhesion()
+    with refused(NoSolutionError, "approach"):
+        asp.solve(rough(16, 3, asp.Periodic()), asp.FixedGrips(1.0))
+
+
+def test_unresolved_zone_is_said_with_the_pixel_needed():
+    found = asp.solve(sphere(16, 6.0, ExponentialAdhesion(WORK, WORK / strength_of(4.0))), asp.Force(FORCE))
+    assert not found.adhesion.resolved
+    assert found.adhesion.needed_pixel == pytest.approx(found.adhesion.cohesive_length / 5.0)
+
+
+def test_results_and_histories_are_saved_and_go_on(tmp_path):
+    problem = rough(16, 7, asp.Free())
+    controls = adhesion_cycle(-APPROACH, 0.5 * APPROACH, steps=3)
+    whole = asp.solve(problem, asp.History(controls))
+    first = asp.solve(problem, asp.History(controls[:4]))
+    for number, result in enumerate((first, first.last)):
+        path = tmp_path / f"{number}.nc"
+        asp.save(result, path)
+        loaded = asp.load(path)
+        last = loaded.last if number == 0 else loaded
+        assert last.adhesion.law == problem.adhesion
+        assert last.adhesion.margin == first.last.adhesion.margin
+        rest = asp.solve(problem, asp.History(controls[4:]), state=loaded.state)
+        assert rest.external_force == pytest.approx(whole.external_force[4:], rel=1e-5, abs=1e-6 * FORCE)
+
+
+def test_balance_of_a_history_counts_the_interface():
+    problem = sphere(32, 8.0, ExponentialAdhesion(WORK, WORK / strength_of(0.3)))
+    solved = asp.solve(problem, asp.History(adhesion_cycle(-APPROACH, APPROACH, steps=8)))
+    on = asp.solve(problem, asp.History(adhesion_cycle(-APPROACH, APPROACH, steps=8)[1:]), state=solved.steps[0].state)
+    loop, balance = adhesion_loop(solved.steps), on.energies
+    work = loop.work[-1] - loop.work[1]
+    assert balance.external_work[-1] == pytest.approx(work, abs=1e-6 * abs(loop.work).max())
