@@ -70,7 +70,9 @@ def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) ->
     per_step = seconds / len(found.steps)
     return (
         f"| history, {name} (Q up to {forces:.2f} μP, {rounds:.1f} rounds a step) | {n} | {cold:.3f} | "
-        f"{normal.certificate.fft_pairs:.0f} | | {np.mean([s.certificate.fft_pairs for s in found.steps]):.0f} | {per_step / cold:.2f} |"
+        f"{normal.certificate.fft_pairs:.0f} | {np.mean([s.stick_slip.iterations for s in found.steps]):.1f} | "
+        f"{np.mean([s.certificate.fft_pairs for s in found.steps]):.0f} + "
+        f"{np.mean([s.stick_slip.fft_pairs for s in found.steps]):.0f} | {per_step / cold:.2f} |"
     )
 
 
@@ -82,7 +84,7 @@ def main() -> None:
     options = parser.parse_args()
     coated = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
     print(
-        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal solves only) | time in cold solves |"
+        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal + joint and tangential solves) | time in cold solves |"
     )
     print("|---|---|---|---|---|---|---|")
     for n in options.sizes:

@@ -381,10 +381,13 @@ class _Iteration:
         return contact
 
     def _start(self, qp: ContactQP) -> RealArray | None:
-        """Last pressure, extrapolated in the load where that goes on in one direction.
+        """Pressure that a coupling knows, else the last one, extrapolated in the load where that goes on in one direction.
 
         Measured on self-affine surfaces, 20 steps: about a sixth fewer FFT pairs than from the last pressure itself.
         """
+        known = next((e.pressure for e in self.exchanges.values() if e.pressure is not None), None)
+        if known is not None:
+            return known
         if not self.pressures:
             return None
         latest = self.pressures[-1]
@@ -439,7 +442,11 @@ class _Iteration:
         When nested either the position ``moves``, along its secant, or all others do.
         """
         active = [name for name in self.active if not self.nested or (name == Position.name) == moves]
+        known = [name for name in active if self.exchanges[name].pressure is not None]
+        if known:
+            self.mixing.forget()  # rounds before a contact that is known do not lead to it
         smooth = [name for name in active if self.exchanges[name].smooth and not (self.nested and moves)]
+        smooth = [name for name in smooth if name not in known]
         moved = {name: self.exchanges[name].target for name in active}
         if smooth:
             at = tuple(self.exchanges[name].x for name in smooth)

@@ -182,6 +182,8 @@ class Exchange:
         Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
     stuck
         Whether no unknown can be right, so that it must be given up.
+    pressure
+        Pressure (nx, ny) in Pa to start the next normal solve from, where the coupling knows the contact; its target is then taken as it is.
     note
         What else it carries.
     """
@@ -198,6 +200,7 @@ class Exchange:
     final: float = np.inf
     exact: bool = False
     stuck: bool = False
+    pressure: RealArray | None = None
     note: Any = None
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -136,6 +136,13 @@ class FullStick:
     def bound(self, pressure: RealArray) -> RealArray:
         """Infinity where there is pressure."""
         return np.where(pressure > 0.0, math.inf, 0.0)
+
+
+def at_points(law: FrictionLaw, index: np.ndarray[tuple[int], np.dtype[np.int64]]) -> FrictionLaw:
+    """``law``, a dataclass, for the points at the flat ``index`` (n,) alone: its maps become arrays (1, n)."""
+    values = {item.name: getattr(law, item.name) for item in fields(law)}  # type: ignore[arg-type]
+    maps = {name: value.reshape(-1)[index][None] for name, value in values.items() if isinstance(value, np.ndarray)}
+    return replace(law, **maps) if maps else law  # type: ignore[type-var]
 
 
 def _number_or_map(value: float | RealArray, what: str) -> float | RealArray:

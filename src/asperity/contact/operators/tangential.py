@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
-from ...core.engine.cpu import TensorConvolution
+from ...core.engine.vectors import CoupledConvolution, TensorConvolution
 from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
 from ...solids.compliance.tensor import (
@@ -27,7 +27,7 @@ from ...solids.compliance.tensor import (
 )
 from ...solids.layers import Body, Layered, deformable
 from ..boundary import Boundary, Free, FreeLine, Periodic
-from .convolution import Octaves, coarse_grid
+from .convolution import Octaves, Operator, coarse_grid
 
 NO_COUPLING = 1e-11
 """Coupling over compliance that is rounding: equal bodies, or an incompressible one on a rigid one."""
@@ -140,6 +140,7 @@ class TangentialOperator:
         self.octaves = octaves or Octaves(ShearCompliance(bodies))  # type: ignore[arg-type]
         self._entries = self._made() if entries is None else entries
         self._convolutions: dict[str, TensorConvolution] = {}
+        self._coupled_convolutions: dict[str, CoupledConvolution] = {}
         pruned = 1.0 if self.padded == grid.shape else 0.75 * self.padded[0] * self.padded[1] / grid.n_points
         self.pairs_per_application = 2.0 * pruned
 
@@ -170,6 +171,11 @@ class TangentialOperator:
         largest = max(float(np.abs(kernel).max()) for kernel in (self.coupling.zx, self.coupling.zy))
         return largest > NO_COUPLING * self.largest
 
+    @property
+    def mean(self) -> float:
+        """Displacement by a uniform traction, m/Pa; of a periodic half-space none, whose datum is the mean."""
+        return float(self._entries[0][0, 0])
+
     @cached_property
     def largest(self) -> float:
         """Largest displacement by a wave of unit traction, m/Pa."""
@@ -182,6 +188,14 @@ class TangentialOperator:
                 self.engine, self._entries, self.grid.shape, self.padded, dtype
             )
         return self._convolutions[dtype]
+
+    def coupled_convolution(self, dtype: str, normal: Operator) -> CoupledConvolution:
+        """Prepared product with all three components of traction, ``normal`` being the operator of the pressure on the same grid."""
+        if dtype not in self._coupled_convolutions:
+            entries = (*self._entries, normal.kernel, self.coupling.zx, self.coupling.zy)
+            made = CoupledConvolution(self.engine, entries, self.grid.shape, self.padded, dtype)
+            self._coupled_convolutions[dtype] = made
+        return self._coupled_convolutions[dtype]
 
     def displacement(self, traction: RealArray) -> RealArray:
         """Tangential displacement (2, nx, ny) in m under ``traction`` (2, nx, ny) in Pa, in double precision; a new array."""

@@ -222,7 +222,7 @@ class CpuCells:
     ) -> None:
         self._blocks = blocks
         self._shape = shape
-        self.levels, size = _layout(shape, hierarchies)
+        self.levels, size = layout(shape, hierarchies)
         self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
         self.g = np.zeros(size, dtype)
         self.s = np.zeros(size, dtype)
@@ -236,15 +236,10 @@ class CpuCells:
             g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
         return g
 
-    def factorise(self, free: FreeSet, conductance: RealArray | None = None) -> None:
-        """g of all cells for the points of ``free``, see ``solve_yielding`` for those of another ``conductance`` than one."""
+    def factorise(self, free: FreeSet) -> None:
+        """g of all cells for the points of ``free``."""
         last = len(self.weights) - 1
-        self._sweep(free, self._nothing if conductance is None else conductance, self.g, (1, last, last + 1, 1))
-
-    def solve_yielding(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
-        """Inverse times ``r`` where each point deflects under its own load by 1 / ``conductance`` (in (0, 1]) instead of by one."""
-        self._sweep(free, conductance * r, self.g, self._cycle)
-        return np.asarray(conductance * self.at_points(free, r, r, np.empty_like(r)).vector)
+        self._sweep(free, self._nothing, self.g, (1, last, last + 1, 1))
 
     def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, see ``protocol.Cells``."""
@@ -296,7 +291,7 @@ class CpuCells:
         self._blocks.share(self._blocks.cell_kernels.sweep, len(self.levels), *arguments, serial=self.serial)
 
 
-def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
+def layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> tuple[Any, int]:
     """Table ``levels`` of ``cell_kernels`` (hierarchy, level, column) and the memory in elements."""
     levels = np.zeros((len(hierarchies), len(hierarchies[0].merges) + 1, 10), np.int64)
     end = 0
@@ -368,10 +363,6 @@ class CpuEngine:
         return _CpuFreeSet(
             self.blocks, shape, index.astype(np.int64 if wide else np.int32), np.zeros(index.size, dtype), 0
         )
-
-    def nested_cells(self, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str) -> CpuCells:
-        """Nested cells whose points may have a compliance of their own."""
-        return CpuCells(self.blocks, shape, hierarchies, dtype)
 
     def cells(
         self,
@@ -507,40 +498,6 @@ class _Convolution:
         spectrum = self._transform.forward(field, self._spectrum)
         self._blocks.run(self._blocks.kernels.scale_spectrum, kernel.size, self._parts, kernel)
         return self._transform.backward(spectrum, out)
-
-
-class TensorConvolution:
-    """Product of fields with two components with a symmetric 2 x 2 tensor in Fourier space; owns its buffers.
-
-    The entries ``xx``, ``yy`` and ``xy`` are real half spectra of the grid ``padded``; ``shape`` is that of the fields, which are zero
-    beyond it.
-    """
-
-    def __init__(
-        self,
-        engine: CpuEngine,
-        entries: tuple[RealArray, RealArray, RealArray],
-        shape: tuple[int, int],
-        padded: tuple[int, int],
-        dtype: str,
-    ) -> None:
-        self._blocks = engine.blocks
-        threads = engine.threads_for(padded)
-        self._transform: RealTransform | PaddedTransform
-        if padded == shape:
-            self._transform = RealTransform(shape, threads)
-        else:
-            self._transform = PaddedTransform(shape, padded, threads)
-        self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
-        kind = np.complex128 if dtype == "float64" else np.complex64
-        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(2)]
-
-    def apply(self, fields: tuple[RealArray, RealArray], out: tuple[RealArray, RealArray]) -> None:
-        """Convolve the two components ``fields`` into ``out``."""
-        x, y = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
-        self._blocks.run(self._blocks.kernels.tensor_product, x.size, x.ravel(), y.ravel(), *self._entries)
-        for spectrum, component in zip((x, y), out, strict=True):
-            self._transform.backward(spectrum, component)
 
 
 def _read_only(values: RealArray) -> RealArray:

@@ -44,6 +44,17 @@ def tensor_product(span, x, y, xx, yy, xy):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def coupled_product(span, x, y, z, xx, yy, xy, zz, zx, zy):  # type: ignore[no-untyped-def]
+    """(x, y, z) = Hermitian tensor times (x, y, z), in which (x, y) and z are coupled by the imaginary i zx and i zy."""
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, x.size)):
+        along, across, normal = x[i], y[i], z[i]
+        x[i] = xx[i] * along + xy[i] * across + complex(zx[i] * normal.imag, -zx[i] * normal.real)
+        y[i] = xy[i] * along + yy[i] * across + complex(zy[i] * normal.imag, -zy[i] * normal.real)
+        lifted = zx[i] * along + zy[i] * across
+        z[i] = zz[i] * normal + complex(-lifted.imag, lifted.real)
+
+
+@compiled
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of loaded points, their sum r and r².
 

@@ -50,6 +50,10 @@ PIXEL_SHARE_COARSE = 0.8
 """The same with the coarse correction, which leaves fewer borders. Pairs on films for 0.6, 0.7, 1: 22.2, 22.5, 23.0."""
 
 
+_LEAST_MEAN = 0.1
+"""Share of the compliance of half the grid that a uniform load is given at least: with none the model has no inverse in full contact."""
+
+
 class Spectral(Protocol):
     """Compliance, or what is known of it."""
 
@@ -57,14 +61,19 @@ class Spectral(Protocol):
         """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
 
 
-def hierarchies(compliance: Spectral, grid: Grid, *, periodic: bool, share: float) -> tuple[Hierarchy, Hierarchy]:
+def hierarchies(
+    compliance: Spectral, grid: Grid, *, periodic: bool, share: float, mean: float | None = None
+) -> tuple[Hierarchy, Hierarchy]:
     """Nested cells on ``grid`` that follow the normal ``compliance``, as square as its pixels allow.
 
-    Single points are given this ``share`` of their compliance.
+    Single points are given this ``share`` of their compliance. ``mean`` is the displacement in m/Pa by a uniform load, where it is not that of the
+    longest wave.
     """
     merges = merges_of(grid)
     sides, points = octaves(grid, merges)
     detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
+    if mean is not None:
+        detail[-1] = max(mean, _LEAST_MEAN * detail[-2])
     weights = np.diff(detail) / points[1:] / (share * detail[0])
     if periodic:
         cells = tuple(Merge(x, y, 0, 0, float(weight)) for (x, y), weight in zip(merges, weights, strict=True))

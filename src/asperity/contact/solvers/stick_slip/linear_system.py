@@ -10,20 +10,18 @@ the curvature |s|/B >= 0 being that of the circle: slipping points are better co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ....core.engine import FreeSet
-from ....core.engine.cpu import CpuCells
+from ....core.engine.vectors import VectorCells
 from ...operators.tangential import TangentialOperator
 from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
 from .problem import Points, Sets, free_part
-
-_LEAST = 1e-6
-"""Least conductance of a point in the model of nested cells: it may be nothing for a component that is not free."""
 
 
 class Fields(NamedTuple):
@@ -44,7 +42,7 @@ class Workspace:
     points: Points
     free: FreeSet
     fields: Fields
-    cells: tuple[CpuCells, CpuCells]
+    cells: VectorCells
     pixel: float
     dtype: str
 
@@ -54,13 +52,14 @@ class Workspace:
         engine, shape = operator.engine, operator.grid.shape
         fields = [engine.field(shape, dtype) for _ in range(4)]
         periodic = all(operator.boundary.wraps)
-        nested = hierarchies(operator.octaves, operator.grid, periodic=periodic, share=PIXEL_SHARE)
+        mean = operator.mean if periodic else None
+        nested = hierarchies(operator.octaves, operator.grid, periodic=periodic, share=PIXEL_SHARE, mean=mean)
         return cls(
             operator=operator,
             points=points,
             free=engine.points(shape, points.index, dtype),
             fields=Fields((fields[0], fields[1]), (fields[2], fields[3])),
-            cells=(engine.nested_cells(shape, nested, dtype), engine.nested_cells(shape, nested, dtype)),
+            cells=VectorCells(engine, shape, nested, dtype),
             pixel=PIXEL_SHARE * pixel_compliance(operator.octaves, operator.grid),
             dtype=dtype,
         )
@@ -80,16 +79,15 @@ class Workspace:
 class NewtonSystem:
     """System of one step with the sets of an iterate, everything divided by the deflection ``pixel`` of a point under its own load.
 
-    ``tangent`` (2, n) is that of the circle at slipping points, ``curvature`` (n,) the diagonal there; ``axes`` (2, 2) are the
-    directions in rows along which components are preconditioned: across and along the mean tangent.
+    ``tangent`` (2, n) is that of the circle at slipping points, ``curvature`` (n,) the diagonal there, and ``conductance`` (3, n) by how much
+    a point yields along x, along y under a load along x, and along y, over what one that sticks does.
     """
 
     work: Workspace
     slip: BoolArray
     tangent: RealArray
     curvature: RealArray
-    axes: RealArray
-    conductance: tuple[RealArray, RealArray]
+    conductance: RealArray
     uniform: tuple[RealArray, RealArray] | None
 
     @classmethod
@@ -99,22 +97,12 @@ class NewtonSystem:
         tangent = sets.tangent
         bound = np.where(slip, work.points.bound, 1.0)
         curvature = np.where(slip, sets.outward / bound / work.pixel, 0.0)
-        _, vectors = np.linalg.eigh(tangent @ tangent.T)
-        axes = vectors.T
-        conductance = []
-        for cells, axis in zip(work.cells, axes, strict=True):
-            share = np.where(slip, (axis @ tangent) ** 2 / (1.0 + curvature), 1.0)
-            conductance.append(np.maximum(share, _LEAST).astype(kind))
-            cells.factorise(work.free, conductance[-1])
-        system = cls(
-            work,
-            slip,
-            tangent.astype(kind),
-            curvature.astype(kind),
-            axes.astype(kind),
-            (conductance[0], conductance[1]),
-            None,
-        )
+        x, y = tangent
+        share = 1.0 / (1.0 + curvature)
+        conductance = np.stack([np.where(slip, x * x * share, 1.0), x * y * share, np.where(slip, y * y * share, 1.0)])
+        conductance = conductance.astype(kind)
+        work.cells.factorise(work.free, conductance)
+        system = cls(work, slip, tangent.astype(kind), curvature.astype(kind), conductance, None)
         return system.with_uniform() if zero_sum else system
 
     def with_uniform(self) -> NewtonSystem:
@@ -123,15 +111,7 @@ class NewtonSystem:
         ones[0, 0], ones[1, 1] = 1.0, 1.0
         solved = np.stack([self._preconditioned(self.free_part(each)) for each in ones])
         sums = solved.sum(axis=2, dtype=np.float64)  # (shift, component)
-        return NewtonSystem(
-            self.work,
-            self.slip,
-            self.tangent,
-            self.curvature,
-            self.axes,
-            self.conductance,
-            (solved, np.linalg.pinv(sums.T)),
-        )
+        return replace(self, uniform=(solved, np.linalg.pinv(sums.T)))
 
     def free_part(self, values: RealArray) -> RealArray:
         """P times ``values`` (2, n)."""
@@ -152,11 +132,7 @@ class NewtonSystem:
         return z
 
     def _preconditioned(self, r: RealArray) -> RealArray:
-        found = [
-            cells.solve_yielding(self.work.free, component, share)
-            for cells, component, share in zip(self.work.cells, self.axes @ r, self.conductance, strict=True)
-        ]
-        return self.free_part(self.axes.T @ np.stack(found))
+        return self.work.cells.solve(self.work.free, r, self.conductance)
 
     def solved(self, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
         """Step (2, n) for the residual ``r`` = P s over ``pixel``, and the number of products it took.
@@ -183,6 +159,48 @@ class NewtonSystem:
             r = r - length * response
             taken += 1
         return d, taken
+
+
+class GeneralSystem(Protocol):
+    """Linear system that need not be symmetric, of vectors (k, n)."""
+
+    def product(self, z: RealArray) -> RealArray:
+        """The matrix times ``z``."""
+
+    def preconditioned(self, r: RealArray) -> RealArray:
+        """Approximate inverse times ``r``."""
+
+
+def gmres(system: GeneralSystem, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
+    """Solution of ``system`` for the residual ``r`` (k, n), and the number of products it took (Saad & Schultz 1986).
+
+    Preconditioned from the right. The residual falls by ``reduction``, or ``most`` products are made.
+    """
+    size = math.sqrt(_dot(r, r))
+    if size == 0.0:
+        return np.zeros_like(r), 0
+    basis, steps = np.empty((most + 1, r.size), r.dtype), np.empty((most, r.size), r.dtype)
+    basis[0] = r.reshape(-1) / r.dtype.type(size)
+    hessenberg, right = np.zeros((most + 1, most)), np.zeros(most + 1)
+    right[0] = size
+    for taken in range(1, most + 1):
+        known = basis[:taken]
+        z = system.preconditioned(known[-1].reshape(r.shape))
+        steps[taken - 1] = z.reshape(-1)
+        new = system.product(z).reshape(-1)
+        for _ in range(2):  # once more, because of rounding in single precision
+            along = known @ new
+            new -= along @ known
+            hessenberg[:taken, taken - 1] += along
+        length = math.sqrt(float(new @ new))
+        hessenberg[taken, taken - 1] = length
+        matrix, wanted = hessenberg[: taken + 1, :taken], right[: taken + 1]
+        weights = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
+        left = float(np.linalg.norm(wanted - matrix @ weights))
+        if left <= reduction * size or length == 0.0:
+            break
+        basis[taken] = new / r.dtype.type(length)
+    return np.asarray(weights.astype(r.dtype) @ steps[:taken]).reshape(r.shape), taken
 
 
 def _dot(a: RealArray, b: RealArray) -> float:

@@ -111,12 +111,13 @@ class TangentialSolution:
         """(nx, ny), True where the surfaces slip in this step."""
         return np.asarray(np.any(self.slip != 0.0, axis=0))
 
-    def at_bound(self, bound: RealArray) -> RealArray:
-        """The traction (2, nx, ny) with that of slipping points at another ``bound`` (nx, ny)."""
-        found, slips = self.traction.copy(), self.slipping
-        turned = found[:, slips]
-        found[:, slips] = turned * (bound[slips] / size_of(turned))
-        return found
+
+def at_bound(traction: RealArray, slipping: BoolArray, bound: RealArray) -> RealArray:
+    """``traction`` (2, nx, ny) with that of the ``slipping`` points (nx, ny) at another ``bound`` (nx, ny)."""
+    found = traction.copy()
+    turned = found[:, slipping]
+    found[:, slipping] = turned * (bound[slipping] / size_of(turned))
+    return found
 
 
 class TangentialSolver(Protocol):

@@ -259,16 +259,16 @@ class _Iteration:
         index, ones = self.points.index[sticks], np.ones(int(np.count_nonzero(sticks)))
         shape = self.qp.bound.shape
         free = self.qp.operator.engine.points(shape, index, self.work.dtype)
-        for cells in self.work.cells:
-            cells.factorise(free, ones)
+        cells, whole = self.work.cells, np.stack([ones, 0.0 * ones, ones])
+        cells.factorise(free, whole)
         sums = _Sums.of(index, shape, self.qp.direction, wraps=self.qp.operator.boundary.wraps[self.qp.direction.axis])
 
         def apply(values: RealArray) -> RealArray:
             r = values.reshape(2, -1)
             out = tangent * (np.einsum("ij,ij->j", r, tangent) * share)
             if len(index):
-                for component, found, cells in zip(r, out, self.work.cells, strict=True):
-                    found[sticks] = cells.solve_yielding(free, sums.of_residual(component[sticks]), ones)
+                ahead = np.stack([sums.of_residual(component[sticks]) for component in r])
+                out[:, sticks] = cells.solve(free, ahead, whole)
             return np.asarray(out.ravel())
 
         return apply

@@ -1,0 +1,121 @@
+"""Vectors on the CPU: convolutions with tensors, and nested cells whose points yield along directions of their own."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from ..arrays import RealArray
+from ..spectral import PaddedTransform, RealTransform
+from .cpu import SERIAL_BELOW, CpuEngine, layout
+from .protocol import Hierarchy
+
+
+class TensorConvolution:
+    """Product of fields with two components with a symmetric 2 x 2 tensor in Fourier space; owns its buffers.
+
+    The entries ``xx``, ``yy`` and ``xy`` are real half spectra of the grid ``padded``; ``shape`` is that of the fields, which are zero
+    beyond it.
+    """
+
+    def __init__(
+        self,
+        engine: CpuEngine,
+        entries: tuple[RealArray, RealArray, RealArray],
+        shape: tuple[int, int],
+        padded: tuple[int, int],
+        dtype: str,
+    ) -> None:
+        self._blocks = engine.blocks
+        threads = engine.threads_for(padded)
+        self._transform: RealTransform | PaddedTransform
+        if padded == shape:
+            self._transform = RealTransform(shape, threads)
+        else:
+            self._transform = PaddedTransform(shape, padded, threads)
+        self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
+        kind = np.complex128 if dtype == "float64" else np.complex64
+        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(2)]
+
+    def apply(self, fields: tuple[RealArray, RealArray], out: tuple[RealArray, RealArray]) -> None:
+        """Convolve the two components ``fields`` into ``out``."""
+        x, y = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
+        self._blocks.run(self._blocks.kernels.tensor_product, x.size, x.ravel(), y.ravel(), *self._entries)
+        for spectrum, component in zip((x, y), out, strict=True):
+            self._transform.backward(spectrum, component)
+
+
+class CoupledConvolution:
+    """Product of fields with three components, along x, y and the normal, with the compliance of two bodies in Fourier space.
+
+    The ``entries`` are real half spectra of the grid ``padded``: xx, yy, xy, zz, and zx, zy of the coupling i zx, i zy. Owns its buffers.
+    """
+
+    def __init__(
+        self,
+        engine: CpuEngine,
+        entries: tuple[RealArray, ...],
+        shape: tuple[int, int],
+        padded: tuple[int, int],
+        dtype: str,
+    ) -> None:
+        self._blocks = engine.blocks
+        threads = engine.threads_for(padded)
+        self._transform: RealTransform | PaddedTransform
+        if padded == shape:
+            self._transform = RealTransform(shape, threads)
+        else:
+            self._transform = PaddedTransform(shape, padded, threads)
+        self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
+        kind = np.complex128 if dtype == "float64" else np.complex64
+        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(3)]
+
+    def apply(self, fields: tuple[RealArray, ...], out: tuple[RealArray, ...]) -> None:
+        """Convolve the three components ``fields`` into ``out``."""
+        x, y, z = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
+        flat = x.ravel(), y.ravel(), z.ravel()
+        self._blocks.run(self._blocks.kernels.coupled_product, x.size, *flat, *self._entries)
+        for spectrum, component in zip((x, y, z), out, strict=True):
+            self._transform.backward(spectrum, component)
+
+
+class VectorCells:
+    """Exact inverse of nested cells for loads (2, n) along two directions on a free set (see ``cell_kernels``), a hierarchy per thread."""
+
+    def __init__(
+        self, engine: CpuEngine, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
+    ) -> None:
+        self._blocks, self._shape = engine.blocks, shape
+        self._kernels: Any = import_module(".vector_kernels", __package__)
+        self.levels, size = layout(shape, hierarchies)
+        self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
+        self.g, self.s = np.zeros((3, size), dtype), np.zeros((2, size), dtype)
+        self._t = np.zeros((3, size), dtype)
+
+    def factorise(self, free: Any, conductance: RealArray) -> None:
+        """g of all cells for the points of ``free``, which yield by the ``conductance``, entries xx, xy, yy (3, n), times their own load."""
+        self._sweep("factorise_tensors", free, conductance, self._t)
+
+    def solve(self, free: Any, r: RealArray, conductance: RealArray) -> RealArray:
+        """Inverse times ``r`` (2, n)."""
+        self._sweep("vector_deflections", free, _times(conductance, r), self.s)
+        out, sums = np.empty_like(r), np.zeros((self._shape[0], 3))
+        subtract = self._blocks.cell_kernels.subtract_deflections
+        for component in range(2):
+            fields = r[component], r[component], self.s[component], out[component]
+            arguments = self.levels, self._shape, free.rows, free.index, *fields, sums
+            self._blocks.share(subtract, self._shape[0], *arguments, serial=free.size < SERIAL_BELOW)
+        return _times(conductance, out)
+
+    def _sweep(self, kernel: str, free: Any, values: RealArray, s: RealArray) -> None:
+        arguments = (self.levels, self.weights, self._shape, free.rows, free.index, values, self.g, s)
+        call = getattr(self._kernels, kernel)
+        self._blocks.share(call, len(self.levels), *arguments, serial=self.s[0].size < SERIAL_BELOW)
+
+
+def _times(tensor: RealArray, vectors: RealArray) -> RealArray:
+    """Symmetric tensors (3, n) times vectors (2, n)."""
+    xx, xy, yy = tensor
+    return np.stack([xx * vectors[0] + xy * vectors[1], xy * vectors[0] + yy * vectors[1]])
