@@ -256,8 +256,8 @@ class Plot:
 _PAD = 0.06
 """White border of a picture in inches."""
 
-_COMPRESSION = 4
-"""Level of the PNG encoder: pictures are 7 % larger than at its default of 6 and take half as long to encode."""
+_LEVEL, _RUN_LENGTHS = 4, 3
+"""Level and strategy of the PNG encoder: pictures are 16 % larger than by default and take half as long to encode."""
 
 BESIDE = " Beside it the part within the rectangle, enlarged."
 
@@ -330,7 +330,8 @@ def png(
         content = figure.get_tightbbox(renderer).padded(_PAD)
         if curves is not None:
             curves.extend(_curves_of(figure, content))
-        figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=content, pil_kwargs={"compress_level": _COMPRESSION})
+        how = {"compress_level": _LEVEL, "compress_type": _RUN_LENGTHS}
+        figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=content, pil_kwargs=how)
     return buffer.getvalue()
 
 

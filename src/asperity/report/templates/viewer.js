@@ -348,7 +348,7 @@ class Panel {
       if (held.size === 1) start = { at: this.place([...held.values()][0]), pinch: null };
     };
     c.addEventListener("pointerup", end); c.addEventListener("pointercancel", end);
-    c.addEventListener("pointerleave", () => { if (held.size === 0) v.leave(); });
+    c.addEventListener("pointerleave", (event) => { if (held.size === 0 && event.pointerType !== "touch") v.leave(); });
     c.addEventListener("dblclick", () => v.reset());
     c.addEventListener("wheel", (event) => {
       if (!(event.ctrlKey || event.metaKey || v.element.contains(document.activeElement))) { v.tell("Click a map, then the wheel zooms."); return; }
@@ -563,7 +563,7 @@ class Below {
     this.canvas = make("canvas", box, { role: "img", tabindex: "0", "aria-label": `${section.alt} Arrow keys move the cross and read the value.` });
     this.barCanvas = make("canvas", box, { "aria-hidden": "true" });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); this.point(this.axes.x(event.clientX - r.left), this.axes.y(event.clientY - r.top)); });
-    this.canvas.addEventListener("pointerleave", () => { this.at = null; this.said.textContent = ""; this.draw(); });
+    this.canvas.addEventListener("pointerleave", (event) => { if (event.pointerType === "touch") return; this.at = null; this.said.textContent = ""; this.draw(); });
     this.canvas.addEventListener("keydown", (event) => {
       const by = STEP_KEYS[event.key];
       if (!by) return;
@@ -650,7 +650,7 @@ class Curve {
     this.said = make("output", head, { class: "av-value" }, "");
     this.canvas = make("canvas", this.box, { role: "img", tabindex: "0", "aria-label": `${panel.map.title} along the section line. Left and right arrow move along the line and read the value.` });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); viewer.go(this.axes.x(event.clientX - r.left)); });
-    this.canvas.addEventListener("pointerleave", () => viewer.leave());
+    this.canvas.addEventListener("pointerleave", (event) => { if (event.pointerType !== "touch") viewer.leave(); });
     this.canvas.addEventListener("keydown", (event) => {
       const by = STEP_KEYS[event.key];
       if (!by || !by[0]) return;
