@@ -53,6 +53,9 @@ MOST_POINTS = 1024 * 1024
 BUDGET = 6_000_000
 """Characters that all arrays of a page take at most, beside some 2 MB of pictures."""
 
+LAST_STEP = 16
+"""Points along a side for which one value of a map of earlier steps stands, up to which the last step is shown finely."""
+
 MOST_STEPS = 60
 """Steps of a load path that are shown; of longer ones some are left out."""
 
@@ -142,14 +145,23 @@ class _Map:
     makers: list[Callable[[], Field | Kinds]]
     along: str | None = None
     block: int = 1
+    finest: int = 1
+
+    @property
+    def blocks(self) -> list[int]:
+        """How many points along a side one value stands for, in each array."""
+        found = [self.block] * len(self.makers)
+        if self.along == "steps" and self.block <= LAST_STEP:
+            found[-1] = self.finest
+        return found
 
     def code(self, number: int) -> dict[str, Any]:
-        """Array of one step or depth."""
-        shown = self.makers[number]()
+        """Array of one step or depth; the last step is that of the page and as fine as its other maps."""
+        shown, block = self.makers[number](), self.blocks[number]
         if isinstance(shown, Kinds):
             shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
-            return coded_kinds(shown.kinds, shown.grid.spacing, block=self.block) | {"shares": shares}
-        return coded(shown.values, shown.grid.spacing, block=self.block, how=shown.look.reduced)
+            return coded_kinds(shown.kinds, shown.grid.spacing, block=block) | {"shares": shares}
+        return coded(shown.values, shown.grid.spacing, block=block, how=shown.look.reduced)
 
     def size(self) -> int:
         """Characters of all arrays, from some of them."""
@@ -193,7 +205,7 @@ def scene(
         return None
     block = math.ceil(math.sqrt(grid.shape[0] * grid.shape[1] / most_points))
     for item in maps:
-        item.block = max(block, 1)
+        item.block = item.finest = max(block, 1)
     arrays = _within(maps, budget)
     described = [_described(item, arrays[item.name]) for item in maps]
     sections = [_section(figure, cut) for figure, cut in cuts]

@@ -9,7 +9,7 @@
 "use strict";
 
 const MASKED = { 8: 255, 16: 65535 };
-const KEPT = 48; // decoded arrays that are kept
+const KEPT = 2.5e7; // points of decoded arrays that are kept
 const STEP_KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /* ---- arrays ---- */
@@ -427,10 +427,13 @@ class Panel {
     this.drawOver();
   }
 
+  /* Points of the screen that a point of a raster takes, and the level at which it is drawn. */
+  dots(raster) { return (window.devicePixelRatio || 1) * raster.cell[0] * this.axes.width / (this.axes.x1 - this.axes.x0); }
+  fine(raster) { const dots = this.dots(raster); return raster.level(dots < 0.75 ? Math.max(0, Math.round(Math.log2(1 / dots))) : 0); }
+
   paint(context) {
     const v = this.viewer, r = this.raster, a = this.axes;
-    const dots = (window.devicePixelRatio || 1) * r.cell[0] * a.width / (a.x1 - a.x0);
-    const k = r.level(dots < 0.75 ? Math.max(0, Math.round(Math.log2(1 / dots))) : 0);
+    const dots = this.dots(r), k = this.fine(r);
     const level = r.levels[k], cell = [r.cell[0] * 2 ** k, r.cell[1] * 2 ** k];
     const picture = this.colours.picture(r, k, rgb(v.look.blank));
     const box = [a.px(0), a.py(level.ny * cell[1]), a.px(level.nx * cell[0]) - a.px(0), a.py(0) - a.py(level.ny * cell[1])];
@@ -582,14 +585,17 @@ class Below {
     const k = axis === "x" ? 0 : 1, half = v.size[k] / v.zoom / 2, centre = v.centre[k];
     return [Math.max(0, centre - half), Math.min(v.size[k], centre + half)];
   }
-  /* Linear between two planes of one layer; an interface has a plane on either side. */
-  value(at, depth) {
+  /* Number of the plane above a depth, and the share of the next: linear within a layer; an interface has a plane on either side. */
+  planesAt(depth) {
     const d = this.section.depths, last = d.length - 1;
-    if (depth < d[0] || depth > d[last]) return NaN;
+    if (depth < d[0] || depth > d[last]) return [-1, 0];
     let k = 0;
     while (k < last - 1 && d[k + 1] <= depth) k++;
-    const t = d[k + 1] > d[k] ? (depth - d[k]) / (d[k + 1] - d[k]) : 1;
-    return (1 - t) * this.plane(k, at) + t * this.plane(Math.min(k + 1, last), at);
+    return [k, d[k + 1] > d[k] ? (depth - d[k]) / (d[k + 1] - d[k]) : 1];
+  }
+  value(at, depth) {
+    const [k, t] = this.planesAt(depth);
+    return k < 0 ? NaN : (1 - t) * this.plane(k, at) + t * this.plane(Math.min(k + 1, this.section.depths.length - 1), at);
   }
   plane(k, at) {
     if (this.section.axis) return this.raster.between((at - this.section.start), (k + 0.5) * this.raster.cell[1], NaN);
@@ -606,20 +612,38 @@ class Below {
   }
   ready() { return this.section.axis ? Boolean(this.raster) : Boolean(this.planes && this.planes.length); }
 
+  /* Canvas with nx × nz coloured points of the part that is shown, kept until it or the colours change. */
+  picture(nx, nz, from, to, deep) {
+    const v = this.viewer, key = [nx, nz, from, to, deep, v.look.blank, this.section.axis ? "" : v.line].join(" ");
+    if (this.made && this.made.key === key && this.made.version === this.colours.version) return this.made.canvas;
+    const d = this.section.depths, rows = new Map(), table = new Uint32Array(256), blank = packed(...rgb(v.look.blank));
+    for (let k = 0; k < 256; k++) table[k] = this.colours.colour((k + 0.5) / 256);
+    const row = (k) => {
+      if (!rows.has(k)) rows.set(k, Float64Array.from({ length: nx }, (_, c) => this.plane(k, from + (c + 0.5) / nx * (to - from))));
+      return rows.get(k);
+    };
+    const image = new ImageData(nx, nz), out = new Uint32Array(image.data.buffer);
+    for (let r = 0, at = 0; r < nz; r++) {
+      const [k, t] = this.planesAt((r + 0.5) / nz * deep);
+      const above = k < 0 ? null : row(k), under = k < 0 ? null : row(Math.min(k + 1, d.length - 1));
+      for (let c = 0; c < nx; c++, at++) {
+        const value = above ? (1 - t) * above[c] + t * under[c] : NaN;
+        out[at] = Number.isNaN(value) ? blank : table[Math.min(255, Math.floor(256 * this.colours.share(value)))];
+      }
+    }
+    const canvas = document.createElement("canvas");
+    canvas.width = nx; canvas.height = nz; canvas.getContext("2d").putImageData(image, 0, 0);
+    this.made = { key, version: this.colours.version, canvas };
+    return canvas;
+  }
+
   draw() {
     const width = this.box.clientWidth, v = this.viewer;
     if (!width || !this.ready()) return;
     const margin = { ...MAP_MARGIN, right: 12 }, s = this.section, [from, to] = this.span(), deep = s.depths[s.depths.length - 1] / (s.axis ? v.zoom : 1);
     const height = Math.min(230, Math.max(130, width * 0.3)) + margin.top + margin.bottom, context = sized(this.canvas, width, height);
     const a = this.axes = new Axes(width, height, margin).limits(from, to, deep, 0);
-    const nx = Math.max(2, Math.round(a.width)), nz = Math.round(a.height), blank = packed(...rgb(v.look.blank));
-    const image = new ImageData(nx, nz), out = new Uint32Array(image.data.buffer);
-    for (let r = 0, at = 0; r < nz; r++) for (let c = 0; c < nx; c++, at++) {
-      const value = this.value(from + (c + 0.5) / nx * (to - from), (r + 0.5) / nz * deep);
-      out[at] = Number.isNaN(value) ? blank : this.colours.colour(this.colours.share(value));
-    }
-    const picture = document.createElement("canvas");
-    picture.width = nx; picture.height = nz; picture.getContext("2d").putImageData(image, 0, 0);
+    const picture = this.picture(Math.max(2, Math.round(a.width)), Math.round(a.height), from, to, deep);
     context.drawImage(picture, a.left, a.top, a.width, a.height);
     context.font = FONT; context.textBaseline = "middle"; context.textAlign = "right";
     for (const item of s.interfaces) if (item.depth < deep) {
@@ -795,8 +819,20 @@ class Viewer {
     if (this.kept.has(array)) { const found = this.kept.get(array); this.kept.delete(array); this.kept.set(array, found); return found; }
     const made = inflated(array).then((bytes) => new Raster(array, numbers(bytes, array.bits, ...array.shape), map.reduce));
     this.kept.set(array, made);
-    if (this.kept.size > KEPT) this.kept.delete(this.kept.keys().next().value);
+    let points = 0;
+    for (const one of this.kept.keys()) points += one.shape[0] * one.shape[1];
+    for (const one of this.kept.keys()) if (points > KEPT && one !== array) { points -= one.shape[0] * one.shape[1]; this.kept.delete(one); }
     return made;
+  }
+  /* The neighbours of a step or depth, decoded while nothing else happens, so that the slider finds them. */
+  prefetch(kind) {
+    const later = window.requestIdleCallback || ((action) => setTimeout(action, 50));
+    for (const by of [1, -1, 2, -2]) later(() => {
+      for (const panel of this.visible) {
+        const array = panel.map.along === kind ? panel.map.arrays[this.position[kind] + by] : null;
+        if (array) this.raster(array, panel.map).then((raster) => later(() => panel.colours.picture(raster, panel.fine(raster), rgb(this.look.blank))));
+      }
+    });
   }
   index(map) { return map.along ? this.position[map.along] : 0; }
   get visible() { return this.panels.filter((panel) => !panel.box.hidden); }
@@ -808,6 +844,7 @@ class Viewer {
     for (const curve of this.curves) curve.box.hidden = curve.panel.box.hidden;
     await Promise.all(this.visible.map((panel) => panel.load()));
     this.draw();
+    for (const kind of Object.keys(this.ranges)) this.prefetch(kind);
   }
   /* Position of the slider "steps" or "depths". */
   async set(kind, number) {
@@ -816,6 +853,7 @@ class Viewer {
     if (this.marked && this.marked.cells) this.marked = null;
     await Promise.all(this.visible.map((panel) => panel.load()));
     this.draw();
+    this.prefetch(kind);
   }
 
   /* Limits of the axes of a map for the present view: to scale, unless the grid is very slender. */
