@@ -294,14 +294,12 @@ def coarse_grid(grid: Grid) -> Grid:
 
 def restricted(field: RealArray) -> RealArray:
     """Means of 2 x 2 points of ``field``; at an odd end the last point counts twice."""
-    for axis in (0, 1):
-        n = field.shape[axis]
-        pairs = (
-            np.take(field, np.minimum(np.arange(0, n, 2), n - 1), axis),
-            np.take(field, np.minimum(np.arange(1, n + 1, 2), n - 1), axis),
-        )
-        field = 0.5 * (pairs[0] + pairs[1])
-    return field
+    if field.shape[0] % 2:
+        field = np.concatenate([field, field[-1:]])
+    field = field[::2] + field[1::2]
+    if field.shape[1] % 2:
+        field = np.concatenate([field, field[:, -1:]], axis=1)
+    return 0.25 * (field[:, ::2] + field[:, 1::2])
 
 
 # Dense forms of the two convolutions, for small grids and as reference for the fast ones.

@@ -56,7 +56,7 @@ def sweep(span, levels, weights, way, shape, rows, index, values, g, s):  # type
                         for k in range(rows[row], rows[row + 1]):
                             column = index[k] + shift
                             column -= shape[1] if column >= end else 0
-                            s[base + (column >> merge_y)] += one if unit else values[k]
+                            s[np.uint64(base + (column >> merge_y))] += one if unit else values[k]
                     continue
                 part = below[START] + first * below[STRIDE] - offset_y
                 other = part + below[STRIDE]
@@ -91,11 +91,15 @@ def sweep(span, levels, weights, way, shape, rows, index, values, g, s):  # type
                 parent = above[START] + ((cell + above[OFFSET_X]) >> above[MERGE_X]) * above[STRIDE]
                 base = level[START] + cell * level[STRIDE] - above[OFFSET_Y]
                 if merge_y:
+                    sd, sa, ga = (
+                        s[parent : parent + columns],
+                        s[base : base + 2 * columns],
+                        g[base : base + 2 * columns],
+                    )
                     for j in range(columns):
-                        d = s[parent + j]
-                        a = base + 2 * j
-                        s[a] = g[a] * (d + weight * s[a])
-                        s[a + 1] = g[a + 1] * (d + weight * s[a + 1])
+                        k = 2 * j
+                        sa[k] = ga[k] * (sd[j] + weight * sa[k])
+                        sa[k + 1] = ga[k + 1] * (sd[j] + weight * sa[k + 1])
                 else:
                     for j in range(columns):
                         s[base + j] = g[base + j] * (s[parent + j] + weight * s[base + j])
@@ -124,7 +128,7 @@ def subtract_deflections(span, levels, shape, rows, index, values, other, s, out
             column_one, column_two = i + shift_one, i + shift_two
             column_one -= shape[1] if column_one >= end_one else 0
             column_two -= shape[1] if column_two >= end_two else 0
-            d = s[base_one + (column_one >> merge_one)] + s[base_two + (column_two >> merge_two)]
+            d = s[np.uint64(base_one + (column_one >> merge_one))] + s[np.uint64(base_two + (column_two >> merge_two))]
             z = values[k] - half * d
             out[k] = z
             total += z

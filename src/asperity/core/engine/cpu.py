@@ -106,11 +106,13 @@ class _CpuFreeSet:
     @cached_property
     def rows(self) -> Any:
         """Where the points of every row begin in ``index``, and the number of points."""
-        return np.searchsorted(self.index, np.arange(self.shape[0] + 1, dtype=np.int64) * self.shape[1])
+        starts = np.arange(self.shape[0] + 1, dtype=np.int64) * self.shape[1]
+        return np.searchsorted(self.index, starts.astype(self.index.dtype))  # of another type it would copy the index
 
     @cached_property
     def _index_in_padded_rows(self) -> Any:
-        return self.index + self.index // self.shape[1] * self.index.dtype.type(ROW_PAD)
+        gaps = ROW_PAD * np.arange(self.shape[0], dtype=self.index.dtype)
+        return self.index + gaps.repeat(np.diff(self.rows))
 
     def place(self, field: RealArray) -> Any:
         """Indices of the points in the memory of ``field``."""
@@ -193,7 +195,8 @@ class _CpuFreeSet:
 
     def _sums(self, kernel: str, columns: int, *arguments: Any) -> list[float]:
         found = self.blocks.sums(getattr(self.blocks.kernels, kernel), self.size, columns, *arguments)
-        return [float(value) for value in found.sum(axis=0)]
+        sums: list[float] = (found.sum(axis=0) if len(found) != 1 else found[0]).tolist()
+        return sums
 
 
 def memory(field: RealArray) -> RealArray:
@@ -256,12 +259,11 @@ class CpuCells:
     def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """``r`` less the deflections of the finest cells that lie in s."""
         assert isinstance(free, _CpuFreeSet)
-        sums = np.zeros((self._shape[0], 3))
+        sums = np.empty((self._shape[0], 3))
         arguments = (self.levels, self._shape, free.rows, free.index, r, other, self.s, out, sums)
         subtract = self._blocks.cell_kernels.subtract_deflections
         self._blocks.share(subtract, self._shape[0], *arguments, serial=free.size < SERIAL_BELOW)
-        total, first, second = (float(value) for value in sums.sum(axis=0))
-        return Products(out, total, first, second)
+        return Products(out, *sums.sum(axis=0).tolist())
 
     @property
     def serial(self) -> bool:
@@ -361,7 +363,7 @@ class CpuEngine:
         """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
         wide = shape[0] * (shape[1] + ROW_PAD) >= 2**31
         return _CpuFreeSet(
-            self.blocks, shape, index.astype(np.int64 if wide else np.int32), np.zeros(index.size, dtype), 0
+            self.blocks, shape, index.astype(np.int64 if wide else np.uint32), np.zeros(index.size, dtype), 0
         )
 
     def cells(
@@ -458,7 +460,7 @@ class _CpuSurvey:
             self._share(kernels.mark_free, *flat, bound(self.cap), row, SQUARE_SIDE, levels, mask, counts)
         starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
         padded = self.shape[0] * (self.shape[1] + ROW_PAD)
-        index = np.empty(int(starts[-1]), dtype=np.int32 if padded < 2**31 else np.int64)
+        index = np.empty(int(starts[-1]), dtype=np.uint32 if padded < 2**31 else np.int64)
         residual = np.empty(index.size, dtype=dtype)
         masks, length = (mask, mask.view(np.uint64)), SQUARE_SIDE // 8 * row  # words in a band of squares
         self._share(kernels.fill_free, self.u, self.h, level, scale, length, masks, starts, index, residual)

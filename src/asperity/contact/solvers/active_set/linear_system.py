@@ -98,7 +98,7 @@ def _third(n: int) -> int:
 
 def pixel_compliance(compliance: Spectral, grid: Grid) -> float:
     """Deflection (m/Pa) of a point of ``grid`` under its own pressure, in the model of nested cells."""
-    sides, _ = octaves(grid, merges_of(grid))
+    sides, _ = octaves(grid, merges_of(grid)[:1])
     return float(np.asarray(compliance.spectral(np.pi / sides[:1]))[0])
 
 

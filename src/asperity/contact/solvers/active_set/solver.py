@@ -11,7 +11,7 @@ elastic, 256², every iterate within its bounds. The constants as they are take 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, NamedTuple, Protocol, Self
+from typing import Any, ClassVar, Literal, NamedTuple, Protocol
 
 import numpy as np
 
@@ -120,15 +120,13 @@ def pyramid(values: RealArray) -> list[RealArray]:
     """Sums of the ``values`` of squares of a grid over squares of once, twice, four times ... the side, up to the whole grid."""
     sums = [values]
     while sums[-1].size > 1:
-        finer = sums[-1]
-        for axis in (0, 1):
-            n = finer.shape[axis]
-            if n > 1:
-                along = finer.T if axis else finer
-                coarser = along[: n - n % 2 : 2] + along[1::2]
-                coarser = np.concatenate([coarser, along[-1:]]) if n % 2 else coarser
-                finer = coarser.T if axis else coarser
-        sums.append(finer)
+        nx, ny = sums[-1].shape
+        if nx % 2 or ny % 2:
+            along = np.add.reduceat(sums[-1], np.arange(0, nx, 2), axis=0)
+            sums.append(np.add.reduceat(along, np.arange(0, ny, 2), axis=1))
+        else:
+            along = sums[-1][::2] + sums[-1][1::2]
+            sums.append(along[:, ::2] + along[:, 1::2])
     return sums
 
 
@@ -140,8 +138,10 @@ def local_means(counts: list[RealArray], totals: list[RealArray]) -> RealArray:
     mean = np.zeros((1, 1))
     for count, total in zip(reversed(counts), reversed(totals), strict=True):
         nx, ny = total.shape
-        wider = mean.repeat(2, axis=0)[:nx].repeat(2, axis=1)[:, :ny]
-        mean = (total + _PRIOR * wider) / (count + _PRIOR)
+        mean = mean.repeat(2, axis=0).repeat(2, axis=1)[:nx, :ny]  # of the wider square
+        mean *= _PRIOR
+        mean += total
+        mean /= count + _PRIOR
     return mean
 
 
@@ -347,6 +347,7 @@ class ActiveSet:
     max_iterations: int = 2000
     precision: Literal["mixed", "double", "single"] = "mixed"
     monotone: bool = False
+    _guess: ClassVar[bool] = False
     name: ClassVar[str] = "active_set"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Polonsky1999")
 
@@ -374,9 +375,10 @@ class ActiveSet:
         memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful)
         return self._state(memory, SolverState(begin, begin, np.inf, applications=applications, extra_pairs=pairs))
 
-    def loosened(self, tolerance: float) -> Self:
-        """Same solver for a first guess: to ``tolerance``, and not for long."""
-        return replace(self, tolerance=tolerance, max_iterations=min(_COARSE_ITERATIONS, self.max_iterations))
+    def loosened(self, tolerance: float) -> ActiveSet:
+        """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection of what it finds."""
+        most = min(_COARSE_ITERATIONS, self.max_iterations)
+        return _Guess(tolerance, most, self.precision, self.monotone)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One free set and its correction, in the arrays of ``state``.
@@ -462,24 +464,26 @@ class ActiveSet:
         error = _relative_error(work, memory.survey.totals)
         if memory.tension:
             error += memory.tension / memory.survey.totals.pressure
-        if memory.unsuccessful is not None and error < memory.lowest:
-            memory = replace(memory, lowest=error, unsuccessful=0)
-        elif memory.unsuccessful is not None:  # after some in a row steps are clipped
-            failed = memory.unsuccessful + 1 if memory.unsuccessful < _MOST_UNSUCCESSFUL else None
-            memory = replace(memory, unsuccessful=failed)
-        due = error <= self.tolerance or spent.iterations >= self.max_iterations
-        due = due or error < _REFRESH * memory.computed_at
+        failed = memory.unsuccessful
+        if failed is not None and error < memory.lowest:
+            memory.lowest, memory.unsuccessful = error, 0
+        elif failed is not None:  # after some in a row steps are clipped
+            memory.unsuccessful = failed + 1 if failed < _MOST_UNSUCCESSFUL else None
+        applications, ends = spent.applications, error <= self.tolerance or spent.iterations >= self.max_iterations
+        due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
-        if spent.iterations and due:
+        if spent.iterations and ends and self._guess:
+            _clear_tensile(memory)
+        elif spent.iterations and due:
             _compute_from_scratch(memory)
-            memory = replace(memory, survey=work.survey(), tension=0.0)
-            spent = replace(spent, applications=spent.applications + 1)
-            error = _relative_error(work, memory.survey.totals)
-            memory = replace(memory, computed_at=error)
-        p, u, totals = work.pressure, work.deflection, memory.survey.totals
+            memory.survey, memory.tension = work.survey(), 0.0
+            error = memory.computed_at = _relative_error(work, memory.survey.totals)
+            applications += 1
+        totals = memory.survey.totals
         energy = None if memory.unsuccessful is not None else totals.work - 0.5 * totals.deflected
-        spent = replace(spent, pressure=p, deflection=u, error=error, energy=energy)
-        return replace(spent, memory=memory, engine=work.engine)
+        iterate = {"pressure": work.pressure, "deflection": work.deflection, "engine": work.engine}
+        found: dict[str, Any] = {"error": error, "energy": energy, "applications": applications, "memory": memory}
+        return replace(spent, **iterate, **found)
 
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
@@ -495,13 +499,23 @@ class ActiveSet:
         return Stopping(min(_REDUCTION, max(wanted, most.reduction)), most.max_steps)
 
 
+class _Guess(ActiveSet):
+    """Solver of which only the pressure is wanted, as a first guess: its last deflection is not computed from scratch."""
+
+    _guess: ClassVar[bool] = True
+
+
 def _compute_from_scratch(memory: _Memory) -> None:
     """Clear tensile points, and compute the deflection anew instead of from its updates."""
-    work = memory.work
+    _clear_tensile(memory)
+    memory.work.exact.apply(memory.work.pressure, memory.work.deflection)
+
+
+def _clear_tensile(memory: _Memory) -> None:
+    """Clear tensile points and scale the others to the load."""
     if memory.tensile is not None:
-        clear_tension(work, memory.tensile, memory.survey.totals.pressure)
+        clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure)
     memory.tensile = None
-    work.exact.apply(work.pressure, work.deflection)
 
 
 # (0) First guesses from coarser grids.
@@ -530,8 +544,8 @@ pairs; at a hardness of 0.1 E* 36 instead of 17, of 1 E* 21 instead of 18; at 51
 class Adjustable(Solver, Protocol):
     """Solver whose tolerance can be set."""
 
-    def loosened(self, tolerance: float) -> Self:
-        """Same solver for a first guess: with ``tolerance``."""
+    def loosened(self, tolerance: float) -> Solver:
+        """Same solver for a first guess: with ``tolerance``, of which only the pressure is used."""
 
 
 def coarsened(qp: ContactQP) -> ContactQP:
