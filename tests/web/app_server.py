@@ -16,15 +16,18 @@ from urllib.parse import quote, urlsplit
 
 @dataclass
 class AppServer:
-    """``asperity app`` with these ``arguments``; ``address`` is what it printed."""
+    """``asperity app`` with these ``arguments``; ``packages`` is a folder of further ones, ``address`` is what it printed."""
 
     arguments: tuple[str, ...] = ()
     folder: Path | None = None
+    packages: Path | None = None
     address: str = ""
     said: list[str] = field(default_factory=list)
 
     def __enter__(self) -> AppServer:
         environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST")}
+        if self.packages is not None:
+            environment["PYTHONPATH"] = os.pathsep.join([str(self.packages), environment.get("PYTHONPATH", "")])
         self.process = subprocess.Popen(
             [sys.executable, "-m", "asperity", "app", "--no-browser", *self.arguments],
             stdout=subprocess.PIPE,

@@ -345,6 +345,15 @@ PEAK = 0.5
 """Share of the largest stress above which points about the maximum are enlarged."""
 
 
+def plane_field(plane: StressField) -> Field:
+    """The von Mises stress on a whole ``plane``, for a page that lets it be explored."""
+    section = plane.planes[0]
+    values = np.asarray(plane.von_mises[0], dtype=np.float32)  # without the other components
+    part, grid = section.region, Grid((plane.x.size, plane.y.size), plane.spacing)
+    place = Depth(section.depth, _place(section), (part.name, part.top, part.bottom))
+    return Field(values, grid, _look(QUANTITIES["von_mises"]), place)
+
+
 def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum enlarged beside."""
     section = plane.planes[0]
@@ -364,9 +373,7 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     caption = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
     caption += BESIDE if any(enlarged) else ""
     title = f"Von Mises stress at {depth}{side}"
-    look = _look(QUANTITIES["von_mises"])
-    part, values = section.region, np.asarray(stress, dtype=np.float32)  # without the other components
-    shown = Field(values, grid, look, Depth(section.depth, _place(section), (part.name, part.top, part.bottom)))
+    shown = plane_field(plane)
     return Figure(f"stress_plane_{number}", title, caption, picture, any(enlarged), "map", lambda: shown)
 
 

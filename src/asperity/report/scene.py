@@ -170,13 +170,15 @@ class _Map:
         return count * max(len(self.code(number)["data"]) for number in some) if count > 3 else 0
 
 
-def scene_of(outcome: Outcome, *, budget: int = BUDGET, most_points: int = MOST_POINTS) -> dict[str, Any] | None:
-    """Scene of an ``outcome``, from its figures and from the steps of its load path; None on a grid of one row.
+def scene_of(
+    outcome: Outcome, *, more: Iterable[Figure] = (), budget: int = BUDGET, most_points: int = MOST_POINTS
+) -> dict[str, Any] | None:
+    """Scene of an ``outcome``, from its figures and ``more``, and from the steps of its load path; None on a grid of one row.
 
     Arrays hold at most ``most_points`` points, and take at most ``budget`` characters together.
     """
     result = outcome.result
-    figures = [*outcome.pictures, *(figure for group in outcome.figures.values() for figure in group)]
+    figures = [*outcome.pictures, *(figure for group in outcome.figures.values() for figure in group), *more]
     made = scene(figures, result.problem.grid, path=outcome.path, budget=budget, most_points=most_points)
     if made is None:
         return None

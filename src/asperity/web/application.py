@@ -9,8 +9,10 @@ from fastapi import FastAPI, Request
 from fastapi.responses import FileResponse, JSONResponse, Response
 from nicegui import ui
 
+from ..report import page
 from .pages import add_pages
 from .session import Place
+from .views import SCENE
 
 SANDBOX = "sandbox allow-scripts allow-popups; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 """Policy of a report, which has scripts of its own: it sees nothing of the application."""
@@ -29,6 +31,7 @@ def application(place: Place) -> Any:
     """The pages over ``place``, as an ASGI application that is still to be guarded."""
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     static = {entry.name: entry.read_bytes() for entry in resources.files(__package__).joinpath("static").iterdir()}
+    static |= {"viewer.js": page.script().encode(), "viewer.css": page.style().encode()}
 
     @app.get("/static/{name}")
     async def asset(name: str) -> Response:
@@ -36,6 +39,18 @@ def application(place: Place) -> Any:
         if name not in static or kind is None:
             return Response("no such file", 404)
         return Response(static[name], media_type=kind, headers={"cache-control": "max-age=3600"})
+
+    @app.get("/views/{key}/{run}")
+    async def scene(key: str, run: str) -> Response:
+        session = place.sessions.get(key)
+        known = None if session is None else session.runs.get(run)
+        if session is None or known is None:
+            return Response("no such run", 404, media_type="text/plain")
+        views = session.views_of(known)
+        file = views.with_name(views.name + SCENE)
+        if not file.is_file():
+            return Response("no maps", 404, media_type="text/plain")
+        return FileResponse(file, media_type="application/json", headers={"cache-control": "no-store"})
 
     @app.post("/upload/{key}")
     async def upload(key: str, name: str, request: Request) -> Response:

@@ -20,6 +20,8 @@ STEPS = MappingProxyType(
         "bodies": ("Bodies", "layers"),
         "load": ("Load and physics", "compress"),
         "run": ("Run", "play_arrow"),
+        "explore": ("Explore", "travel_explore"),
+        "sweep": ("Sweep", "stacked_line_chart"),
     }
 )
 """Pages in the order of the work: title and icon."""
@@ -67,7 +69,10 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
 def look() -> None:
     """Style and scripts of every page."""
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
-    ui.add_head_html('<link rel="stylesheet" href="/static/app.css"><script defer src="/static/app.js"></script>')
+    for name in ("viewer.css", "app.css"):
+        ui.add_head_html(f'<link rel="stylesheet" href="/static/{name}">')
+    for name in ("viewer.js", "app.js"):
+        ui.add_head_html(f'<script defer src="/static/{name}"></script>')
 
 
 def _back(session: Session, *, again: bool = False) -> None:

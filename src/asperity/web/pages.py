@@ -14,9 +14,11 @@ from ..core.errors import AsperityError
 from ..run.document import PRESETS, read_table
 from .beginning import fill
 from .layout import frame, look
+from .pages_explore import explore_page
 from .pages_problem import bodies_page, load_page
 from .pages_run import run_page
 from .pages_surface import prepare_page, roughness_page, surface_page
+from .pages_sweep import sweep_page
 from .session import Place, Session
 
 PAGES = MappingProxyType(
@@ -30,6 +32,9 @@ PAGES = MappingProxyType(
     }
 )
 """What draws each page."""
+
+OF_RUNS = MappingProxyType({"explore": explore_page, "sweep": sweep_page})
+"""Pages that show one run, and another one beside it."""
 
 
 def add_pages(app: Any, place: Place) -> None:
@@ -47,12 +52,15 @@ def add_pages(app: Any, place: Place) -> None:
         _start(place)
 
     @ui.page("/s/{key}/{step}")
-    def page(key: str, step: str) -> Any:
+    def page(key: str, step: str, run: str = "", beside: str = "") -> Any:
         session = place.sessions.get(key)
-        if session is None or step not in PAGES:
+        if session is None or step not in {*PAGES, *OF_RUNS}:
             return RedirectResponse("/start")
         with frame(place, key, session, step):
-            PAGES[step](key, session)
+            if step in OF_RUNS:
+                OF_RUNS[step](key, session, run, beside)
+            else:
+                PAGES[step](key, session)
         return None
 
 

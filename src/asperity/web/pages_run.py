@@ -32,7 +32,7 @@ def start(session: Session, title: str) -> Run:
     run = session.new_run("run", title, session.draft.table)
     file = session.scratch / f"{run.key}.toml"
     save_document(document, file, overwrite=True)
-    task = {"document": str(file), "folder": str(session.folder)}
+    task = {"document": str(file), "folder": str(session.folder), "views": str(session.views_of(run))}
     _begin(session, run, "contact", task)
     return run
 
@@ -134,7 +134,10 @@ def run_card(key: str, session: Session, run: Run) -> None:
             ui.space()
             if run.state == "running":
                 ui.button("Cancel", icon="stop", on_click=lambda: cancel(session, run)).props("no-caps flat dense")
-            if run.state in ("cancelled", "failed") and run.kind == "run":
+            if run.state == "done":
+                target = f"/s/{key}/explore?run={run.key}"
+                ui.button("Explore", on_click=lambda: ui.navigate.to(target)).props("no-caps dense")
+            if run.state in ("cancelled", "failed"):
                 ui.button("Take its document again", on_click=lambda: _again(session, run)).props("no-caps flat dense")
         if run.state == "running":
             progress(session, run)

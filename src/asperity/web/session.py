@@ -77,6 +77,10 @@ class Session:
         """Folder of the results of ``run``."""
         return self.folder / f"{run.kind}s" / run.key
 
+    def views_of(self, run: Run) -> Path:
+        """Beginning of the names of the files that the page of ``run`` shows."""
+        return self.folder / f"{run.kind}s" / run.key
+
     def progress_of(self, run: Run) -> Path:
         """File in which the worker of ``run`` reports."""
         return self.scratch / f"{run.key}.progress"

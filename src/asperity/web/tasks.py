@@ -9,6 +9,7 @@ import math
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -20,19 +21,24 @@ from ..core.settings import Settings, validated
 from ..core.status import Progress, share_done
 from ..core.units import prefixed, show
 from ..io.atomic import atomic_folder
+from ..io.export import export_vtk
+from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
+from ..parts.stress import Stress, StressSettings, stress_request
 from ..plots.picture import drawn
 from ..plots.surface import SURFACE_PLOTS
 from ..report.folder import write_run
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..run.build import build, build_surface
-from ..run.document import load_document, relocated
-from ..run.execute import execute
+from ..run.document import load_document, loads, relocated
+from ..run.execute import analysed, execute
+from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
 from ..surfaces.characterise.heights import height_parameters
 from ..surfaces.characterise.summary import characterise
 from ..surfaces.read import channels
+from .views import theory_curves, write_views
 
 Task: TypeAlias = Mapping[str, Any]
 
@@ -192,7 +198,37 @@ def contact(task: Task) -> dict[str, Any]:
         outcome = execute(case, stage=stage)
         with stage("writing report and pictures"):
             write_run(outcome, folder, relocated(document, base, out))
+    with stage("making it explorable"):
+        write_views(outcome, Path(task["views"]))
     return {"converged": outcome.converged, "message": outcome.status.message, "remedy": outcome.status.remedy}
+
+
+@guarded
+def views(task: Task) -> dict[str, Any]:
+    """What the page of a run shows, made again from its ``result``; with ``stresses`` in the body if these were not asked for."""
+    outcome = load_outcome(task["result"])
+    if task.get("stresses"):
+        document = loads(str(document_in(task["result"])))
+        settings: Any = getattr(document, "stress", None) or StressSettings()
+        request = stress_request(settings, getattr(document, "friction"))  # noqa: B009
+        Stress().check(request, outcome.result.problem)
+        more = analysed(outcome.result, {"stress": request, "yielding": True}, outcome.path)
+        outcome = replace(more, found={**outcome.found, **more.found}, findings=outcome.findings)
+    write_views(outcome, Path(task["views"]))
+    return {}
+
+
+@guarded
+def theories(task: Task) -> dict[str, Any]:
+    """Theories beside the numerical solution of the surfaces in the file ``result``."""
+    return theory_curves(load_outcome(task["result"]).result.problem, Path(task["views"]))
+
+
+@guarded
+def vtk(task: Task) -> dict[str, Any]:
+    """The fields of the file ``result`` as a VTK file ``out``."""
+    export_vtk(load_outcome(task["result"]).result, task["out"], overwrite=True)
+    return {}
 
 
 @guarded

@@ -1,0 +1,274 @@
+"""The page on which a run is explored: maps with section line and sliders, the surface in space, spots, theories, certificate."""
+
+from __future__ import annotations
+
+import base64
+import json
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ..core.units import show
+from . import maps
+from .layout import failure, rows
+from .pages_run import downloads
+from .session import Run, Session
+from .views import SHOWN, THEORIES
+
+COLOURED = MappingProxyType(
+    {
+        "height": ("Height", "height", "m", "Cividis"),
+        "pressure": ("Pressure", "pressure", "Pa", "Viridis"),
+        "plastic": ("Contact and plastic zone", "0 open, 1 elastic, 2 plastic", "", "Portland"),
+    }
+)
+"""By what the surface in space is coloured: button, name, unit and colours."""
+
+
+def explore_page(key: str, session: Session, chosen: str = "", beside: str = "") -> None:
+    """The run ``chosen``, by default the last one that is done, and another one ``beside`` it."""
+    done = {run.key: run for run in session.runs.values() if run.kind == "run" and run.state == "done"}
+    if not done:
+        ui.label("Nothing has been solved yet.").classes("hint")
+        ui.link("Run", f"/s/{key}/run")
+        return
+    run = done.get(chosen) or next(reversed(done.values()))
+    other = done.get(beside)
+    titles = {item.key: f"{item.key.split('-')[0]}  {item.title}" for item in done.values()}
+
+    def to(name: str, value: str | None) -> None:
+        query = {"run": run.key, "beside": other.key if other else "", name: value or ""}
+        ui.navigate.to(f"/s/{key}/explore?run={query['run']}&beside={query['beside']}")
+
+    with ui.row().classes("item-head"):
+        ui.select(titles, label="Run", value=run.key, on_change=lambda e: to("run", e.value)).props("dense").classes(
+            "pick"
+        )
+        ui.select(
+            {k: text for k, text in titles.items() if k != run.key},
+            label="beside it",
+            value=None if other is None else other.key,
+            clearable=True,
+            on_change=lambda e: to("beside", e.value),
+        ).props("dense data-key=beside").classes("pick")
+    with ui.element("div").classes("beside" if other else "whole"):
+        for item in filter(None, (run, other)):
+            with ui.element("section").classes("whole"):
+                _Explored(key, session, item, numbered=other is not None)
+
+
+class _Explored:
+    """One run."""
+
+    def __init__(self, key: str, session: Session, run: Run, *, numbered: bool) -> None:
+        self.key, self.session, self.run = key, session, run
+        if numbered:
+            ui.html(f"<h2>Run {run.key.split('-')[0]}</h2>", sanitize=False)
+        self.box = ui.element("div").classes("whole")
+        self.client = ui.context.client
+        ui.timer(0.01, self.load, once=True)
+
+    def file(self, ending: str) -> Path:
+        """File of what is shown."""
+        views = self.session.views_of(self.run)
+        return views.with_name(views.name + ending)
+
+    async def load(self, *, stresses: bool = False) -> None:
+        """Show the run; what is not there yet is made from its result first."""
+        if stresses or not self.file(SHOWN).is_file():
+            self.box.clear()
+            with self.box, ui.row():
+                ui.spinner()
+                ui.label("computing the stresses in the body" if stresses else "reading the result")
+            result = str(self.session.folder_of(self.run) / "result.nc")
+            task = {"result": result, "views": str(self.session.views_of(self.run)), "stresses": stresses}
+            answer = await self.session.helper.call("views", **task)
+            if self.client.is_deleted:
+                return
+            if "error" in answer:
+                self.box.clear()
+                with self.box:
+                    failure(answer["error"])
+                return
+        shown = json.loads(self.file(SHOWN).read_text(encoding="utf-8"))
+        self.box.clear()
+        with self.box:
+            self.draw(shown)
+
+    def draw(self, shown: dict[str, Any]) -> None:
+        """Draw everything, what matters most first."""
+        message, remedy, converged = shown["status"]
+        if not converged:
+            failure(f"Not converged: {message} {remedy}")
+        for level, criterion, text in shown["findings"]:
+            with ui.element("div").classes("finding" if level == "warning" else "finding note"):
+                ui.label(criterion).classes("table-title")
+                ui.label(text)
+        ui.label(shown["summary"])
+        with ui.element("div").classes("tiles"):
+            for label, text in shown["headline"]:
+                with ui.element("div").classes("tile"):
+                    ui.label(text).classes("value")
+                    ui.label(label).classes("hint")
+        downloads(self.key, self.session, self.run)
+        ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
+        name = f"scene-{self.run.key}"
+        ui.html("<h2>Maps and section</h2>", sanitize=False)
+        if not shown["stressed"]:
+            with ui.row().classes("item-head"):
+                ui.label("No stresses were asked for.").classes("hint")
+                ui.button("Compute the stresses in the body", on_click=lambda: self.load(stresses=True)).props(
+                    "no-caps outline dense data-stresses"
+                )
+        ui.element("div").classes("scene").props(
+            f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
+        )
+        self.spots(shown, name)
+        ui.html("<h2>Surface in space</h2>", sanitize=False)
+        space = ui.element("div").classes("whole")
+
+        def in_space() -> None:
+            space.clear()
+            with space:
+                self.in_space(shown["space"])
+
+        with space:
+            ui.button("Show the surface in space", on_click=in_space).props("no-caps outline data-space")
+        self.theories()
+        self.words(shown)
+
+    async def vtk(self) -> None:
+        """Write the fields for ParaView and give them out."""
+        out = self.session.scratch / f"{self.run.key}.vti"
+        result = str(self.session.folder_of(self.run) / "result.nc")
+        answer = await self.session.helper.call("vtk", result=result, out=str(out))
+        if "error" in answer:
+            ui.notify(answer["error"], type="negative", multi_line=True)
+        else:
+            ui.download.file(out, "fields.vti")
+
+    def spots(self, shown: dict[str, Any], name: str) -> None:
+        """Table of contact spots; a row is marked in the maps."""
+        found = shown["spots"]
+        with ui.expansion(f"Contact spots: {shown['spot_count']}").classes("wide").props("data-spots"):
+            if len(found) < shown["spot_count"]:
+                ui.label(f"The {len(found)} largest.").classes("hint")
+            ui.label("Choose a row: the spot is marked in the maps.").classes("hint")
+            with ui.element("div").classes("spots"), ui.element("table"):
+                with ui.element("thead"), ui.element("tr"):
+                    for text in ("spot", "x", "y", "area", "load", "mean pressure", "largest pressure"):
+                        with ui.element("th").props('scope="col"'):
+                            ui.label(text)
+                with ui.element("tbody"):
+                    for number, (x, y, *values) in enumerate(found, start=1):
+                        with ui.element("tr").props(f'tabindex=0 data-spot="{x!r},{y!r}" data-of="{name}"'):
+                            texts = [show(x, "m", 4), show(y, "m", 4)]
+                            texts += [show(v, u, 4) for v, u in zip(values, ("m**2", "N", "Pa", "Pa"), strict=True)]
+                            for text in (str(number), *texts):
+                                with ui.element("td"):
+                                    ui.label(text)
+
+    def in_space(self, space: dict[str, Any]) -> None:
+        """The surface in space, coloured by one of several fields."""
+        fields = {
+            name: np.frombuffer(base64.b64decode(space[name]), "<f4").reshape(space["shape"]) for name in COLOURED
+        }
+        cell = (float(space["cell"][0]), float(space["cell"][1]))
+
+        def figure(by: str) -> dict[str, Any]:
+            _, title, unit, scale = COLOURED[by]
+            values = fields[by]
+            if unit:
+                symbol, factor = maps.scaled(
+                    float(np.nanmax(np.abs(values), initial=0.0)), unit, {"m": "length", "Pa": "pressure"}[unit]
+                )
+                return maps.in_space(fields["height"], values / factor, cell, f"{title} / {symbol}", scale)
+            return maps.in_space(fields["height"], values, cell, title, scale)
+
+        block = space["block"]
+        toggle = ui.toggle({name: texts[0] for name, texts in COLOURED.items()}, value="height")
+        toggle.props("no-caps dense data-key=space")
+        plot = ui.plotly(figure("height")).classes("space").props('role="img" aria-label="surface in space"')
+        toggle.on_value_change(lambda e: plot.update_figure(figure(e.value)))
+        if block > 1:
+            text = f"Decimated: each point stands for {block} × {block} points of the grid, with their mean height and their largest pressure."
+            ui.label(text).classes("hint").props("data-decimated")
+        ui.label("Heights are exaggerated; drag to turn, scroll to come nearer.").classes("hint")
+
+    def theories(self) -> None:
+        """Curves of the theories, computed when they are asked for."""
+        ui.html("<h2>Comparison with theories</h2>", sanitize=False)
+        box = ui.element("div").classes("whole")
+
+        def draw(answer: dict[str, Any]) -> None:
+            box.clear()
+            with box:
+                ui.label(answer["sentence"])
+                lines = [
+                    (name, answer["pressures"], [np.nan if v is None else v for v in area])
+                    for name, area, _ in answer["lines"]
+                ]
+                figure = maps.curves(lines, "mean pressure / Pa", "real over nominal area", log=True)
+                figure["layout"]["yaxis"]["type"] = "log"
+                figure["layout"]["legend"] = {"font": {"size": 10}}
+                ui.plotly(figure).classes("space")
+                with ui.expansion(f"Left out: {len(answer['left_out'])}").classes("wide"):
+                    rows(answer["left_out"])
+                for text in answer["remarks"]:
+                    ui.label(text).classes("hint")
+
+        async def compute() -> None:
+            box.clear()
+            with box, ui.row():
+                ui.spinner()
+                ui.label("solving a dozen loads and asking the theories")
+            result = str(self.session.folder_of(self.run) / "result.nc")
+            answer = await self.session.helper.call(
+                "theories", result=result, views=str(self.session.views_of(self.run))
+            )
+            if self.client.is_deleted:
+                return
+            if "error" in answer:
+                box.clear()
+                with box:
+                    failure(answer["error"])
+            else:
+                draw(answer)
+
+        if self.file(THEORIES).is_file():
+            draw(json.loads(self.file(THEORIES).read_text(encoding="utf-8")))
+        else:
+            with box:
+                ui.button("Compare with theories", on_click=compute).props("no-caps outline data-theories")
+
+    def words(self, shown: dict[str, Any]) -> None:
+        """Words of all parts, and the certificate."""
+        for part in shown["parts"]:
+            with ui.expansion(part["title"]).classes("wide"):
+                if part["sentence"]:
+                    ui.label(part["sentence"])
+                rows(part["rows"])
+                for title, headings, cells in part["tables"]:
+                    ui.label(title).classes("table-title")
+                    _table(headings, cells)
+                for text in part["remarks"]:
+                    ui.label(text).classes("hint")
+        with ui.expansion("Certificate: what proves the solution").classes("wide").props("data-certificate"):
+            _table(["", "value", "meaning"], shown["certificate"])
+
+
+def _table(headings: list[str], cells: list[list[str]]) -> None:
+    with ui.element("div").classes("spots"), ui.element("table"):
+        with ui.element("thead"), ui.element("tr"):
+            for text in headings:
+                with ui.element("th").props('scope="col"'):
+                    ui.label(text)
+        with ui.element("tbody"):
+            for row in cells:
+                with ui.element("tr"):
+                    for text in row:
+                        with ui.element("td"):
+                            ui.label(text)

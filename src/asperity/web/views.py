@@ -1,0 +1,160 @@
+"""What the page of a run shows, as files beside its folder: the scene of its maps, the surface in space, spots, words, theories."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..contact.advice import doubts
+from ..contact.measure import labelled
+from ..contact.problem import ContactProblem
+from ..contact.result import ContactResult
+from ..core.arrays import RealArray
+from ..io.words import certificate_rows, headline_rows, result_rows, summary
+from ..plots.picture import Figure
+from ..plots.stress import plane_field
+from ..report.comparison import comparison_sentence
+from ..report.scene import reduced, scene_of
+from ..run.execute import Outcome
+from ..studies.compare import compare
+
+SCENE, SHOWN, THEORIES = ".scene.json", ".shown.json", ".theories.json"
+"""Endings of the files; each is named after the folder of its run."""
+
+BUDGET = 40_000_000
+"""Characters of all arrays of a scene, which travel within this machine only."""
+
+PLANES = 12
+"""Planes in the body that are computed for the slider through the depth."""
+
+IN_SPACE = 220
+"""Points along the longer side of the surface in space."""
+
+MOST_SPOTS = 300
+"""Rows of the table of contact spots, the largest first."""
+
+
+def write_views(outcome: Outcome, views: Path) -> None:
+    """Write scene, surface in space, spots and words of ``outcome`` to files whose names begin with ``views``."""
+    scene = scene_of(outcome, more=_planes(outcome), budget=BUDGET)
+    _write(views.with_name(views.name + SCENE), scene)
+    result = outcome.result
+    shown = {
+        "space": _in_space(result),
+        "spots": _spots(result),
+        "spot_count": int(labelled(result.contact, wraps=result.problem.boundary.wraps)[1]),
+        "stressed": "stress" in outcome.found,
+        "steps": 0 if outcome.path is None else len(outcome.path.steps),
+        **_words(outcome),
+    }
+    _write(views.with_name(views.name + SHOWN), shown)
+
+
+def _write(file: Path, content: Any) -> None:
+    partial = file.with_suffix(".part")
+    partial.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
+    partial.replace(file)
+
+
+def _planes(outcome: Outcome) -> Iterator[Figure]:
+    """Planes at depths of the survey of stresses, beside those that the document asks for."""
+    survey = outcome.found["stress"].detail if "stress" in outcome.found else None
+    depths = getattr(survey, "depths", None)
+    if survey is None or depths is None:
+        return
+    asked = np.array(survey.request.depths)
+    free = np.array([depth for depth in depths if not np.isclose(depth, asked, rtol=1e-6, atol=0.0).any()])
+    chosen = free[np.unique(np.linspace(0, free.size - 1, PLANES).round().astype(int))] if free.size else free
+    for number, plane in enumerate(survey.planes(chosen), start=1):
+        field = plane_field(plane)
+        yield Figure(f"stress_of_depth_{number}", "Von Mises stress", "", b"", shows=lambda shown=field: shown)  # type: ignore[misc]
+
+
+def _in_space(result: ContactResult) -> dict[str, Any]:
+    """Heights, pressure and plastic state of blocks of points, single precision, rows of y; and how many points a block has."""
+    heights = np.asarray(result.problem.surface.heights, dtype=float)
+    block = max(1, math.ceil(max(heights.shape) / IN_SPACE))
+    state = result.contact.astype(float) + result.plastic
+    fields = {"height": (heights, "mean"), "pressure": (result.pressure, "max"), "plastic": (state, "max")}
+    made: dict[str, Any] = {"block": block, "cell": [block * side for side in result.problem.grid.spacing]}
+    for name, (values, how) in fields.items():
+        rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
+        made[name] = base64.b64encode(rows.tobytes()).decode("ascii")
+        made["shape"] = list(rows.shape)
+    return made
+
+
+def _spots(result: ContactResult) -> list[list[float]]:
+    """Place of the largest pressure, area, load, mean and largest pressure of the largest contact spots, SI."""
+    grid, pressure = result.problem.grid, np.asarray(result.pressure, dtype=float)
+    labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
+    if count == 0:
+        return []
+    pixel = math.prod(grid.spacing)
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    loads = np.bincount(labels.ravel(), pressure.ravel(), minlength=count + 1)[1:] * pixel
+    order = np.argsort(pressure, axis=None)  # the last of a label is its largest
+    tops = np.zeros(count + 1, dtype=np.intp)
+    tops[labels.ravel()[order]] = order
+    found = []
+    for number in np.argsort(-sizes)[:MOST_SPOTS]:
+        i, j = np.unravel_index(tops[number + 1], pressure.shape)
+        place = [(index + 0.5) * side for index, side in zip((i, j), grid.spacing, strict=True)]
+        area = float(sizes[number] * pixel)
+        found.append(
+            [*map(float, place), area, float(loads[number]), float(loads[number]) / area, float(pressure[i, j])]
+        )
+    return found
+
+
+def _words(outcome: Outcome) -> dict[str, Any]:
+    """Findings, headline, results, certificate, and the words of every part."""
+    result = outcome.result
+    steps = () if outcome.path is None else outcome.path.steps
+    findings = dict.fromkeys((*doubts(*steps, result), *outcome.findings))
+    return {
+        "summary": summary(result),
+        "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
+        "findings": [[item.level, item.criterion, item.message] for item in findings],
+        "headline": [list(row) for row in headline_rows(result)],
+        "results": [list(row) for row in result_rows(result)],
+        "certificate": [list(row) for row in certificate_rows(result)],
+        "parts": [
+            {
+                "title": part.title,
+                "sentence": words.sentence,
+                "rows": [list(row) for row in words.rows],
+                "tables": [[title, list(t.headings), [list(row) for row in t.cells]] for title, t in words.tables],
+                "remarks": list(words.remarks),
+            }
+            for part, words in outcome.sections
+        ],
+    }
+
+
+def theory_curves(problem: ContactProblem, views: Path) -> dict[str, Any]:
+    """Area by pressure of the theories and of the numerical solution; written beside the run as well."""
+    found = compare(problem)
+    exact = found.numerical
+    lines = [[curve.name, _finite(curve.prediction.area_fraction), _finite(curve.gap)] for curve in found.curves]
+    if exact is not None:
+        lines.insert(0, ["boundary elements", _finite(exact.area_fraction_corrected), _finite(exact.mean_gap)])
+    answer = {
+        "sentence": comparison_sentence(found),
+        "pressures": _finite(found.pressures),
+        "lines": lines,
+        "left_out": [[item.name, item.reason] for item in found.left_out],
+        "remarks": list(found.remarks),
+    }
+    _write(views.with_name(views.name + THEORIES), answer)
+    return answer
+
+
+def _finite(values: RealArray) -> list[float | None]:
+    return [float(value) if np.isfinite(value) else None for value in np.asarray(values, float)]

@@ -1,0 +1,182 @@
+"""What a page shows of a solved contact, and sweeps, in a real browser; a part of another package appears everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("nicegui", reason="the extra web is not installed")
+
+from .app_server import AppServer
+
+LONG = 90_000
+
+PROBLEM = """
+version = 2
+title = "Coated"
+
+[surface]
+kind = "rough"
+points = [48, 48]
+size = "2 um x 2 um"
+seed = 5
+
+[surface.spectrum]
+kind = "gaussian"
+rms_height = "4 nm"
+correlation_length = "0.3 um"
+
+[[body.layers]]
+material = "DLC"
+thickness = "50 nm"
+
+[body.base]
+material = "steel"
+
+[control.path]
+mean_pressure = ["50 MPa", "0"]
+steps = 2
+
+[stress]
+"""
+
+PART = '''
+from asperity.core.quantity import Quantity
+from asperity.core.settings import Settings, setting
+from asperity.core.values import Pressure
+from asperity.parts.part import Found, Part, Words
+
+
+class HotSettings(Settings):
+    """Where the pressure is high."""
+
+    level: Pressure = setting("100 MPa", help="Pressure from which a point counts")
+
+
+class Hot(Part):
+    """Share of the contact under a high pressure."""
+
+    name = table = "hot"
+    title = "Hot points"
+    settings = HotSettings
+    quantities = (Quantity("hot_share", "1", "share of the contact under a high pressure"),)
+
+    def compute(self, ask, solved):
+        return Found({"hot_share": float((solved.result.pressure >= ask.level).mean())})
+
+    def words(self, found, solved):
+        return Words(f"Hot: {found.values['hot_share']:.3g} of the surface.")
+'''
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
+    """The application on a problem, with a package that adds a part."""
+    folder = tmp_path_factory.mktemp("packages")
+    (folder / "hot_spots.py").write_text(PART, encoding="utf-8")
+    information = folder / "hot_spots-1.2.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: hot-spots\nVersion: 1.2\n", encoding="utf-8")
+    (information / "entry_points.txt").write_text("[asperity.parts]\nhot = hot_spots:Hot\n", encoding="utf-8")
+    (folder / "problem.toml").write_text(PROBLEM, encoding="utf-8")
+    kept = folder / "kept"
+    arguments = (str(folder / "problem.toml"), "--threads", "1", "--folder", str(kept))
+    with AppServer(arguments, packages=folder) as running:
+        yield running
+
+
+def opened(app: AppServer, open_page: Callable[..., Any], step: str) -> Any:
+    page = open_page(app.address, viewport={"width": 1400, "height": 950}, accept_downloads=True).page
+    page.wait_for_url("**/s/**")
+    page.goto(f"{page.url.rsplit('/', 1)[0]}/{step}")
+    page.wait_for_selector("h1")
+    return page
+
+
+@pytest.mark.slow
+def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_page: Callable[..., Any]) -> None:
+    page = opened(app, open_page, "load")
+    page.click('[data-key="hot"]')
+    page.fill('input[data-key="hot.level"]', "1 MPa")
+    page.wait_for_timeout(800)
+    page.goto(page.url.replace("/load", "/run"))
+    page.click("[data-run]")
+    page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.click("[data-state=done] >> text=Explore")
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("text=Hot points")
+    page.wait_for_selector("text=/^Hot: [0-9.e-]+ of the surface/")
+
+    sliders = page.locator("[data-scene] input[type=range]")
+    assert sliders.count() == 2, "load steps, and depths"
+    before = page.locator("[data-scene] output").all_inner_texts()
+    for number in range(2):
+        sliders.nth(number).focus()
+        page.keyboard.press("ArrowRight" if number else "ArrowLeft")
+    page.wait_for_timeout(300)
+    assert page.locator("[data-scene] output").all_inner_texts() != before
+    assert page.locator("[data-scene] >> text=Von Mises stress below the section line").count() == 1
+
+    viewer = "document.querySelector('[data-scene]').viewer"
+    line = page.evaluate(f"{viewer}.line")
+    field = page.locator("[data-scene] fieldset input").nth(1)
+    field.fill("0.5")
+    field.press("Enter")
+    assert page.evaluate(f"{viewer}.line") != line, "the section line moves"
+    page.click("text=Certificate: what proves the solution")
+    page.wait_for_selector("[data-certificate] td:has-text('active_set')")
+
+
+@pytest.mark.slow
+def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open_page: Callable[..., Any]) -> None:
+    page = opened(app, open_page, "load")
+    page.fill('input[data-key="control.mean_pressure"]', "40 MPa")
+    page.click('[data-key="control.path"]')  # one load instead of a path
+    page.wait_for_timeout(800)
+    page.goto(page.url.replace("/load", "/run"))
+    done = page.locator("[data-state=done]").count()
+    page.click("[data-run]")
+    page.wait_for_function(f"document.querySelectorAll('[data-state=done]').length > {done}", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-spots]")
+    page.locator("tr[data-spot]").first.press("Enter")
+    viewer = "document.querySelector('[data-scene]').viewer"
+    assert page.evaluate(f"{viewer}.marked !== null && {viewer}.zoom > 1")
+    page.click("[data-space]")
+    page.wait_for_selector(".space .main-svg", timeout=LONG)
+    page.click("text=Contact and plastic zone")
+    with page.expect_download(timeout=LONG) as download:
+        page.click("text=Fields as VTK")
+    assert Path(download.value.path()).read_bytes().startswith(b'<?xml version="1.0"?>')
+
+
+@pytest.mark.slow
+def test_curves_of_a_sweep(app: AppServer, open_page: Callable[..., Any]) -> None:
+    page = opened(app, open_page, "sweep")
+    page.wait_for_selector("[data-sweep]")
+    page.fill('input[data-key="first"]', "10 MPa")
+    page.fill('input[data-key="last"]', "80 MPa")
+    page.fill('input[data-key="count"]', "3")
+    page.click("[data-sweep]")
+    page.wait_for_selector("[data-curve='3']", timeout=LONG)
+    page.wait_for_selector("[data-state=done] >> text=Study document", timeout=LONG)
+    with page.expect_download() as table:
+        page.click("text=Table (CSV)")
+    lines = Path(table.value.path()).read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 4
+    areas = [float(line.split(",")[1]) for line in lines[1:]]
+    assert areas == sorted(areas)
+    assert areas[0] > 0.0
+
+
+@pytest.mark.slow
+def test_a_kept_session_is_opened_again(app: AppServer, open_page: Callable[..., Any]) -> None:
+    kept = Path(app.arguments[-1])
+    with AppServer(("--folder", str(kept))) as again:
+        page = opened(again, open_page, "run")
+        assert page.locator("[data-state=done]").count() == len(list((kept / "runs").glob("*/report.html")))
+        assert page.locator("[data-state=done]").count() > 0
