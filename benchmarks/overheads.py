@@ -128,13 +128,18 @@ def surveyed(n: int, repeats: int) -> str:
     spectrum, field = transform.forward(result.pressure), np.empty((n, n))
     spectra = [spectrum.copy() for _ in range(6)]
 
-    def bare() -> None:
+    def bare() -> float:
         for one in spectra:  # which transforms overwrite
-            transform.backward(one, field)
+            one[...] = spectrum
+        return seconds(lambda: [transform.backward(one, field) for one in spectra])
 
-    six = least(repeats, lambda: np.copyto(spectra[0], spectrum), bare)[1]
-    whole = least(max(2, repeats // 2), lambda: survey(request, result, threads=1))[0]
-    return f"{number} planes: {whole / (number * six):.2f}"
+    survey(request, result, threads=1)  # compiles
+    rounds = [
+        (sum(bare() for _ in range(number)), seconds(lambda: survey(request, result, threads=1)))
+        for _ in range(repeats)
+    ]
+    transforms, whole = (min(column) for column in zip(*rounds, strict=True))
+    return f"{number} planes: {whole / transforms:.2f}"
 
 
 def main() -> None:

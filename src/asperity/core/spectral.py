@@ -118,7 +118,8 @@ def real_lines(spectrum: ComplexArray, length: int, threads: int = 1, out: RealA
     if ducc is None:
         lines = np.fft.irfft(spectrum, n=length, axis=-1, out=cast(Any, out))
     else:
-        lines = ducc.c2r(spectrum, axes=(1,), lastsize=length, forward=False, inorm=2, out=out, nthreads=threads)
+        last = (spectrum.ndim - 1,)
+        lines = ducc.c2r(spectrum, axes=last, lastsize=length, forward=False, inorm=2, out=out, nthreads=threads)
     return lines
 
 
@@ -201,22 +202,24 @@ class SplitTransform:
         return np.asarray(_apart((fields, self.shape[0], self.shape[1] // 2 + 1), dtype))
 
     def lines_back(self, made: ComplexArray, span: tuple[int, int], out: ComplexArray) -> None:
-        """Step one: put the lines ``span`` (first, last + 1) of a spectrum, the first ones ``made``, between the steps."""
+        """Step one: put the lines ``span`` (first, last + 1) of spectra, the first ones ``made``, between the steps."""
         start, stop = span
-        complex_lines(made[: stop - start, : self.shape[0]], 1, backward=True, out=out[:, start:stop].T)
+        lines = made[..., : stop - start, : self.shape[0]]
+        complex_lines(lines, lines.ndim - 1, backward=True, out=np.swapaxes(out[..., start:stop], -1, -2))
 
     def rows_back(self, between: ComplexArray, span: tuple[int, int], out: RealArray) -> None:
-        """Step two: write the rows ``span`` of the field into the array (nx, ny) ``out``."""
+        """Step two: write the rows ``span`` of fields into the array (…, rows, ny) ``out``."""
         start, stop = span
         ny = self.shape[1]
-        waves = between[:, : ny // 2 + 1]
-        if out.itemsize > 4 or out.strides[0] % _SAME_PLACE:
-            real_lines(waves[start:stop], ny, out=out[start:stop])
+        waves = between[..., start:stop, : ny // 2 + 1]
+        if out.itemsize > 4 or out.strides[-2] % _SAME_PLACE:
+            real_lines(waves, ny, out=out)
             return
         block = _apart((_ROWS, ny), out.dtype)[:, :ny]
-        for first in range(start, stop, _ROWS):
-            last = min(stop, first + _ROWS)
-            out[first:last] = real_lines(waves[first:last], ny, out=block[: last - first])
+        for index in np.ndindex(*out.shape[:-2]):
+            for first in range(0, stop - start, _ROWS):
+                last = min(stop - start, first + _ROWS)
+                out[index][first:last] = real_lines(waves[index][first:last], ny, out=block[: last - first])
 
 
 def _apart(shape: tuple[int, ...], dtype: Any) -> Any:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
 from importlib import import_module
 from typing import Any, TypeAlias
 
@@ -13,13 +14,22 @@ from ..core.arrays import ComplexArray, RealArray
 from ..core.engine.cpu import SERIAL_BELOW, Blocks
 from ..core.errors import InputError
 from ..core.interpolation import Panels, panels
-from ..core.spectral import PaddedTransform, RealTransform, SplitTransform, fast_length, thread_count, wrapped
+from ..core.spectral import (
+    PaddedTransform,
+    RealTransform,
+    SplitTransform,
+    complex_lines,
+    fast_length,
+    real_lines,
+    thread_count,
+    wrapped,
+)
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ..solids.layers import RigidBase
 from .kernels.coefficients import LineCoefficients, PlaneCoefficients
 from .kernels.patch import Load
 from .kernels.transfer import Transfers
-from .regions import Plane, Region, regions, slips, stack
+from .regions import Plane, Region, Selection, regions, slips, stack
 from .tractions import ShearTraction, Tractions
 
 # The uniform part of a periodic load: uniaxial strain in every region, with shear that reaches through.
@@ -98,14 +108,27 @@ def require_displacement(tractions: Tractions, body: object) -> None:
 # A few lines of all spectra are made at a time and transformed along x while they are in the cache, then all along y.
 
 
-_NEGLIGIBLE = 60.0  # depth times wavenumber from which exp(-αz) is below anything that counts
-_LINES = 32  # made at a time: vector instructions are full, and the lines of all fields stay in the cache
+_NEGLIGIBLE = (
+    42.0  # depth times wavenumber from which (1 + αz) exp(-αz) is below a fifth of the rounding of the traction
+)
+_LINES = 16  # made at a time: vector instructions are full, and the lines of all fields stay in the cache
+_POINTS = 1 << 14  # of a plane that are read at a time: all components stay in the second-level cache
 _PRESSURE = ("tau_zz", "tau_Lz", "LL_z")
 _SHEAR = ("tau_zL", "tau_LL", "LL_L", "tau_T", "LT")
 _DISPLACEMENT = ("U_z", "W_z", "U_L", "W_L", "u_T")
 
 _Maker: TypeAlias = Callable[[tuple[int, int], ComplexArray], None]
 """Writes lines (first, last + 1) of spectra into an array (fields, lines or more, nx or more)."""
+
+Rows: TypeAlias = Iterator[tuple[int, RealArray]]
+"""First row, and components xx, yy, zz, xy, xz, yz of some rows, (6, rows, ny) in one piece, which the next ones overwrite."""
+
+Reader: TypeAlias = Callable[[Rows], None]
+"""What is done with the rows of a plane; each thread calls it with those of its share."""
+
+_ALL = (slice(0, 6),)
+_NOT_GIVEN = (slice(0, 2), slice(3, 4))  # xx, yy and xy: the others are the tractions on the surface
+_GIVEN = 2, 4, 5
 
 
 class PeriodicPlanes:
@@ -141,45 +164,104 @@ class PeriodicPlanes:
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
         """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
-        functions = _PRESSURE + _SHEAR if self._sheared else _PRESSURE
-        means = mean_stress(self._means, plane.region)
-        make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
-        found = StressTensor(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
-        if plane.side == "surface":  # exact, whatever the rounding of the transforms
-            shear, pressure = self.tractions.shear, self.tractions.pressure
-            fields = (shear.x, shear.y) if isinstance(shear, ShearTraction) else (pressure, pressure)
-            factors = (1.0, 1.0) if isinstance(shear, ShearTraction) else shear.ratios
-            loads = zip((pressure, *fields), (1.0, *factors), (found.zz, found.xz, found.yz), strict=True)
-            for load, factor, component in loads:
-                np.multiply(load, -factor, out=component, casting="same_kind")
+        make, means = self._stress_maker(plane)
+        given = None if out is None else list(vars(out).values())
+        fields = self._fields(make, plane, means, given, _needed(plane))
+        if plane.side == "surface":
+            self._impose(fields, (slice(None), slice(None)))
+        return StressTensor(*fields)
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time, which stay in the cache."""
+        make, means = self._stress_maker(plane)
+        between = self._along_x(make, plane, means, _needed(plane))
+        self._share(self._read, self.tractions.grid.shape[0], between, plane, reader)
+
+    def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
+        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …): waves are summed, and transformed along lines only."""
+        make, means = self._stress_maker(plane)
+        shape = self.tractions.grid.shape
+        indices = [place.index for place in places]
+        columns = sorted({j for _, j in indices if not isinstance(j, slice)})
+        rows = sorted({i for i, j in indices if isinstance(j, slice) and not isinstance(i, slice)})
+        sums = _WaveSums(columns, rows, shape, self._between.dtype)
+        made = self._transform.lines(len(means), _LINES, self._between.dtype)
+        for here in self._spans((0, self._reaching(plane))):
+            self._make(here, make, means, made)
+            sums.add(here, made[:, : here[1] - here[0], : shape[0]])
+        along_x = sums.columns() if columns else np.zeros(0)
+        along_y = sums.rows(shape[1]) if rows else np.zeros(0)
+        found = []
+        for i, j in indices:
+            if isinstance(j, slice):
+                assert not isinstance(i, slice)
+                fields = along_y[:, rows.index(i)]
+            else:
+                fields = along_x[:, columns.index(j)][:, i].copy()
+            if plane.side == "surface":
+                self._impose(fields[:, None], (i, j))
+            found.append(fields)
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement (m) of ``plane``; the datum is that of ``mean_displacement``."""
         means = mean_displacement(self._means, self._given, plane)
         make = self._maker("displacement_spectra", plane, _DISPLACEMENT)
-        return Displacement(*self._fields(make, plane, means, None if out is None else list(vars(out).values())))
+        given = None if out is None else list(vars(out).values())
+        return Displacement(*self._fields(make, plane, means, given, (slice(0, 3),)))
+
+    def _stress_maker(self, plane: Plane) -> tuple[_Maker, tuple[float, ...]]:
+        """What makes the spectra of the stress on ``plane``, and its means."""
+        functions = _PRESSURE + _SHEAR if self._sheared else _PRESSURE
+        make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
+        return make, mean_stress(self._means, plane.region)
 
     def _maker(self, kernel: str, plane: Plane, functions: tuple[str, ...], *constants: float) -> _Maker:
         """What writes some lines of the spectra of a plane into an array (any, any, nx and a few)."""
         found = self._transfers.to(plane)
         coefficients = self._panels.fitted(np.stack([getattr(found, name) for name in functions]))
-        table, waves = (self._panels.breaks, coefficients, _limit(plane)), self._waves()
+        table, waves = (self._panels.breaks, coefficients, _limit(plane)), self._waves
         run = getattr(import_module(".kernels.planes", __package__), kernel)
         return lambda lines, into: run(lines, waves, table, *constants, self._loads, into)
 
+    def _impose(self, fields: Sequence[RealArray] | RealArray, where: tuple[Any, ...]) -> None:
+        """Write the tractions at ``where`` on the surface into zz, xz and yz: exact, whatever the rounding of the transforms."""
+        shear, pressure = self.tractions.shear, self.tractions.pressure
+        loads = (shear.x, shear.y) if isinstance(shear, ShearTraction) else (pressure, pressure)
+        factors = (1.0, 1.0) if isinstance(shear, ShearTraction) else shear.ratios
+        for number, load, factor in zip(_GIVEN, (pressure, *loads), (1.0, *factors), strict=True):
+            fields[number][...] = -factor * load[where]
+
     def _fields(
-        self, make: _Maker, plane: Plane, means: tuple[float, ...], out: list[RealArray] | None
+        self,
+        make: _Maker,
+        plane: Plane,
+        means: tuple[float, ...],
+        out: list[RealArray] | None,
+        needed: tuple[slice, ...],
     ) -> list[RealArray]:
-        """Fields of the spectra that ``make`` writes, whose mean modes are set to ``means``."""
+        """Fields of the spectra that ``make`` writes, whose mean modes are set to ``means``; only the ``needed`` are filled."""
         shape = self.tractions.grid.shape
-        lines = int(np.count_nonzero(self._waves()[0] < _limit(plane)))
-        between = self._room(len(means), lines)
         fields = out or [np.empty(shape, self.dtype) for _ in means]
-        alone = shape[0] * shape[1] < SERIAL_BELOW
-        self._blocks.share(self._first, lines, make, means, between, serial=alone)
-        self._blocks.share(self._second, shape[0], between, fields, serial=alone)
+        between = self._along_x(make, plane, means, needed)
+        numbers = [number for some in needed for number in range(some.start, some.stop)]
+        self._share(self._along_y, shape[0], between, fields, numbers)
         return fields
+
+    def _share(self, work: Callable[..., None], parts: int, *arguments: Any) -> None:
+        shape = self.tractions.grid.shape
+        self._blocks.share(work, parts, *arguments, serial=shape[0] * shape[1] < SERIAL_BELOW)
+
+    def _along_x(self, make: _Maker, plane: Plane, means: tuple[float, ...], needed: tuple[slice, ...]) -> ComplexArray:
+        """Spectra that ``make`` writes after their transform along x, as far as ``needed``."""
+        lines = self._reaching(plane)
+        between = self._room(len(means), lines)
+        self._share(self._first, lines, make, means, between, needed)
+        return between
+
+    def _reaching(self, plane: Plane) -> int:
+        """Number of lines of waves that reach ``plane``."""
+        return int(np.count_nonzero(self._waves[0] < _limit(plane)))
 
     def _room(self, count: int, lines: int) -> ComplexArray:
         """Room for as many fields between the steps, zero but for the first ``lines``, which are to be written."""
@@ -189,23 +271,58 @@ class PeriodicPlanes:
         self._filled = lines
         return self._between[:count]
 
-    def _first(self, span: tuple[int, int], make: _Maker, means: tuple[float, ...], between: ComplexArray) -> None:
-        """Make the lines ``span`` of the spectra and transform them along x."""
-        shape = self.tractions.grid.shape
-        made = self._transform.lines(len(means), _LINES, between.dtype)
+    def _spans(self, span: tuple[int, int]) -> Iterator[tuple[int, int]]:
+        """Lines ``span`` in parts of as many as are made at a time."""
         for start in range(*span, _LINES):
-            here = start, min(span[1], start + _LINES)
-            make(here, made)
-            if start == 0:
-                made[:, 0, 0] = np.multiply(means, shape[0] * shape[1])
-            for lines, out in zip(made, between, strict=True):
-                self._transform.lines_back(lines, here, out)
+            yield start, min(span[1], start + _LINES)
 
-    def _second(self, span: tuple[int, int], between: ComplexArray, fields: list[RealArray]) -> None:
-        """Transform along y to the rows ``span`` of the fields."""
-        for lines, field in zip(between, fields, strict=True):
-            self._transform.rows_back(lines, span, field)
+    def _make(self, here: tuple[int, int], make: _Maker, means: tuple[float, ...], made: ComplexArray) -> None:
+        """Write the lines ``here`` of the spectra into ``made``."""
+        make(here, made)
+        if here[0] == 0:
+            made[:, 0, 0] = np.multiply(means, math.prod(self.tractions.grid.shape))
 
+    def _first(
+        self,
+        span: tuple[int, int],
+        make: _Maker,
+        means: tuple[float, ...],
+        between: ComplexArray,
+        needed: tuple[slice, ...],
+    ) -> None:
+        """Make the lines ``span`` of the spectra and transform them along x."""
+        made = self._transform.lines(len(means), _LINES, between.dtype)
+        for here in self._spans(span):
+            self._make(here, make, means, made)
+            for some in needed:
+                self._transform.lines_back(made[some], here, between[some])
+
+    def _along_y(
+        self, span: tuple[int, int], between: ComplexArray, fields: list[RealArray], numbers: list[int]
+    ) -> None:
+        """Transform along y to the rows ``span`` of the fields with the ``numbers``."""
+        for number in numbers:
+            self._transform.rows_back(between[number], span, fields[number][slice(*span)])
+
+    def _read(self, span: tuple[int, int], between: ComplexArray, plane: Plane, reader: Reader) -> None:
+        """Give the rows ``span`` to ``reader``."""
+        reader(self._rows(span, between, plane))
+
+    def _rows(self, span: tuple[int, int], between: ComplexArray, plane: Plane) -> Rows:
+        """Transform along y, a few rows of the stress on ``plane`` at a time."""
+        count = max(1, _POINTS // self.tractions.grid.shape[1])
+        rows = np.empty((len(STRESSES), 0, 0), self.dtype)
+        for start in range(*span, count):
+            here = start, min(span[1], start + count)
+            if rows.shape[1] != here[1] - start:
+                rows = np.empty((len(STRESSES), here[1] - start, self.tractions.grid.shape[1]), self.dtype)
+            for some in _needed(plane):
+                self._transform.rows_back(between[some], here, rows[some])
+            if plane.side == "surface":
+                self._impose(rows, (slice(*here), slice(None)))
+            yield start, rows
+
+    @cached_property
     def _waves(self) -> tuple[RealArray, RealArray, RealArray, RealArray]:
         """Components of the wavevectors along y and x, not negative; each also with the highest of an even grid set to zero."""
         grid, half = self.tractions.grid, self.tractions.grid.shape[0] // 2 + 1
@@ -231,6 +348,42 @@ class PeriodicPlanes:
 def _limit(plane: Plane) -> float:
     """Wavenumber from which nothing reaches the plane."""
     return _NEGLIGIBLE / plane.depth if plane.depth > 0.0 else np.inf
+
+
+def _needed(plane: Plane) -> tuple[slice, ...]:
+    """Components of the stress on ``plane`` that are not known beforehand."""
+    return _NOT_GIVEN if plane.side == "surface" else _ALL
+
+
+class _WaveSums:
+    """Sums over waves, taken in line by line, that give the stress along some lines y = ``columns``·dy and x = ``rows``·dx."""
+
+    def __init__(self, columns: list[int], rows: list[int], shape: tuple[int, int], dtype: Any) -> None:
+        nx, ny = shape
+        waves = np.arange(ny // 2 + 1)
+        both = np.where((waves == 0) | (2 * waves == ny), 1.0, 2.0) / ny  # of each wave and its mirror image
+        across = both * np.exp(2j * np.pi * np.outer(columns, waves) / ny)
+        self._across = np.concatenate([across.real, across.imag]).astype(np.zeros(0, dtype).real.dtype)
+        self._along = (np.exp(2j * np.pi * np.outer(np.arange(nx), rows) / nx) / nx).astype(dtype)
+        self._columns = np.zeros((len(STRESSES), len(self._across), 2 * nx), self._across.dtype)
+        self._rows = np.zeros((len(STRESSES), len(rows), waves.size), dtype)
+
+    def add(self, span: tuple[int, int], lines: ComplexArray) -> None:
+        """Take in the lines ``span`` of the spectra, (6, lines, nx)."""
+        part = slice(*span)
+        if len(self._across):  # as a product of real matrices, which takes half as long
+            self._columns += self._across[:, part] @ lines.view(self._across.dtype)
+        if self._along.size:
+            self._rows[..., part] = np.swapaxes(lines @ self._along, 1, 2)
+
+    def columns(self) -> RealArray:
+        """Stress along the lines in x, (6, columns, nx)."""
+        real, imaginary = np.split(self._columns.view(self._rows.dtype), 2, axis=1)
+        return complex_lines(real + 1j * imaginary, 2, backward=True).real
+
+    def rows(self, ny: int) -> RealArray:
+        """Stress along the lines in y, (6, rows, ny)."""
+        return real_lines(self._rows, ny)
 
 
 # Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002).
@@ -269,6 +422,24 @@ class FreePlanes:
         elif slips(self._body, plane):  # likewise
             found.xz[...] = found.yz[...] = 0.0
         return found
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress (Pa) on ``plane`` to ``reader``, all rows at once."""
+        reader(iter([(0, self._whole_stress(plane))]))
+
+    def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
+        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …)."""
+        whole = self._whole_stress(plane)
+        return [whole[(slice(None), *place.index)].copy() for place in places]
+
+    def _whole_stress(self, plane: Plane) -> RealArray:
+        """Stress on ``plane``, (6, nx, ny), which the next one overwrites."""
+        self.stress(plane, StressTensor(*self._room))
+        return self._room
+
+    @cached_property
+    def _room(self) -> RealArray:
+        return np.empty((len(STRESSES), *self.tractions.grid.shape), self.dtype)
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement (m) of ``plane``, zero at infinity.

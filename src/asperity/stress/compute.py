@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
@@ -12,9 +12,9 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
-from .boundaries import FreePlanes, PeriodicPlanes, require_held
+from .boundaries import FreePlanes, PeriodicPlanes, Reader, require_held
 from .field import StressField
-from .regions import Everywhere, Plane, Where, planes, selection, stack
+from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack
 from .tractions import LoadedBody, Shear, ShearTraction, Sliding, Tractions
 
 Direction: TypeAlias = float | tuple[float, float]
@@ -45,6 +45,12 @@ class Planes(Protocol):
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
         """Stress on ``plane``."""
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress on ``plane`` to ``reader``, some rows at a time."""
+
+    def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
+        """Stress on ``plane`` at each of some ``places``, (6, …)."""
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement of ``plane``."""
@@ -189,40 +195,62 @@ class StressPlanes:
         require.one_of(dtype, ("float64", "float32"), "precision of stresses")
         self.planes = planes(body, depths)
         require_held(tractions, body)
-        self._place = selection(on, tractions.grid, tractions.pressure)
         kind = PeriodicPlanes if tractions.boundary == "periodic" else FreePlanes
         self._source: Planes = kind(tractions, body, dtype=dtype, threads=threads)
-        self._dtype = dtype
-        self._grid = tractions.grid
+        self.dtype = dtype
+        self._grid, self._pressure = tractions.grid, tractions.pressure
+        self._place = self.place(on)
         self.citation_keys = papers(body, tractions.boundary, sheared=tractions.sheared)
 
     def each(self, *, displacement: bool = False) -> Iterator[StressField]:
         """One field after the other, each of one plane."""
-        part = self._place.index
-        all_points = part == (slice(None), slice(None))
-        scratch = None if all_points else StressTensor(*np.empty((len(STRESSES), *self._grid.shape), self._dtype))
+        place = self._place
         for plane in self.planes:
-            tensor = self._source.stress(plane, scratch).map(lambda c: c[part][None].copy() if scratch else c[None])
-            moved = self._source.displacement(plane).map(lambda c: c[part][None].copy()) if displacement else None
-            yield self._field((plane,), tensor, moved)
+            if place.index == (slice(None), slice(None)):
+                tensor = self._source.stress(plane)
+            else:
+                tensor = StressTensor(*self._source.at(plane, [place])[0])
+            moved = None
+            if displacement:
+                moved = self._source.displacement(plane).map(lambda c: c[place.index][None].copy())
+            yield self._field((plane,), tensor.map(lambda c: c[None]), moved, place)
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time; each thread calls it with those of its share."""
+        self._source.read(plane, reader)
+
+    def along(self, lines: Sequence[Where], plane: Plane) -> list[StressField]:
+        """Fields of ``plane`` on each of ``lines`` (sections and profiles)."""
+        places = [self.place(line) for line in lines]
+        found = zip(places, self._source.at(plane, places), strict=True)
+        return [self.field(plane, place, fields) for place, fields in found]
+
+    def place(self, where: Where) -> Selection:
+        """Points of the grid at ``where``."""
+        return selection(where, self._grid, self._pressure)
+
+    def field(self, plane: Plane, place: Selection, components: RealArray) -> StressField:
+        """Field of the ``components`` (6, …) of ``plane`` at ``place``."""
+        return self._field((plane,), StressTensor(*components[:, None]), None, place)
 
     def whole(self, *, displacement: bool = False) -> StressField:
         """All planes in one field; needs the memory of the field and of one plane."""
         shape = len(self.planes), *self._place.shape
-        tensor = StressTensor(*(np.empty(shape, self._dtype) for _ in STRESSES))
-        moved = Displacement(*(np.empty(shape, self._dtype) for _ in AXES)) if displacement else None
+        tensor = StressTensor(*(np.empty(shape, self.dtype) for _ in STRESSES))
+        moved = Displacement(*(np.empty(shape, self.dtype) for _ in AXES)) if displacement else None
         for number, field in enumerate(self.each(displacement=displacement)):
             for found, kept in ((field.tensor, tensor), (field.displacement, moved)):
                 for name, component in vars(found).items() if found is not None else ():
                     getattr(kept, name)[number] = component[0]
-        return self._field(self.planes, tensor, moved)
+        return self._field(self.planes, tensor, moved, self._place)
 
-    def _field(self, sections: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
-        place = self._place
+    def _field(
+        self, planes: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None, place: Selection
+    ) -> StressField:
         dims = ("plane", *place.dims)
         grid, keys = self._grid, self.citation_keys
         row = grid.shape[1] == 1
-        return StressField(sections, tensor, moved, place.x, place.y, dims, grid.spacing, keys, single_row=row)
+        return StressField(planes, tensor, moved, place.x, place.y, dims, grid.spacing, keys, single_row=row)
 
 
 def _shear(friction: float | Shear, direction: Direction) -> Shear:

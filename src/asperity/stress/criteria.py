@@ -175,7 +175,11 @@ class Limit:
 
 
 class Criterion(Protocol):
-    """A criterion of failure."""
+    """A criterion of failure.
+
+    One whose equivalent stress rises with a quantity of ``stress.extremes`` may name that in ``measure`` ("von_mises",
+    "tension", or "shear" for twice the largest): only where that may be largest it is then evaluated.
+    """
 
     @property
     def name(self) -> str:
@@ -197,6 +201,7 @@ class VonMises:
     """√(3 J2) against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
 
     name: ClassVar[str] = "von Mises"
+    measure: ClassVar[str] = "von_mises"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Tabor1951")
 
     def equivalent(self, stress: StressTensor) -> RealArray:
@@ -213,6 +218,7 @@ class Tresca:
     """σ1 - σ3 against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
 
     name: ClassVar[str] = "Tresca"
+    measure: ClassVar[str] = "shear"
     citation_keys: ClassVar[tuple[str, ...]] = ("Eberly2014", "Johnson1985", "Tabor1951")
 
     def equivalent(self, stress: StressTensor) -> RealArray:
@@ -233,6 +239,7 @@ class MaxPrincipal:
 
     strength: float
     name: ClassVar[str] = "maximum principal stress"
+    measure: ClassVar[str] = "tension"
     citation_keys: ClassVar[tuple[str, ...]] = ("Eberly2014", "Johnson1985")
 
     def __post_init__(self) -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -17,23 +17,24 @@ from ..core.grid import Grid
 from ..core.status import NoProgress, Progress
 from ..core.tensor import STRESSES, StressTensor
 from ..solids.elastic import Rigid
-from .boundaries import require_held
-from .compute import Loaded, papers, stress_planes
+from .boundaries import Reader, Rows, require_held
+from .compute import Loaded, StressPlanes, papers, tractions_on
 from .criteria import Criterion, VonMises
-from .field import InterfaceMaxima, Maxima, Peak, RegionMaxima, StressField
+from .extremes import Extremes, InterfaceMaxima, RegionMaxima
+from .field import Peak, StressField
 from .regions import (
     DepthProfile,
     Plane,
     Position,
     Section,
+    Selection,
     Where,
     depths_through,
     planes,
     regions,
-    selection,
 )
 from .tractions import LoadedBody, Sliding, Tractions
-from .yielding import YieldReport, first_yield
+from .yielding import YieldReport
 
 Place: TypeAlias = float | Literal["max", "pressure"]
 """Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
@@ -284,24 +285,11 @@ def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
     return place - 0.5 * grid.spacing["xy".index(axis)] if isinstance(wanted, float) else place
 
 
-def cut(planes: Iterator[StressField], lines: list[Where], result: Contact) -> list[StressField]:
-    """The ``lines`` out of whole planes."""
-    places = [selection(line, result.problem.grid, result.pressure) for line in lines]
-    cuts: list[list[StressField]] = [[] for _ in lines]
-    for field in planes:
-        for place, found in zip(places, cuts, strict=True):
-            part = (slice(None), *place.index)
-            tensor = field.tensor.map(lambda component, part=part: component[part].copy())  # type: ignore[misc]
-            found.append(replace(field, tensor=tensor, x=place.x, y=place.y, dims=("plane", *place.dims)))
-    for found in cuts:
-        if found[-1].planes[0].side == "below":  # the region that begins at the last depth is not shown
-            found.pop()
-    joined = []
-    for found in cuts:
-        tensors = (np.concatenate([getattr(f.tensor, name) for f in found]) for name in vars(found[0].tensor))
-        planes_of = tuple(f.planes[0] for f in found)
-        joined.append(replace(found[0], planes=planes_of, tensor=StressTensor(*tensors)))
-    return joined
+def joined(parts: list[StressField]) -> StressField:
+    """One field of ``parts`` of one plane each, the region that begins at the last depth left out."""
+    parts = parts[:-1] if parts[-1].planes[0].side == "below" else parts
+    tensors = (np.concatenate([getattr(f.tensor, name) for f in parts]) for name in STRESSES)
+    return replace(parts[0], planes=tuple(f.planes[0] for f in parts), tensor=StressTensor(*tensors))
 
 
 @dataclass(frozen=True, eq=False)
@@ -333,7 +321,7 @@ class StressSurvey:
 
     def planes(self, depths: Iterable[float]) -> Iterator[StressField]:
         """Whole planes at ``depths`` in m, one by one, computed anew."""
-        return _planes(self.request, self.result, depths, self.threads)
+        return _job(self.request, self.result, depths, self.threads).each()
 
     def wanted_planes(self) -> Iterator[StressField]:
         """The whole planes that were asked for, one by one."""
@@ -350,8 +338,8 @@ def survey(
 ) -> StressSurvey:
     """Compute the stresses of ``request`` in the contact ``result``.
 
-    Sections and profiles through the maxima are cut out of the planes of which these were found, if these take at most
-    ``MOST_KEPT`` bytes; else the planes are computed a second time.
+    Planes are read a few rows at a time and not kept, but for sections and profiles through the maxima found so far; those
+    that were found later are then computed by themselves on the planes that had passed.
 
     ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep sections and profiles, or
     only the maxima on the same planes; ``threads``: number of threads; ``progress``: called after each plane with the number
@@ -363,59 +351,91 @@ def survey(
         As of ``stress``.
     """
     depths = survey_depths(request, result)
-    maxima = Maxima(threads)
     shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
-    body = getattr(result.problem, request.of)
-    first, second = (planes(body, d) if d.size else () for d in (depths, shown))
-    size = len(STRESSES) * result.problem.grid.n_points * np.dtype(request.dtype).itemsize
-    once = frozenset(second if len(second) * size <= MOST_KEPT and set(second) <= set(first) else ())
-    kept: list[StressField] = []
-    tracked = _Tracked(progress, len(first) + len(second) - len(once))
-    found = _keeping(tracked.planes(_planes(request, result, depths, threads)), once, kept)
-    report = first_yield(maxima.watching(found), request.criterion)
-    wanted = wanted_lines(request, result, maxima.drawn) if shown.size else {}
-    again = iter(kept) if kept or not wanted else tracked.planes(_planes(request, result, shown, threads))
-    named = list(zip(wanted.values(), cut(again, list(wanted), result), strict=True))
+    job = _job(request, result, depths, threads)
+    again = planes(getattr(result.problem, request.of), shown) if shown.size else ()
+    tracked = _Tracked(progress, len(job.planes) + len(again))
+    extremes, passed = Extremes(result.problem.grid, request.criterion), _Passed(job)
+    named: dict[Where, tuple[str, ...]] = {}
+    for plane in tracked.each(job.planes):
+        extremes.take(plane, passed.cutting(list(named)) if plane in again else job.read)
+        named = wanted_lines(request, result, extremes.drawn) if again else {}
+    parts = [passed.along(list(named), plane) for plane in tracked.each(again)]
+    drawn = [
+        (names, joined(list(fields))) for names, fields in zip(named.values(), zip(*parts, strict=True), strict=True)
+    ]
     return StressSurvey(
         request,
         result,
         depths,
-        tuple(SurveyedSection(field, quantities) for quantities, field in named if len(field.dims) == 2),
-        tuple(field for _, field in named if len(field.dims) == 1),
-        maxima.regions(),
-        maxima.interfaces(),
-        report,
-        citation_keys(maxima, request),
+        tuple(SurveyedSection(field, quantities) for quantities, field in drawn if len(field.dims) == 2),
+        tuple(field for _, field in drawn if len(field.dims) == 1),
+        extremes.regions(),
+        extremes.interfaces(),
+        extremes.yielding(),
+        citation_keys(job, request),
         threads,
     )
 
 
-MOST_KEPT = 400_000_000
-"""Bytes of whole planes that are kept for sections: those of a coated contact of 512² points in double precision."""
+class _Passed:
+    """Sections and profiles that were cut out of planes as they were read, and those that were not."""
+
+    def __init__(self, job: StressPlanes) -> None:
+        self._job = job
+        self._cut: dict[tuple[Where, Plane], StressField] = {}
+        self._places: dict[Where, Selection] = {}
+
+    def cutting(self, lines: list[Where]) -> Callable[[Plane, Reader], None]:
+        """What reads planes for others and keeps their stress along ``lines``."""
+        self._places |= {line: self._job.place(line) for line in lines if line not in self._places}
+        places = [self._places[line] for line in lines]
+
+        def read(plane: Plane, reader: Reader) -> None:
+            fields = [np.empty((len(STRESSES), *place.shape), self._job.dtype) for place in places]
+
+            def cut(rows: Rows) -> Rows:
+                for first, part in rows:
+                    for place, field in zip(places, fields, strict=True):
+                        _copy(place, first, part, field)
+                    yield first, part
+
+            self._job.read(plane, lambda rows: reader(cut(rows)))
+            for line, place, field in zip(lines, places, fields, strict=True):
+                self._cut[line, plane] = self._job.field(plane, place, field)
+
+        return read
+
+    def along(self, lines: list[Where], plane: Plane) -> list[StressField]:
+        """Fields of ``plane`` along ``lines``."""
+        missing = [line for line in lines if (line, plane) not in self._cut]
+        found = zip(missing, self._job.along(missing, plane), strict=True) if missing else ()
+        self._cut |= {(line, plane): field for line, field in found}
+        return [self._cut[line, plane] for line in lines]
 
 
-def _keeping(fields: Iterable[StressField], wanted: frozenset[Plane], kept: list[StressField]) -> Iterator[StressField]:
-    """The same ``fields``; those of the planes ``wanted`` are appended to ``kept``."""
-    for field in fields:
-        if field.planes[0] in wanted:
-            kept.append(field)
-        yield field
+def _copy(place: Selection, first: int, rows: RealArray, field: RealArray) -> None:
+    """Copy what ``rows`` (6, rows, ny), the ``first`` of them of this number, hold of ``place`` into its ``field``."""
+    i, j = place.index
+    if isinstance(i, slice):
+        field[:, first : first + rows.shape[1]] = rows[:, :, j]
+    elif first <= i < first + rows.shape[1]:
+        field[...] = rows[:, i - first, j]
 
 
-def _planes(
-    request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None
-) -> Iterator[StressField]:
-    own: Any = {"friction": request.friction, "direction": request.direction}
-    if isinstance(result, LoadedBody) or (request.sheared and getattr(result, "stick_slip", None) is not None):
-        own = {}  # they bring their own
-    return stress_planes(
-        result,
-        [float(depth) for depth in depths],
-        **own,
-        of=request.of,
-        dtype=request.dtype,
-        threads=threads,
-    )
+def _job(request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None) -> StressPlanes:
+    """Planes of the stress that is requested."""
+    values = [float(depth) for depth in depths]
+    options: Any = {"dtype": request.dtype, "threads": threads}
+    if isinstance(result, LoadedBody):
+        return StressPlanes(result.tractions, result.body, values, **options)
+    own = request.sheared and getattr(result, "stick_slip", None) is not None  # brings its own shear
+    friction = None if own else request.friction
+    loads = tractions_on(result, friction, request.direction, request.of)
+    return StressPlanes(loads, getattr(result.problem, request.of), values, **options)
+
+
+_Item = TypeVar("_Item")
 
 
 class _Tracked:
@@ -424,9 +444,9 @@ class _Tracked:
     def __init__(self, progress: Progress, total: int) -> None:
         self._progress, self._total, self._done = progress, total, 0
 
-    def planes(self, fields: Iterator[StressField]) -> Iterator[StressField]:
-        """The same ``fields``."""
-        for field in fields:
-            yield field
+    def each(self, items: Iterable[_Item]) -> Iterator[_Item]:
+        """The same ``items``, one for each plane."""
+        for item in items:
+            yield item
             self._done += 1
             self._progress.update(self._done, 1.0 - self._done / self._total, 0.0)

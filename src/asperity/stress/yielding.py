@@ -94,43 +94,41 @@ def first_yield(fields: StressField | Iterable[StressField], criterion: Criterio
 
     InputError if there are no fields.
     """
-    parts: dict[Region, _Gathered] = {}
+    parts: dict[Region, Gathered] = {}
+    peaks: dict[Region, Peak] = {}
     for field in [fields] if isinstance(fields, StressField) else fields:
         equivalent = criterion.equivalent(field.tensor)
         for number, plane in enumerate(field.planes):
-            part = parts.setdefault(plane.region, _Gathered(criterion.limit(plane.region.material)))
-            part.add(field, equivalent, number)
+            part = parts.setdefault(plane.region, Gathered(criterion.limit(plane.region.material)))
+            part.note(plane.depth, float(np.count_nonzero(equivalent[number] > part.limit.value)) * field.cell)
+            peak = field.peak(equivalent, plane=number)
+            if plane.region not in peaks or peak.value > peaks[plane.region].value:
+                peaks[plane.region] = peak
     if not parts:
         raise InputError("fields of a yield report must hold at least one plane, but are empty.")
-    return YieldReport(criterion, tuple(part.report(region) for region, part in parts.items()))
+    return YieldReport(criterion, tuple(part.report(region, peaks[region]) for region, part in parts.items()))
 
 
-class _Gathered:
-    """What is known of one region so far."""
+class Gathered:
+    """How much of one region is beyond its ``limit``, plane by plane."""
 
     def __init__(self, limit: Limit) -> None:
         self.limit = limit
-        self.peak: Peak | None = None
-        self.depths: list[float] = []
-        self.extents: list[float] = []
+        self._depths: list[float] = []
+        self._extents: list[float] = []
 
-    def add(self, field: StressField, equivalent: RealArray, number: int) -> None:
-        """Take in one plane."""
-        peak = field.peak(equivalent, plane=number)
-        if self.peak is None or peak.value > self.peak.value:
-            self.peak = peak
-        beyond = np.count_nonzero(equivalent[number] > self.limit.value)
-        self.depths.append(field.planes[number].depth)
-        self.extents.append(float(beyond) * field.cell)
+    def note(self, depth: float, extent: float) -> None:
+        """Take in a plane, with the area (length, number) beyond the limit."""
+        self._depths.append(depth)
+        self._extents.append(extent)
 
-    def report(self, region: Region) -> RegionYield:
-        """The region's entry."""
-        assert self.peak is not None
-        factor = self.limit.value / self.peak.value if self.peak.value > 0.0 else math.inf
-        order = np.argsort(self.depths, kind="stable")
-        volume = float(np.trapezoid(np.array(self.extents)[order], np.array(self.depths)[order]))
+    def report(self, region: Region, peak: Peak) -> RegionYield:
+        """The region's entry, with its largest equivalent stress."""
+        factor = self.limit.value / peak.value if peak.value > 0.0 else math.inf
+        order = np.argsort(self._depths, kind="stable")
+        volume = float(np.trapezoid(np.array(self._extents)[order], np.array(self._depths)[order]))
         known = not math.isnan(self.limit.value)
-        return RegionYield(region, self.limit, self.peak, factor if known else math.nan, volume if known else math.nan)
+        return RegionYield(region, self.limit, peak, factor if known else math.nan, volume if known else math.nan)
 
 
 @dataclass(frozen=True, eq=False)

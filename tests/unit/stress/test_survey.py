@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,14 +13,15 @@ from reference_data import reference
 from refusals import refused
 
 import asperity as asp
-from asperity.core.tensor import STRESSES
+from asperity.core.tensor import STRESSES, StressTensor
+from asperity.stress import boundaries
 from asperity.stress import survey as survey_module
-from asperity.stress.criteria import sqrt_J2
-from asperity.stress.regions import planes
+from asperity.stress.compute import StressPlanes
+from asperity.stress.criteria import Criterion, Limit, MaxPrincipal, Tresca, VonMises, sqrt_J2
+from asperity.stress.regions import DepthProfile, Plane, Section, Where, selection
 from asperity.stress.survey import (
     RATIO,
     StressRequest,
-    StressSurvey,
     WantedProfile,
     WantedSection,
     line_depths,
@@ -268,24 +270,87 @@ def test_line_contacts(boundary: object) -> None:
     assert found.depths[-1] == pytest.approx(3.0, rel=0.1)
 
 
-def test_sections_cut_out_of_kept_planes_are_those_of_planes_computed_again(
-    coated: asp.ContactResult, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("late", [False, True])
+def test_sections_are_those_of_whole_planes_however_late_their_place_is_known(
+    coated: asp.ContactResult, monkeypatch: pytest.MonkeyPatch, late: bool
 ) -> None:
-    request = StressRequest(friction=0.3, depths=(0.3,))
+    """Cut out of planes as they are read, or if ``late`` computed by themselves on all planes."""
+    request = StressRequest(
+        friction=0.3,
+        depths=(0.3,),
+        sections=(WantedSection("y", "max"), WantedSection("x", "max")),
+        profiles=(WantedProfile("max", "max"),),
+    )
+    computed: list[Plane] = []
+    along = StressPlanes.along
 
-    def surveyed() -> tuple[StressSurvey, int]:
-        heard = Heard()
-        return survey(request, coated, progress=heard), len(heard.planes)
+    def counted(self: StressPlanes, lines: Sequence[Where], plane: Plane) -> list[asp.StressField]:
+        computed.append(plane)
+        return along(self, lines, plane)
 
-    once, fewer = surveyed()
-    monkeypatch.setattr(survey_module, "MOST_KEPT", 0)
-    twice, more = surveyed()
-    assert fewer == len(planes(coated.problem.body, [float(depth) for depth in once.depths]))
-    assert 1.5 * fewer < more <= 2 * fewer
-    for one, other in zip(once.sections, twice.sections, strict=True):
-        assert one.field.planes == other.field.planes
+    monkeypatch.setattr(StressPlanes, "along", counted)
+    if late:
+        monkeypatch.setattr(survey_module._Passed, "cutting", lambda self, lines: self._job.read)
+    found = survey(request, coated)
+    whole = asp.stress(coated, found.depths, friction=0.3)
+    assert (len(computed) == len(whole.planes)) == late
+    for section in (*(section.field for section in found.sections), *found.profiles):
+        place = selection(_where(section), coated.problem.grid, coated.pressure).index
+        scale = float(np.abs(whole.normal_zz).max())
         for name in STRESSES:
-            np.testing.assert_array_equal(getattr(one.field.tensor, name), getattr(other.field.tensor, name))
+            expected = getattr(whole.tensor, name)[: len(section.planes)][(slice(None), *place)]
+            np.testing.assert_allclose(getattr(section.tensor, name), expected, atol=1e-13 * scale)
+
+
+def _where(field: asp.StressField) -> Where:
+    """Points of ``field``."""
+    if "x" in field.dims:
+        return Section(y=float(field.y))
+    return Section(x=float(field.x)) if "y" in field.dims else DepthProfile(float(field.x), float(field.y))
+
+
+class Sum:
+    """A criterion of a user: σxx + σzz against a strength."""
+
+    name = "sum"
+    citation_keys = ()
+
+    def equivalent(self, stress: StressTensor) -> np.ndarray:
+        return stress.xx + stress.zz
+
+    def limit(self, material: asp.Elastic) -> Limit:
+        return Limit(0.01)
+
+
+@pytest.mark.parametrize("criterion", [VonMises(), Tresca(), MaxPrincipal(0.004), Sum()], ids=lambda c: c.name)
+def test_yield_is_that_of_whole_planes(coated: asp.ContactResult, criterion: Criterion) -> None:
+    """Largest equivalent stresses, and what is beyond the limit, by criteria that are bounded and by one that is not."""
+    found = survey(replace(SLIDING, criterion=criterion), coated)
+    expected = asp.first_yield(asp.stress(coated, found.depths, friction=0.3, direction=0.5), criterion)
+    for one, other in zip(found.yielding.regions, expected.regions, strict=True):
+        assert one.region == other.region
+        assert one.peak.value == pytest.approx(other.peak.value, rel=1e-12)
+        assert (one.peak.x, one.peak.y, one.peak.depth) == (other.peak.x, other.peak.y, other.peak.depth)
+        assert one.yielded_volume == pytest.approx(other.yielded_volume, nan_ok=True)
+    if criterion.name != "Tresca":
+        assert max(part.yielded_volume for part in found.yielding.regions) > 0.0
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_maxima_do_not_depend_on_threads_or_blocks(
+    coated: asp.ContactResult, monkeypatch: pytest.MonkeyPatch, threads: int
+) -> None:
+    whole = survey(SLIDING, coated, threads=1)
+    monkeypatch.setattr(boundaries, "_POINTS", 50)
+    monkeypatch.setattr(boundaries, "SERIAL_BELOW", 0)
+    parts = survey(SLIDING, coated, threads=threads)
+    for one, other in zip(parts.maxima, whole.maxima, strict=True):
+        for name in ("von_mises", "tension", "shear"):
+            a, b = getattr(one, name), getattr(other, name)
+            assert a.value == pytest.approx(b.value, rel=1e-13)
+            assert (a.x, a.y, a.depth, a.side) == (b.x, b.y, b.depth, b.side)
+    for one, other in zip(parts.interfaces, whole.interfaces, strict=True):
+        assert (one.shear.value, one.peel.value) == pytest.approx((other.shear.value, other.peel.value), rel=1e-13)
 
 
 def test_progress_counts_down(coated: asp.ContactResult) -> None:
