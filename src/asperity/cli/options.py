@@ -47,6 +47,9 @@ BASIC = (
         "--liquid",
         "--humidity",
         "--film",
+        "--adhesion",
+        "--adhesion-range",
+        "--retract",
     ),
     *("--section", "--depths", "--threads"),
 )

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from importlib import metadata
 
 from ..core.errors import InputError
+from .adhesion import Adhesion
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .film import Friction, Menisci, WetTheory
 from .part import Part
@@ -23,6 +24,7 @@ BUILT_IN: tuple[Part, ...] = (
     StickSlip(),
     Menisci(),
     WetTheory(),
+    Adhesion(),
     LoadPath(),
     Plasticity(),
     PlasticLoad(),

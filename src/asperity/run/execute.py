@@ -20,6 +20,7 @@ from ..core.errors import AsperityError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
 from ..core.status import Outcome as Ended
+from ..parts.adhesion import Adhesion
 from ..parts.contact import STIFFNESS
 from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
@@ -330,9 +331,11 @@ class _Solving:
         case = self.case
         with self.stage(f"solving {len(case.path)} steps") as progress:
             stream = steps(case.problem, case.path, progress=progress, **self._options())
-            results = list(deque(stream, maxlen=None if self.lines or StickSlip.name in case.asks else 1))
+            results = list(
+                deque(stream, maxlen=None if self.lines or {StickSlip.name, Adhesion.name} & set(case.asks) else 1)
+            )
         last = results[-1]
         shear = last.sliding or last.stick_slip
-        if self._stiffness and (shear is None or not shear.shear_displacement.any()):
+        if self._stiffness and last.adhesion is None and (shear is None or not shear.shear_displacement.any()):
             results[-1] = replace(last, normal_stiffness=stiffness_of(last, operator=self.warm.operator))
         return (HistoryResult(tuple(results)) if len(results) == len(case.path) else None), results[-1]

@@ -121,6 +121,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
         asks |= {} if contact.stick_slip is None else {"stick_slip": True}
+        asks |= {} if contact.adhesion is None else {"adhesion": True}
         outcome = analysed(contact, asks, course)
         if contact.menisci is None:
             return outcome

@@ -1,0 +1,323 @@
+"""Adhesion: the law of the attraction, approach and parting, pull-off and hysteresis, and criteria of stickiness beside them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import model_validator
+
+from ..core.errors import InputError
+from ..core.quantity import Quantity
+from ..core.settings import Settings, setting
+from ..core.status import Advice
+from ..core.units import percent, show
+from ..core.values import Choice, Count, Length, Number, Pressure, SurfaceTension
+from .part import Found, Part, Rows, Solved, Table, Words
+
+if TYPE_CHECKING:
+    from ..contact.adhesive_cycles import AdhesionLoop
+    from ..contact.laws import Adhesion as AdhesionLaw
+    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.result import ContactResult
+    from ..plots.picture import Figure
+
+LAWS = ("exponential", "dugdale", "linear", "van der waals")
+"""Laws of adhesion in documents."""
+
+Law = Annotated[str, Choice({name: name for name in LAWS})]
+
+MachineStiffness = Annotated[float, Number("surface tension", above=0.0)]
+
+USUAL_SMOOTHING = 0.2
+"""Share of the range over which the attraction of Dugdale's law falls, in documents: no front that advances pixel by pixel."""
+
+USUAL_STEPS = 20
+"""Steps of each way of approach and parting, if not said otherwise."""
+
+
+class AdhesionSettings(Settings):
+    """Attraction of the surfaces, by its work of adhesion and either its range or its strength, the largest stress: range = work/strength.
+
+    The law "van der waals" needs neither; ``range`` is then half the distance of the atomic planes in contact, by default 0.165 nm.
+    With ``retract`` the bodies approach from that distance to the approach of the table [control] and part again.
+    """
+
+    work: SurfaceTension | None = setting(None, option="--adhesion", help="Work of adhesion: 50mJ/m**2")
+    law: Law = setting("exponential", option="--adhesion-law", help="Attraction as a function of the gap")
+    range: Length | None = setting(None, option="--adhesion-range", help="Work over strength: 1nm")
+    strength: Pressure | None = setting(None, option="--adhesion-strength", help="Largest attraction: 50MPa")
+    retract: Length | None = setting(
+        None, option="--retract", help="Approach from this distance apart, and part to it again, with --approach: 20nm"
+    )
+    steps: Count = setting(USUAL_STEPS, option="--retract-steps", help="Steps of each way")
+    cycles: Count = setting(1, option="--retract-cycles", help="Number of approaches")
+    stiffness: MachineStiffness | None = setting(
+        None, option="--machine-stiffness", help="Of the machine that holds the bodies: 10N/m; rigid by default"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> AdhesionSettings:
+        if self.work is None:
+            raise InputError(' must give the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), but does not.')
+        given = (self.range is not None) + (self.strength is not None)
+        if given > 1 or (given == 0 and self.law != "van der waals"):
+            raise InputError(
+                f" must give either a range (--adhesion-range) or a strength (--adhesion-strength) for the law {self.law}, but gives "
+                f'{"both" if given else "neither"}. Write for example range = "1 nm".'
+            )
+        if self.retract is None and (self.stiffness is not None or self.cycles != 1 or self.steps != USUAL_STEPS):
+            raise InputError(
+                " must give the distance to which the bodies part, retract (--retract), with its steps, cycles and the stiffness of the "
+                "machine, but does not."
+            )
+        if self.retract is not None and self.steps < 2:
+            raise InputError(f".steps (--retract-steps) must be at least 2, but is {self.steps}.")
+        return self
+
+    def adhesion(self) -> AdhesionLaw:
+        """The law."""
+        from ..contact.laws import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+
+        work = float(self.work or math.nan)
+        if self.law == "van der waals" and self.range is None and self.strength is None:
+            return VanDerWaalsAdhesion(work)
+        reach = float(self.range) if self.range is not None else work / float(self.strength or math.nan)
+        if self.law == "van der waals":
+            return VanDerWaalsAdhesion(work, 2.0 * reach)
+        if self.law == "dugdale":
+            return DugdaleAdhesion(work, reach, USUAL_SMOOTHING)
+        return LinearAdhesion(work, reach) if self.law == "linear" else ExponentialAdhesion(work, reach)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The table and the law."""
+
+    settings: AdhesionSettings
+    law: AdhesionLaw
+
+
+STICKINESS = (
+    Quantity("pastewka_robbins", "1", "Pastewka and Robbins' number / its limit, sticky below 1"),
+    Quantity("persson_tosatti_work", "J/m**2", "work of adhesion less the energy of full contact (Persson, Tosatti)"),
+    Quantity("fuller_tabor", "1", "Fuller and Tabor's adhesion parameter, roughness wins above about 10"),
+)
+"""Criteria beside the contact."""
+
+
+class Adhesion(Part):
+    """Attraction of the surfaces."""
+
+    name = "adhesion"
+    title = "Adhesion"
+    table = "adhesion"
+    settings = AdhesionSettings
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
+        """Scalars of the contact, of approach and parting, and criteria."""
+        from ..contact.adhesive_cycles import ADHESION_SCALARS, LOOP_SCALARS
+
+        return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS)
+
+    def asked(self, document: Any, folder: Path) -> Asked | None:
+        """The table [adhesion] with its law."""
+        table: AdhesionSettings | None = document.adhesion
+        if table is None:
+            return None
+        if table.retract is not None and document.control.approach is None:
+            raise InputError(
+                "approach must be given as the deepest position of approach and parting (adhesion.retract, --retract), but is not. Give "
+                'control.approach (--approach), such as "5 nm".',
+                subject="approach",
+            )
+        return Asked(table, table.adhesion())
+
+    def coupling(self, ask: Asked) -> Mapping[str, Any]:
+        """The attraction joins the solve."""
+        return {"adhesion": ask.law}
+
+    def course(self, ask: Asked, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """Approach and parting, where they are asked for."""
+        from ..contact.adhesive_cycles import adhesion_cycle
+        from ..contact.problem import as_step
+
+        table = ask.settings
+        if table.retract is None:
+            return controls
+        deepest = float(as_step(controls[-1]).normal.value)
+        stiffness = math.inf if table.stiffness is None else float(table.stiffness)
+        return adhesion_cycle(
+            -float(table.retract), deepest, steps=table.steps, cycles=table.cycles, stiffness=stiffness
+        )
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Scalars of the contact, of the loop, and the criteria."""
+        from ..contact.adhesive_cycles import LOOP_SCALARS, adhesion_loop, adhesion_numbers
+
+        found = solved.result.require_adhesion()
+        loop = None if solved.path is None else adhesion_loop(solved.path.steps)
+        values = adhesion_numbers(solved.result) | _criteria(solved.problem)
+        numbers = (math.nan,) * 4
+        if loop is not None:
+            numbers = (loop.pull_off_force, loop.pull_off_approach, loop.hysteresis, loop.effective_work)
+        values |= dict(zip((item.name for item in LOOP_SCALARS), numbers, strict=True))
+        return Found(
+            values, loop, _findings(solved), (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001")
+        )
+
+    def citations(self, ask: Asked, problem: ContactProblem) -> tuple[str, ...]:
+        """Papers of law and method."""
+        from ..contact.solvers.adhesion.solver import MajoriseMinimise
+
+        return (*ask.law.citation_keys, *MajoriseMinimise.citation_keys)
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Loop of force and approach; zone and tractions, of a loop those at the pull-off."""
+        from ..contact.adhesive_cycles import adhesion_loop
+        from ..plots.adhesion import ADHESION_LOOP, ADHESION_PLOTS
+        from ..plots.picture import drawn
+
+        if solved.path is None:
+            return drawn(ADHESION_PLOTS, solved.result)
+        at = solved.path.steps[adhesion_loop(solved.path.steps).pull_off]
+        return (*drawn((ADHESION_LOOP,), solved.path), *drawn(ADHESION_PLOTS, at))
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Law, attraction, resolution, stability; pull-off and hysteresis of a path."""
+        return adhesion_words(solved, found)
+
+
+def _criteria(problem: ContactProblem) -> dict[str, float]:
+    from ..contact.roughness import roughness_of
+    from ..contact.stickiness import stickiness
+    from ..theories.adhesion.fuller_tabor import FullerTabor
+
+    law, surface = problem.adhesion, problem.surface.with_heights(problem.profile(), "composite")
+    assert law is not None
+    try:
+        sticky = stickiness(problem)
+        numbers = [sticky.share_of_limit, sticky.effective_work]
+    except InputError:
+        numbers = [math.nan, law.work]  # flat
+    try:
+        theta = FullerTabor.from_roughness(roughness_of(surface), problem.contact_modulus, work=law.work).theta
+    except InputError:
+        theta = math.nan  # no summits of different heights
+    return dict(zip((item.name for item in STICKINESS), (*numbers, theta), strict=True))
+
+
+def _findings(solved: Solved) -> tuple[Advice, ...]:
+    """A zone that the grid does not resolve, an unstable end, steps that failed."""
+    from ..contact.couplings.adhesion import PINNED, RESOLVED
+
+    found, made = solved.result.require_adhesion(), []
+    if not found.resolved:
+        pinned = found.pixels_per_length < PINNED
+        effect = (
+            "single pixels snap, and hysteresis and pull-off are those of the grid" if pinned else "pull-off may be off"
+        )
+        text = (
+            f"The attracting zone is not resolved: the cohesive length E*w/σ0² is {show(found.cohesive_length, 'm', 3)}, "
+            f"{found.pixels_per_length:.2g} pixels, and should be at least {RESOLVED:g}; {effect}. Take a pixel of at most "
+            f"{show(found.needed_pixel, 'm', 3)}, or a larger range at the same work of adhesion."
+        )
+        made.append(Advice("warning", "adhesive zone", text))
+    if not found.stable:
+        text = f"The contact is not at a minimum of the energy (margin {found.margin:.2g}). Take smaller steps of load or position."
+        made.append(Advice("warning", "stability", text))
+    return tuple(made)
+
+
+# In words and tables.
+
+
+REMARK = (
+    "Pressures are those of the wall; the net traction is the pressure less the attraction. Each step goes downhill in energy from the "
+    "attraction of the step before, so that a path follows its branch until that ends in a jump. On a periodic surface the images "
+    "attract each other, and a fixed mean gap is stiffer than a real machine."
+)
+"""What the numbers mean."""
+
+
+def adhesion_words(solved: Solved, found: Found) -> Words:
+    """Sentence, settings and tables."""
+    loop: AdhesionLoop | None = found.detail
+    rows = law_rows(solved.result) + criteria_rows(found.values)
+    if loop is None:
+        return Words(adhesion_sentence(solved.result), rows=rows, remarks=(REMARK,))
+    headline = [("pull-off force", show(loop.pull_off_force, "N"))]
+    return Words(
+        loop_sentence(loop), headline, rows, (("Jumps", jump_table(loop)),) if loop.jumped.any() else (), (REMARK,)
+    )
+
+
+def adhesion_sentence(result: ContactResult) -> str:
+    """One sentence on the attraction."""
+    found = result.require_adhesion()
+    branch = "at a minimum of the energy" if found.stable else "NOT at a minimum of the energy"
+    resolved = "" if found.resolved else " The attracting zone is NOT resolved by the grid."
+    return (
+        f"The surfaces attract each other with {show(found.attractive_force, 'N')} against an external force of "
+        f"{show(found.external_force, 'N')}, {branch}.{resolved}"
+    )
+
+
+def loop_sentence(loop: AdhesionLoop) -> str:
+    """One sentence on pull-off and hysteresis."""
+    jumps = int(loop.jumped.sum())
+    lost = f"{show(loop.hysteresis, 'J')} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
+    return (
+        f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of {show(loop.pull_off_approach, 'm')}; "
+        f"{lost}."
+    )
+
+
+def law_rows(result: ContactResult) -> Rows:
+    """Law, resolution and branch."""
+    found = result.require_adhesion()
+    return [
+        ("law", found.law.name),
+        ("work of adhesion", show(found.law.work, "J/m**2")),
+        ("largest attraction", show(found.law.strength, "Pa")),
+        ("range, work / largest attraction", show(found.law.work / found.law.strength, "m")),
+        ("attractive force", show(found.attractive_force, "N")),
+        ("external force", show(found.external_force, "N")),
+        ("area that attracts without touching", percent(found.adhesive_area_fraction)),
+        ("margin of stability", f"{found.margin:.3g} ({'stable' if found.stable else 'not stable'})"),
+        ("cohesive length", f"{show(found.cohesive_length, 'm', 3)}, {found.pixels_per_length:.3g} pixels"),
+        ("pixel that resolves it", f"{show(found.needed_pixel, 'm', 3)} at most"),
+        ("residual of the attraction", f"{found.residual:.1e}"),
+    ]
+
+
+def criteria_rows(values: Mapping[str, Any]) -> Rows:
+    """Criteria of stickiness beside the contact."""
+    rows = []
+    number, left, theta = (values[item.name] for item in STICKINESS)
+    if math.isfinite(number):
+        rows.append(
+            ("Pastewka and Robbins' number / limit", f"{number:.3g} ({'sticky' if number < 1.0 else 'not sticky'})")
+        )
+        verdict = "full contact gains energy" if left > 0.0 else "full contact costs energy"
+        rows.append(("Persson and Tosatti's work of adhesion", f"{show(left, 'J/m**2', 3)} ({verdict})"))
+    if math.isfinite(theta):
+        rows.append(("Fuller and Tabor's parameter", f"{theta:.3g}"))
+    return rows
+
+
+def jump_table(loop: AdhesionLoop) -> Table:
+    """Force and approach before and after every jump."""
+    import numpy as np
+
+    cells = []
+    lost = np.diff(loop.dissipated, prepend=0.0)
+    for step in np.flatnonzero(loop.jumped):
+        ends = (max(int(step) - 1, 0), int(step))
+        forces = [show(float(loop.force[k]), "N") for k in ends]
+        cells.append((f"{step + 1}", show(float(loop.approach[step]), "m"), *forces, show(float(lost[step]), "J")))
+    return Table(("Step", "Approach", "Force before", "Force after", "Energy lost"), tuple(cells))

@@ -1,0 +1,66 @@
+"""Criteria for the stickiness of rough surfaces from the moments of their roughness: numbers in, numbers out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ...core import require
+
+PASTEWKA_ROBBINS_LIMIT = math.pi * math.pow(3.0 / 16.0, 2.0 / 3.0)
+"""1.029: surfaces whose number is smaller are sticky (Pastewka & Robbins 2014)."""
+
+
+@dataclass(frozen=True)
+class Stickiness:
+    """Pastewka and Robbins' number, and the work of adhesion that is left by Persson and Tosatti.
+
+    Attributes
+    ----------
+    repulsive_diameter
+        d_rep = 4 h'/h'' in m, diameter of a contact region.
+    number
+        (h' Δr/κ ℓ_a) (h' d_rep/4Δr)^(2/3) with ℓ_a = w/E*, κ = 2; sticky below 1.029.
+    effective_work
+        w - U_el/A in J/m²: energy gained by full contact; negative if there is none.
+    """
+
+    repulsive_diameter: float
+    number: float
+    effective_work: float
+
+    @property
+    def share_of_limit(self) -> float:
+        """The number over its limit: sticky below 1."""
+        return self.number / PASTEWKA_ROBBINS_LIMIT
+
+
+def stickiness_of(
+    slope: float, laplacian: float, full_contact_energy: float, *, E_star: float, work: float, reach: float
+) -> Stickiness:
+    """Criteria of a surface of isotropic roughness.
+
+    Parameters
+    ----------
+    slope
+        h', rms slope, > 0.
+    laplacian
+        h'', rms of the Laplacian of the heights in 1/m, > 0.
+    full_contact_energy
+        U_el/A in J/m², >= 0, elastic energy of full contact over nominal area: (E*/4) ∫ q C d²q of a half-space.
+    E_star, work, reach
+        Contact modulus in Pa, work of adhesion in J/m², range Δr of the attraction in m, > 0.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    """
+    require.positive(slope, "rms slope")
+    require.positive(laplacian, "rms Laplacian (1/m)")
+    require.not_negative(full_contact_energy, "elastic energy of full contact (J/m^2)")
+    for value, what in ((E_star, "contact modulus (Pa)"), (work, "work of adhesion (J/m^2)"), (reach, "range (m)")):
+        require.positive(value, what)
+    diameter = 4.0 * slope / laplacian
+    number = slope * reach * E_star / (2.0 * work) * math.pow(slope * diameter / (4.0 * reach), 2.0 / 3.0)
+    return Stickiness(diameter, number, work - full_contact_energy)

@@ -1,0 +1,110 @@
+"""Adhesion on the command line and in documents: the loop and its files, findings, criteria, and what is refused."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cli.conftest import Runner
+
+import asperity as asp
+from asperity.contact.stickiness import stickiness
+from asperity.core.errors import InputError
+from asperity.run.build import build
+from asperity.run.document import checked, dumps
+from asperity.run.stored import load_outcome
+
+PROBLEM: dict[str, Any] = {
+    "version": 2,
+    "surface": {"kind": "sphere", "points": [24, 24], "size": "60 um", "radius": "100 um"},
+    "body": "E=0.91MPa,nu=0.3",
+    "boundary": {"kind": "free"},
+    "control": {"approach": "0.3 um"},
+    "adhesion": {"work": "50 mJ/m**2", "strength": "60 kPa", "retract": "0.6 um", "steps": 3},
+}
+ROUGH = {
+    "kind": "rough",
+    "points": [32, 32],
+    "size": "10 um",
+    "seed": 1,
+    "spectrum": {"kind": "gaussian", "rms_height": "20 nm", "correlation_length": "2 um"},
+}
+
+
+def test_the_loop_of_a_command_is_that_of_python(run: Runner, tmp_path: Path) -> None:
+    document, out = tmp_path / "case.toml", tmp_path / "out"
+    document.write_text(dumps(checked(PROBLEM)), encoding="utf-8")
+    done = run("contact", "--from", document, "--out", out)
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(out / "result.nc")
+    law = asp.ExponentialAdhesion.of_strength(0.05, 60e3)
+    assert outcome.result.adhesion.law == law
+    controls = asp.adhesion_cycle(-0.6e-6, 0.3e-6, steps=3)
+    again = asp.solve(outcome.result.problem, asp.History(controls))
+    loop = asp.adhesion_loop(again.steps)
+    assert outcome.values["pull_off_force"] == loop.pull_off_force
+    assert outcome.values["hysteresis"] == loop.hysteresis
+    np.testing.assert_array_equal(outcome.path.external_force, again.external_force)
+    assert {"adhesion_loop", "adhesive_zone", "traction_section"} <= {path.stem for path in (out / "plots").iterdir()}
+    assert {"adhesion_loop", "adhesive_zone"} <= {figure.name for figure in outcome.figures["adhesion"]}
+    (words,) = (words for part, words in outcome.sections if part.name == "adhesion")
+    assert words.sentence in done.output.replace("\n", " ")
+
+
+def test_options_make_the_same_document(run: Runner, tmp_path: Path) -> None:
+    document, out = tmp_path / "case.toml", tmp_path / "out"
+    document.write_text(dumps(checked(PROBLEM | {"adhesion": None})), encoding="utf-8")
+    options = ("--adhesion", "50mJ/m**2", "--adhesion-strength", "60kPa", "--adhesion-law", "linear")
+    done = run("contact", "--from", document, *options, "--out", out)
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(out / "result.nc")
+    assert outcome.result.adhesion.law == asp.LinearAdhesion.of_strength(0.05, 60e3)
+    assert outcome.result.approach == pytest.approx(0.3e-6)
+    assert math.isnan(outcome.values["pull_off_force"])
+
+
+def test_an_unresolved_zone_is_a_finding() -> None:
+    coarse = PROBLEM | {"adhesion": {"work": "50 mJ/m**2", "strength": "300 kPa"}}
+    outcome = asp.run(coarse)
+    assert [item.criterion for item in outcome.findings if item.level == "warning"].count("adhesive zone") == 1
+    assert outcome.values["needed_pixel"] == pytest.approx(0.2 * outcome.values["cohesive_length"])
+    assert not outcome.result.adhesion.resolved
+
+
+def test_criteria_stand_beside_a_rough_contact() -> None:
+    document = PROBLEM | {
+        "surface": ROUGH,
+        "boundary": {"kind": "periodic"},
+        "control": {"mean_pressure": "20 kPa"},
+        "adhesion": {"work": "10 mJ/m**2", "range": "100 nm"},
+    }
+    outcome = asp.run(document)
+    found = stickiness(outcome.result.problem)
+    assert outcome.values["pastewka_robbins"] == found.share_of_limit
+    assert outcome.values["persson_tosatti_work"] == found.effective_work
+    assert outcome.values["fuller_tabor"] > 0.0
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"strength": "60 kPa"},
+        {"work": "50 mJ/m**2"},
+        {"work": "50 mJ/m**2", "range": "1 nm", "strength": "60 kPa"},
+        {"work": "50 mJ/m**2", "range": "1 nm", "steps": 5},
+        {"work": "50 nm", "range": "1 nm"},
+        {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
+    ],
+)
+def test_tables_that_make_no_sense_are_refused(table: dict[str, Any]) -> None:
+    with pytest.raises(InputError):
+        checked(PROBLEM | {"adhesion": table})
+
+
+def test_parting_needs_an_approach() -> None:
+    with pytest.raises(InputError) as refused:
+        build(checked(PROBLEM | {"control": {"mean_pressure": "1 kPa"}}))
+    assert refused.value.subject == "approach"
