@@ -263,6 +263,7 @@ PLOTS = (
         partial(plot_pressure, log=True),
         "map",
         enlarge_contact,
+        shows=pressure_field,
     ),
     Plot(
         "contact",

@@ -18,7 +18,7 @@ from ..surfaces.characterise.heights import core
 from ..surfaces.characterise.spectral_fit import SpectralFit
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
-from .maps import plot_heights
+from .maps import Field, heights_field, plot_heights
 from .picture import (
     BLACK,
     BLUE,
@@ -310,6 +310,10 @@ def _wavelengths(unit: Scale, ax: Axes) -> None:
 # The standard figures of a surface, as PNG.
 
 
+def _heights_field(found: Characterisation) -> Field:
+    return heights_field(found.surface)
+
+
 def _heights(found: Characterisation, ax: Axes) -> Axes:
     return plot_heights(found.surface, ax)
 
@@ -319,7 +323,15 @@ def _view(found: Characterisation, ax: Axes) -> Axes:
 
 
 SURFACE_PLOTS = (
-    Plot("heights", "Heights", "Heights relative to their mean; missing points are grey.", _heights, "map"),
+    Plot(
+        "heights",
+        "Heights",
+        "Heights relative to their mean; missing points are grey.",
+        _heights,
+        "map",
+        shows=_heights_field,
+        by_step=False,
+    ),
     Plot("view", "View", "The surface in space; how much heights are exaggerated stands above.", _view, "view"),
     Plot(
         "distribution",

@@ -89,7 +89,8 @@ def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
     """``figures`` for a template: the pictures as base64, the points of their curves as JSON."""
     return [
         {
-            **{key: getattr(figure, key) for key in ("name", "title", "caption", "wide", "kind")},
+            **{key: getattr(figure, key) for key in ("name", "title", "caption", "wide")},
+            "explored": figure.kind == "map" and figure.shows is not None,
             "picture": base64.b64encode(figure.picture).decode("ascii"),
             "curves": curves_of(figure),
         }

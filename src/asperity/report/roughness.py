@@ -18,6 +18,7 @@ from ..surfaces.characterise.summary import Characterisation, SpectralParameters
 from ..theories.rough.profile_peaks import SampledPeaks
 from ..theories.statistics.nayak import NayakSummits
 from .page import software_rows, write_page
+from .scene import scene
 
 # The numbers of a characterisation in words for a table.
 
@@ -207,7 +208,7 @@ def write_roughness_report(
     """
     surface, power, missing = found.surface, found.spectra.power, found.surface.n_missing
     row = [("missing points", f"{missing} ({percent(missing / surface.grid.n_points)})")] if missing else []
-    source = surface.origin.source
+    source, figures = surface.origin.source, drawn(SURFACE_PLOTS, found)
     write_page(
         path,
         "roughness.html",
@@ -215,7 +216,8 @@ def write_roughness_report(
         summary=summary(found),
         headline=headline_values(found),
         remarks=found.remarks,
-        figures=drawn(SURFACE_PLOTS, found),
+        figures=figures,
+        scene=scene(figures, surface.grid),
         groups=quantity_rows(found),
         summits=summit_comparison(found),
         peaks=peak_comparison(found),

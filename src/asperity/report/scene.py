@@ -238,13 +238,17 @@ def _gathered(
     maps: dict[str, _Map] = {}
     depths: list[Field] = []
     cuts: list[tuple[Figure, Cut]] = []
+    known: list[Any] = []
     for figure in figures:
-        shown = None if figure.shows is None else figure.shows()
+        if figure.shows is None or (figure.of_step is not None and figure.of_step in known):
+            continue  # the same values on another scale are no other map
+        known.append(figure.of_step)
+        shown = figure.shows()
         if isinstance(shown, Cut):
             cuts.append((figure, shown))
         elif isinstance(shown, Field) and shown.depth is not None:
             depths.append(shown)
-        elif shown is not None and shown.grid.shape == grid.shape and figure.name not in maps:
+        elif shown.grid.shape == grid.shape and figure.name not in maps:
             alt = f"{figure.title}. {figure.caption.replace(BESIDE, '')}"
             made = _Map(figure.name, figure.title, alt, [lambda shown=shown: shown])  # type: ignore[misc]
             if path is not None and steps and figure.of_step is not None:

@@ -26,7 +26,7 @@ from ..parts.registry import versions
 from ..run.execute import Outcome, analysed
 from ..run.tractions import TractionsDocument, traction_rows
 from .page import shown, software_rows, write_page
-from .scene import scene_of
+from .scene import scene, scene_of
 
 
 def write_report(
@@ -110,6 +110,7 @@ def write_tractions_report(
         title=document.title or "Stresses under prescribed tractions",
         summary=" ".join(words.sentence for _, words in sections),
         inputs=traction_rows(loaded, document),
+        scene=scene((figure for group in outcome.figures.values() for figure in group), loaded.problem.grid),
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in sections],
         provenance=software_rows(software()),
         citation_keys=outcome.citation_keys,

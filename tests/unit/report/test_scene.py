@@ -12,7 +12,18 @@ import pytest
 import asperity as asp
 from asperity.core.arrays import RealArray
 from asperity.plots.picture import colour_table
-from asperity.report.scene import BUDGET, MASKED, MOST_STEPS, as_json, coded, coded_kinds, decoded, reduced, scene_of
+from asperity.report.scene import (
+    BUDGET,
+    MASKED,
+    MOST_STEPS,
+    as_json,
+    coded,
+    coded_kinds,
+    decoded,
+    reduced,
+    scene,
+    scene_of,
+)
 from asperity.run.execute import analysed
 from asperity.run.stored import load_outcome, save_outcome
 
@@ -160,3 +171,29 @@ def test_text_within_a_page_ends_no_element() -> None:
     assert "<" not in as_json({"name": "</script><b>"})
     with pytest.raises(ValueError, match="JSON"):
         as_json(float("nan"))
+
+
+def test_tractions_and_surfaces_have_maps_too(tmp_path: Path) -> None:
+    loads = {"points": [24, 16], "size": "2.4 um x 1.6 um", "boundary": "free"}
+    patch = {"kind": "patch", "x": ["0.8 um", "1.6 um"], "y": ["0.5 um", "1 um"], "pressure": "1 GPa"}
+    stress = {"depths": ["0.1 um"], "sections": ["y=0.8um"]}
+    document = {"version": 2, "body": "steel", "tractions": {**loads, "loads": [patch]}, "stress": stress}
+    outcome = asp.run(document)
+    made = scene((figure for group in outcome.figures.values() for figure in group), outcome.result.problem.grid)
+    assert made is not None
+    assert [item["name"] for item in made["maps"]] == ["planes"]
+    assert made["depths"]["texts"] == ["depth 100 nm"]
+    assert made["maps"][0]["shown"]
+    assert len(made["sections"]) > 0
+    found = asp.characterise(asp.Surface(np.random.default_rng(2).standard_normal((32, 32)) * 1e-9, 1e-8))
+    asp.write_roughness_report(found, tmp_path / "r.html")
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert page.count("<div data-viewer>") == 1
+    assert page.count('class="av-instead"') == 1
+
+
+def test_pages_of_large_maps_keep_to_the_budget() -> None:
+    noise = np.random.default_rng(1).standard_normal((1024, 1024))
+    array = coded(noise, (1.0, 1.0))
+    assert 4 * len(array["data"]) < 2 * BUDGET, "even noise takes less than 3 MB"
+    assert np.abs(decoded(array) - noise).max() <= 0.5 * array["step"] * (1.0 + 1e-9)

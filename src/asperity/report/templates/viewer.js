@@ -1007,7 +1007,7 @@ class Curves {
     image.tabIndex = 0;
     image.alt += " Left and right arrow read the points of a curve, up and down choose it.";
     box.addEventListener("pointermove", (event) => this.near(event)); box.addEventListener("pointerdown", (event) => this.near(event));
-    box.addEventListener("pointerleave", () => this.hide()); image.addEventListener("blur", () => this.hide());
+    box.addEventListener("pointerleave", (event) => { if (event.pointerType !== "touch") this.hide(); }); image.addEventListener("blur", () => this.hide());
     image.addEventListener("keydown", (event) => this.key(event));
   }
   near(event) {
