@@ -1,4 +1,4 @@
-from . import theories
+from . import dynamics, theories
 from .contact import solvers
 from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
@@ -222,6 +222,7 @@ __all__ = [
     "cropped",
     "depths_through",
     "despiked",
+    "dynamics",
     "export_comparison_csv",
     "export_csv",
     "export_stress_vtk",

@@ -291,3 +291,24 @@ def test_ensemble_with_error_bars():
         assert left.kappa[variant][1] + left.half_width[variant][1] < LIGHT[1]
     apart = np.abs(left.kappa["random"] - left.kappa["fixed"])
     assert np.all(apart < 2.0 * np.hypot(left.half_width["random"], left.half_width["fixed"]))
+
+
+def test_why_a_brake_squeals():
+    """Below the critical friction nothing grows; vibration lowers the friction that is felt, but not at ten times the speed."""
+    left = run("advanced/plot_6_why_a_brake_squeals")
+    growing = left.stable.growth_rate[:, np.searchsorted(left.stable.axis_values[1], left.pad.height)] > 0.0
+    first = left.stable.axis_values[0][np.argmax(growing)]
+    assert abs(first - left.pad.critical_friction()) < 0.04  # two steps of the map
+    assert left.numbers["apparent_friction"] < 0.8 * left.pad.friction
+    assert left.swift["apparent_friction"] > 0.95 * left.pad.friction
+    assert left.squeal.motion.energy_error < 1e-5
+
+
+def test_stiction_of_a_disk_drive():
+    """The first slip is where the spring bears the static friction: after μ_s W/(k U)."""
+    left = run("advanced/plot_7_stiction_of_a_disk_drive")
+    assert np.all(np.diff(left.static) > 0.0)
+    for mu, motion in zip(left.static, left.starts, strict=True):
+        held = 0.02 * left.speed  # of the dashpot, while the slider moves with the disk
+        first = (mu * left.load - held) / (left.stiffness * left.speed)
+        assert motion.events[0].time == pytest.approx(first, rel=1e-9)

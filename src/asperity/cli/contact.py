@@ -17,6 +17,7 @@ from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
+from ..parts.dynamics import Dynamics
 from ..report.folder import names_in_folder, write_run
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
@@ -136,6 +137,32 @@ def contact(
         raise typer.Exit(solve_files(document, file, out, yes=bool(given.get("yes"))))
     confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
     raise typer.Exit(_perform(document, base, out, files, force=force))
+
+
+def _dynamics_options() -> list[Option]:
+    first = {option.name for option in part_options(Dynamics.name)} | {"--speed"}
+    basic = (*BASIC, *first)
+    own = (YES, *file_options("save_document", "csv"))
+    return [*sorted_out(document_options(), basic), *part_options(basic=basic), *own]
+
+
+@offers(_dynamics_options)
+def dynamics(
+    given: Given,
+    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    from_: Document = None,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Motion on the interface that a contact gives: vibration, stick-slip, apparent friction of a sliding block.
+
+    Examples: asperity dynamics scan.di --body steel --pressure 50kPa --mass 1kg --base 10cmx2cm --block-height 5cm --spring 200N/mm
+    --speed 1mm/s --friction 0.3 --out run
+
+    The contact is solved as by `asperity contact`, its pressure against approach gives the law of the interface.
+    Exit code 0: converged; 1: not converged; 2: input that cannot be used; 130: interrupted by Ctrl-C.
+    """
+    contact(given, None if file is None else [file], from_, out, force, ["dynamics"])
 
 
 def demo(out: Out = None, force: Force = False) -> None:

@@ -174,7 +174,7 @@ def sorted_out(options: Iterable[Option], basic: Iterable[str]) -> list[Option]:
 def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = ()) -> dict[str, Any]:
     """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are there in any case.
 
-    Friction alone, without a film or a shift, requests the stresses that it causes.
+    Friction alone, without a film, a shift or a motion, requests the stresses that it causes.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
         if name not in known:
             raise InputError(f"--with must be one of {', '.join(known)}, but is {name!r}.")
         made.setdefault(name, {})
-    if "friction" in chosen and not {"film", "shear"} & made.keys():
+    if "friction" in chosen and not {"film", "shear", "dynamics"} & made.keys():
         made.setdefault("stress", {})
     return made
 

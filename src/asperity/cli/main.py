@@ -27,7 +27,7 @@ INTERRUPTED = 130
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
     {
-        **dict.fromkeys(("contact", "demo"), "contact"),
+        **dict.fromkeys(("contact", "demo", "dynamics"), "contact"),
         "stress": "results",
         "compare": "compare",
         **dict.fromkeys(("run", "status", "collect"), "campaigns"),

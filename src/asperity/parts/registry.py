@@ -10,6 +10,7 @@ from importlib import metadata
 from ..core.errors import InputError
 from .adhesion import Adhesion
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
+from .dynamics import Dynamics
 from .film import Friction, Menisci, WetTheory
 from .part import Part
 from .stick_slip import StickSlip
@@ -30,6 +31,7 @@ BUILT_IN: tuple[Part, ...] = (
     PlasticLoad(),
     Stress(),
     Yielding(),
+    Dynamics(),
 )
 """The parts of this package in the order in which they are computed and shown."""
 

@@ -273,9 +273,10 @@ def drawn(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
 
 
 def _figure(plot: Plot, thing: Any) -> Figure:
-    last = getattr(thing, "last", thing)
-    grid = getattr(last, "problem", last).surface.grid
-    size = {"map": map_size(grid), "view": VIEW_SIZE}.get(plot.kind, CURVE_SIZE)
+    size = VIEW_SIZE if plot.kind == "view" else CURVE_SIZE
+    if plot.kind == "map":
+        last = getattr(thing, "last", thing)
+        size = map_size(getattr(last, "problem", last).surface.grid)
     enlarged: list[bool] = []
 
     def draw(ax: Axes) -> Axes:

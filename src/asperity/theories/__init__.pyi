@@ -2,6 +2,14 @@ from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_parameter
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
+from .dynamics.oscillation import (
+    BeltStickSlip,
+    FreeVibration,
+    belt_stick_slip,
+    critical_stiffness,
+    flutter_friction,
+    free_vibration,
+)
 from .dynamics.restitution import rebound
 from .friction.coated import CoatedLine, CoatedLineSlip, CoatedTwist, CoatedTwistSlip
 from .friction.finite_friction import FrictionalIndenter, FrictionalPunch, GoodmanLine, friction_of_stick
@@ -107,6 +115,7 @@ __all__ = [
     "THEORIES",
     "AnisotropicSummits",
     "AnyHeights",
+    "BeltStickSlip",
     "Boussinesq",
     "BushGibsonThomas",
     "CarterRolling",
@@ -135,6 +144,7 @@ __all__ = [
     "FittedGreenwoodWilliamson",
     "Flamant",
     "FlatPunch",
+    "FreeVibration",
     "FrictionalIndenter",
     "FrictionalPunch",
     "FullerTabor",
@@ -212,13 +222,17 @@ __all__ = [
     "Westergaard",
     "WetSummits",
     "YieldOnset",
+    "belt_stick_slip",
     "boussinesq",
     "cerruti",
     "critical_interference",
+    "critical_stiffness",
     "cylinder_yield_onset",
     "evaluate",
     "flamant_normal",
     "flamant_tangential",
+    "flutter_friction",
+    "free_vibration",
     "friction_of_stick",
     "hardness_coefficient",
     "hertz_ellipse_normal",

@@ -1,0 +1,136 @@
+"""Friction in motion at the doors: command, document, files made again, studies, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cli.conftest import LOAD, SCALE, Runner
+from refusals import refused, subject_of
+
+import asperity as asp
+from asperity import dynamics as dyn
+from asperity.core.errors import InputError
+from asperity.core.settings import COMMAND_LINE
+from asperity.run.document import checked
+from asperity.run.stored import load_outcome
+
+BODY = ("--body", "E=100GPa,nu=0.2")
+MOTION = ("--mass", "1kg", "--base", "10mm x 10mm", "--block-height", "5mm", "--spring", "200N/mm", "--speed", "1mm/s")
+PROBLEM: dict[str, Any] = {
+    "version": 2,
+    "surface": {
+        "kind": "rough",
+        "points": [32, 32],
+        "size": "10 um",
+        "seed": 1,
+        "spectrum": {"kind": "gaussian", "rms_height": "10 nm", "correlation_length": "2 um"},
+    },
+    "body": "E=100GPa,nu=0.3",
+    "control": {"mean_pressure": "1 MPa"},
+    "friction": {"coefficient": 0.3, "speed": "1 mm/s"},
+    "dynamics": {"mass": "1 kg", "base": "10 mm x 10 mm", "height": "5 mm", "stiffness": "200 N/mm"},
+}
+
+
+def checked_and_run(table: dict[str, Any]) -> asp.ContactResult:
+    """The document read as from the command line, where messages begin with the key, and run."""
+    return asp.run(checked(table, COMMAND_LINE)).result
+
+
+def moved(**tables: Any) -> dict[str, Any]:
+    """Values of the problem with these ``tables``; those of the motion in addition to its own."""
+    motion = PROBLEM["dynamics"] | tables.pop("dynamics", {})
+    return asp.run(PROBLEM | {"dynamics": motion} | tables).values
+
+
+def test_a_block_and_its_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    """The command solves, moves and writes; files give the same words and pictures again; no stresses come uninvited."""
+    out = tmp_path / "out"
+    command = ("dynamics", matrix, *SCALE, "--periodise", *BODY, *LOAD, *MOTION, "--friction", "0.3")
+    done = run(*command, "--start", "sliding", "--duration", "2ms", "--out", out)
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(out / "result.nc")
+    assert "stress" not in outcome.found
+    (words,) = (words for part, words in outcome.sections if part.name == "dynamics")
+    assert words.sentence in " ".join(done.output.split())
+    names = {figure.name for figure in outcome.figures["dynamics"]}
+    assert (
+        {"dynamics_law", "dynamics_forces", "dynamics_sliding"} <= names <= {p.stem for p in (out / "plots").iterdir()}
+    )
+    stored = outcome.found["dynamics"].values
+    assert stored["curve_pressure"][0] < outcome.result.mean_pressure < stored["curve_pressure"][-1]
+
+
+def test_a_document_is_what_python_computes() -> None:
+    """The law is that of the contact curve, and the steady state that of the block on it."""
+    values = moved(dynamics={"start": "sliding", "duration": "1 ms", "damping_ratio": 0.05})
+    law = dyn.NormalCompliance.amontons(
+        1e6 / values["interface_penetration"] ** values["interface_exponent"],
+        values["interface_exponent"],
+        friction=0.3,
+    )
+    block = dyn.SlidingBlock(law.damped(0.05, 1e4, 1e6), 1.0, 0.01, 0.01, 0.005, 100.0, 2e5, 1e-3)
+    assert values["normal_frequency"] == pytest.approx(block.normal_frequency / (2.0 * np.pi), rel=1e-9)
+    assert values["growth_rate"] == pytest.approx(block.stability.margin, rel=1e-6)
+    assert values["critical_friction"] == pytest.approx(block.critical_friction(), rel=1e-6)
+    assert values["motion_energy_error"] < 1e-5
+
+
+def test_models_beside_the_block() -> None:
+    """A mass vibrates at its natural frequency; a belt with more static friction has stick-slip at its closed-form period."""
+    mass = moved(dynamics={"model": "mass", "amplitude": 1.01, "damping_ratio": 0.0})
+    assert mass["vibration_frequency"] == pytest.approx(mass["normal_frequency"], rel=0.01)  # 15 periods in the window
+    belt = moved(dynamics={"model": "belt", "static_friction": 0.4})
+    exact = asp.theories.belt_stick_slip(1.0, 2e5, 100.0, 1e-3, static=0.4, kinetic=0.3)
+    assert belt["stick_slip_period"] == pytest.approx(exact.period, rel=1e-6)
+    aged = moved(dynamics={"model": "belt", "slip_distance": "10 um", "duration": "50 ms"})
+    assert np.isfinite(aged["apparent_friction"])
+
+
+def test_a_block_that_does_not_slide_has_no_apparent_friction() -> None:
+    outcome = asp.run(PROBLEM | {"dynamics": PROBLEM["dynamics"] | {"start": "rest", "duration": "1 ms"}})
+    assert "apparent_friction" not in outcome.values
+    assert any(item.criterion == "duration of the motion" and item.level == "warning" for item in outcome.findings)
+
+
+def test_static_friction_of_a_wet_contact() -> None:
+    """The friction of a block on a wet interface is the static one with its menisci."""
+    film = {"liquid": "water", "thickness": "2 nm"}
+    outcome = asp.run(
+        PROBLEM | {"film": film, "dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}}
+    )
+    values = outcome.values
+    assert values["static_friction"] > 0.3
+    assert values["peak_friction"] == pytest.approx(values["static_friction"], rel=0.05)
+
+
+def test_speed_is_an_axis_of_studies(tmp_path: Path) -> None:
+    """A curve of friction against speed comes from a study of documents as from the part itself."""
+    values = [
+        moved(friction={"coefficient": 0.3, "speed": speed}, dynamics={"start": "sliding", "duration": "1 ms"})
+        for speed in ("1 mm/s", "5 mm/s")
+    ]
+    assert values[0]["interface_exponent"] == values[1]["interface_exponent"]
+    outcome = asp.run(
+        PROBLEM | {"dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms", "speeds": 3}}
+    )
+    assert outcome.found["dynamics"].values["sweep_mean_friction"].shape == (3,)
+
+
+def test_refusals(run: Runner, matrix: Path) -> None:
+    for change, subject in (
+        ({"friction": {"coefficient": 0.3}}, "friction.speed"),
+        ({"friction": {"speed": "1 mm/s"}}, "friction.coefficient"),
+        ({"dynamics": {"mass": "1 kg"}}, "dynamics"),
+        ({"dynamics": PROBLEM["dynamics"] | {"mass": 1.0}}, "dynamics.mass"),
+        ({"dynamics": {"mass": "1 kg", "base": "1 mm"}}, "dynamics"),
+        ({"dynamics": PROBLEM["dynamics"] | {"model": "belt", "speeds": 3}}, "dynamics"),
+    ):
+        with refused(InputError, subject):
+            checked_and_run(PROBLEM | change)
+    command = ("dynamics", matrix, *SCALE, "--periodise", *BODY, *LOAD)
+    assert subject_of(run(*command, "--mass", "1kg")) == "the dynamics"
+    assert subject_of(run(*command, "--mass", "1", "--base", "1mm")) == "--mass"
