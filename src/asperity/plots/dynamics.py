@@ -253,6 +253,7 @@ def plot_frame(run: BlockRun, place: int, ax: Axes) -> Axes:
     force = float(motion["spring_force"][place]) / block.load
     ax.set_title(f"t = {show(float(motion.time[place]), 's', 4)}   spring force / load = {force:.3f}", loc="left")
     ax.set(xlim=(-1.2 * b, 1.0 * b), ylim=(-0.45 * H, 1.35 * H), xticks=[], yticks=[])
+    ax.set(xlabel="belt moves to the right", ylabel="pressure below")
     ax.set_aspect("equal")
     return ax
 
