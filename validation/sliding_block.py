@@ -89,7 +89,9 @@ def page() -> Page:
         ),
         (
             Claim("friction above which steady sliding flutters, undamped", flutter, 0.27, 0.30),
-            Claim("the same over the formula for small tilt", flutter / float(flutter_friction(2.0, 0.1, 0.05)), 1.0, 1.2),
+            Claim(
+                "the same over the formula for small tilt", flutter / float(flutter_friction(2.0, 0.1, 0.05)), 1.0, 1.2
+            ),
             Claim("damping raises it: with b_n = 4e19", damped, 0.30, 0.35),
             Claim("apparent static friction over μ", peak, 0.99, 1.02),
             Claim("below the boundary no vibration: mean over μW", runs[0]["friction_reduction"], 0.99, 1.0),
@@ -97,7 +99,12 @@ def page() -> Page:
             Claim("and μ = 0.5", runs[2]["friction_reduction"], 0.86, 0.97),
             Claim("at ten times the speed it does not", runs[3]["friction_reduction"], 0.99, 1.0),
             Claim("nor with strong damping", runs[4]["friction_reduction"], 0.99, 1.0),
-            Claim("stick-slip at low speed ends at 0.5 to 0.7 of where it begins", traces[0]["stick_slip_valley"], 0.5, 0.7),
+            Claim(
+                "stick-slip at low speed ends at 0.5 to 0.7 of where it begins",
+                traces[0]["stick_slip_valley"],
+                0.5,
+                0.7,
+            ),
         ),
     )
 
