@@ -45,6 +45,7 @@ from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .contact.tangential import Shift, TangentialForce
+from .contact.time_steps import Creeping, TimeSteps
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
@@ -130,6 +131,7 @@ __all__ = [
     "CpuEngine",
     "CreepCurve",
     "Creepage",
+    "Creeping",
     "CustomAdhesion",
     "DepthProfile",
     "DugdaleAdhesion",
@@ -197,6 +199,7 @@ __all__ = [
     "Surface",
     "SurfacePair",
     "TangentialForce",
+    "TimeSteps",
     "Tractions",
     "Tresca",
     "TrescaFriction",

@@ -277,6 +277,9 @@ class EnergyBalance:
         Energy dissipated by slip.
     step_work
         Σ ½ Σ Δq·Δu of shear traction and tangential displacement: what the length of implicit steps takes.
+    viscous_work
+        Heat of viscoelastic bodies. Their external work is by trapezia through the steps of time, and the elastic energy what their
+        springs store.
     """
 
     external_work: RealArray
@@ -287,12 +290,21 @@ class EnergyBalance:
     tangential_work: RealArray
     slip_work: RealArray
     step_work: RealArray
+    viscous_work: RealArray
 
     @property
     def residual(self) -> RealArray:
         """External and tangential work less all others: the error of the trapezoidal rule, of second order."""
         done = self.external_work + self.tangential_work
-        return done - self.elastic_energy - self.plastic_work - self.shear_work - self.slip_work - self.step_work
+        return (
+            done
+            - self.elastic_energy
+            - self.plastic_work
+            - self.shear_work
+            - self.slip_work
+            - self.step_work
+            - self.viscous_work
+        )
 
     @property
     def relative_error(self) -> float:
@@ -324,7 +336,13 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
         elastic, plastic = elastic - elastic[0], plastic - plastic[0]
         shear, along = np.cumsum(shear) - shear[0], np.cumsum(along, axis=1) - along[:, :1]
-    return EnergyBalance(work, pulled, elastic, plastic, shear, *along)
+    viscous, moments = np.zeros(elastic.shape), [step.creep for step in history.steps if step.creep is not None]
+    if moments:
+        work, viscous = np.cumsum([each.work for each in moments]), np.cumsum([each.dissipated for each in moments])
+        if start is not None and start.pressure.any():
+            work, viscous = work - work[0], viscous - viscous[0]
+    tangential, slip, taken = along
+    return EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous)
 
 
 def _shear_works(history: HistoryResult) -> RealArray:

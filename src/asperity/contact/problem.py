@@ -149,15 +149,19 @@ class Step:
     tangential
         ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem. None leaves what the step before
         prescribed, at first no shift; in a history without any, all points slide where the problem has ``Coulomb`` friction.
+    duration
+        Time in s, >= 0, in which the load or position goes in a straight line to ``normal`` from where the step before left it; zero for
+        at once. A hold is a step to the load that is there already. It matters to ``Viscoelastic`` bodies alone.
 
     Raises
     ------
     InputError
-        If one of them is something else.
+        If one of them is something else, or the duration negative or infinite.
     """
 
     normal: Control
     tangential: Tangential | None = None
+    duration: float = 0.0
 
     def __post_init__(self) -> None:
         if not isinstance(self.normal, Control):
@@ -170,6 +174,7 @@ class Step:
                 f"tangential control of a step must be a Shift, a TangentialForce or None, but is {self.tangential!r}. "
                 "Write for example Shift(5e-9)."
             )
+        object.__setattr__(self, "duration", require.not_negative(self.duration, "duration of a step (s)"))
 
 
 def as_step(step: Step | Control) -> Step:

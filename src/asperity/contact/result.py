@@ -31,6 +31,7 @@ from .state import InterfaceState
 if TYPE_CHECKING:
     from .couplings.adhesion import AdhesiveContact
     from .couplings.stick_slip import StickSlip
+    from .time_steps import Creeping
 
 LARGEST_DUALITY_GAP = 1e-3
 """Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
@@ -343,6 +344,11 @@ class ContactResult(Stored):
         return self.stick_slip
 
     @property
+    def creep(self) -> Creeping | None:
+        """What happened in time during the step that the result ends; None if nothing relaxes."""
+        return self.couplings.get("creep")
+
+    @property
     def external_force(self) -> float:
         """Force in N that is applied from outside: ``force`` less what menisci and adhesion pull."""
         if self.adhesion is not None:
@@ -377,7 +383,18 @@ class ContactResult(Stored):
 
     @property
     def state(self) -> InterfaceState:
-        """State to go on from, in the middle of a leg as well."""
+        """State to go on from, in the middle of a leg as well.
+
+        Raises
+        ------
+        InputError
+            If it is one of the earlier steps of a viscoelastic history from a file, which keeps the past of the last step only.
+        """
+        if self.creep is not None and "creep" not in self.memory:
+            raise InputError(
+                "step to go on from must be the last one of a viscoelastic history from a file, but is an earlier one, whose past "
+                "the file does not hold. Solve the history up to it again."
+            )
         indentation = {"indentation": self.permanent_indentation, "work": np.asarray(self.total_plastic_work)}
         return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier)
 
@@ -432,6 +449,9 @@ def assemble(
     gap += offset
     np.maximum(gap, 0.0, out=gap)
     displacement = u if lift is None else u + lift
+    creeping = outcomes.get("creep")
+    if creeping is not None:
+        displacement = displacement + creeping.retarded_displacement
     contact = p > 0.0
     capped = np.zeros_like(contact) if found.qp.elastic else contact & (p >= found.cap)
     pixels = int(np.count_nonzero(contact))
@@ -461,7 +481,7 @@ def assemble(
         max_pressure=float(p.max()),
         approach=found.posed.top - offset,
         mean_gap=float(gap.mean()),
-        elastic_energy=0.5 * work * grid.pixel_area,
+        elastic_energy=0.5 * work * grid.pixel_area if creeping is None else creeping.stored_energy,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
         normal_stiffness=later,
         n_spots=int(spots.size),

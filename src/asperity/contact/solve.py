@@ -14,14 +14,17 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
+from ..solids.compliance.creep import contact_creep
+from . import measure
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
 from .couplings.adhesion import AdhesionCoupling, require_adhesion
+from .couplings.creep import CreepCoupling, Past, Remembering, TimeWeights, remembering
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
 from .couplings.menisci import MeniscusCoupling
-from .couplings.protocol import Coupling, Posed
+from .couplings.protocol import Contact, Coupling, Posed
 from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
@@ -29,6 +32,7 @@ from .couplings.stick_slip import StickSlipCoupling
 from .history import History, HistoryResult
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
+from .operators.creep import OperatorsInTime
 from .problem import (
     Approach,
     ContactProblem,
@@ -43,8 +47,9 @@ from .problem import (
 )
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
-from .solvers.protocol import Solver
+from .solvers.protocol import ContactQP, FixedOffset, Solution, Solver, SolverState
 from .state import InterfaceState
+from .time_steps import Creeping, Moment, TimeSteps, marched
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,7 @@ class _Options(TypedDict, total=False):
     progress: Progress | None
     engine: Engine | None
     rounds: Rounds
+    time_steps: TimeSteps
     on_failure: Literal["raise", "return"]
 
 
@@ -110,6 +116,8 @@ def solve(
         Machine to compute on, such as ``CpuEngine(threads=2)``; the CPU with ASPERITY_THREADS or all cores by default.
     rounds
         When to give up the iteration between contact and couplings.
+    time_steps
+        How durations of steps are divided for viscoelastic bodies, see ``TimeSteps``.
     on_failure
         ``"raise"`` a ConvergenceError holding the result (of the first step that fails), or ``"return"`` it with its
         status, when not converged; a history then goes on from the last step that did converge.
@@ -187,6 +195,7 @@ class Prepared:
         progress: Progress | None = None,
         engine: Engine | None = None,
         rounds: Rounds = Rounds(),
+        time_steps: TimeSteps = TimeSteps(),
         sticks: bool = False,
     ) -> None:
         if solver is not None and not hasattr(solver, "step"):
@@ -198,10 +207,22 @@ class Prepared:
         self.operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
         _require_same_problem(self.operator, problem)
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
-        self.profile = problem.profile()
+        self.profile, self.time_steps = problem.profile(), time_steps
+        creep = contact_creep(problem.body, problem.counter_body)
+        self.remembering: Remembering | None = None
+        if creep is not None:
+            _require_no_shear(self.couplings)
+            self.remembering, self.operators = remembering(creep, self.operator), OperatorsInTime(creep, self.operator)
+            self.couplings = (*self.couplings, CreepCoupling())
 
     def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
-        """Contact under ``step`` that agrees with all couplings, started from ``state``."""
+        """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter."""
+        return self._settled(step, state, self.operator, None)
+
+    def _settled(
+        self, step: Step, state: InterfaceState | None, operator: Operator, retarded: RealArray | None
+    ) -> Settled:
+        """The same with the ``operator`` of a step of time, and the displacement that earlier pressures leave at its end."""
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
@@ -214,25 +235,33 @@ class Prepared:
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
         scale = _height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
-        posed = Posed(self.operator, self.profile, dented, control, scale, start, earlier, step.tangential)
-        return settle(
-            posed,
-            self.couplings,
-            {} if state is None else state.memory,
-            self.solver,
-            rounds=self.rounds,
-            progress=self.progress,
-        )
+        lift: RealArray | float = 0.0
+        if retarded is not None:
+            dented, lift = dented - retarded, retarded
+        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift)
+        memories = {} if state is None else state.memory
+        return settle(posed, self.couplings, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""
         started = time.perf_counter()
+        if self.remembering is not None:
+            return InTime(self, self.remembering).step(step, state)
         settled = self.settled(step, state)
-        return self._result(settled, state, time.perf_counter() - started)
+        return self.result(settled, state, time.perf_counter() - started)
 
-    def _result(self, settled: Settled, state: InterfaceState | None, seconds: float) -> ContactResult:
+    def result(
+        self,
+        settled: Settled,
+        state: InterfaceState | None,
+        seconds: float,
+        creeping: tuple[Creeping, Past] | None = None,
+    ) -> ContactResult:
+        """Result of what ``settled`` in so many ``seconds``, started from ``state``, with what happened in time."""
         contact, problem = settled.contact, self.problem
         ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
+        if creeping is not None:
+            ends["creep"] = creeping[1].memory, creeping[0]
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
         lift = next((found[name].shear_displacement for name in ("sliding", "stick_slip") if name in found), None)
         attraction = found["adhesion"].attraction if "adhesion" in found else None
@@ -265,6 +294,157 @@ class Prepared:
             outcomes=found,
             citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *papers})),
         )
+
+
+def _require_no_shear(couplings: tuple[Coupling, ...]) -> None:
+    """Refuse shear that would creep, and attraction: only the displacement by pressure is followed in time."""
+    for coupling in couplings:
+        if isinstance(coupling, AdhesionCoupling):
+            raise InputError(
+                "adhesion of viscoelastic bodies must be None, but is given: what attraction makes them creep is not followed."
+            )
+        if isinstance(coupling, StickSlipCoupling) or (isinstance(coupling, SlidingCoupling) and coupling.feedback):
+            raise InputError(
+                "friction of viscoelastic bodies must be None, or Coulomb friction whose shear moves the surfaces along only, but "
+                "here it would creep. Leave it out, or write Coulomb(mu, coupled=False)."
+            )
+
+
+class InTime:
+    """Steps of time of a prepared problem with viscoelastic bodies."""
+
+    def __init__(self, prepared: Prepared, remembering: Remembering) -> None:
+        self.prepared, self.remembering = prepared, remembering
+
+    @property
+    def area(self) -> float:
+        """Nominal area, m²."""
+        return self.prepared.problem.grid.area
+
+    def step(self, step: Step, state: InterfaceState | None) -> ContactResult:
+        """Result at the end of ``step``, started from ``state``."""
+        started, prepared = time.perf_counter(), self.prepared
+        begin = self._begin(state)
+        moments, tries = marched(begin, step.normal, step.duration, prepared.time_steps, self)
+        if not moments:
+            raise ConvergenceError(
+                f"None of {tries} tries was within the tolerance {prepared.time_steps.tolerance:g} of the steps of time. "
+                "Allow more of them, or a larger tolerance."
+            )
+        last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
+        settled = self._ended(last, begin.past.time + step.duration, tries)
+        creeping = _creeping(begin, moments, tries)
+        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last.past))
+        if before is not state:  # the work since the step began, not since the last moment
+            vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
+        return result
+
+    def _ended(self, last: Moment, end: float, tries: int) -> Settled:
+        """What settled in the ``last`` moment; not converged if the ``end`` (s) was not reached."""
+        settled = last.settled
+        assert settled is not None
+        if not settled.status.converged or last.past.time >= end * (1.0 - 1e-9):
+            return settled
+        message = f"{tries} steps of time led to {last.past.time:.6g} s of the {end:.6g} s at the end of the step."
+        remedy = "Allow more steps of time, or a larger tolerance of theirs."
+        return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
+
+    def _begin(self, state: InterfaceState | None) -> Moment:
+        past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
+        profile = self.prepared.profile
+        mean, approach, gap = past.place
+        if np.isnan(gap):
+            past = replace(past, place=(mean, approach, float(profile.max() - profile.mean())))
+        force = float(past.pressure.sum()) * self.prepared.problem.grid.pixel_area
+        fraction = np.count_nonzero(past.pressure) / profile.size
+        largest = float(past.pressure.max())
+        record = np.array(
+            [past.time, *past.place[:1], force, *past.place[1:], fraction, largest, 0.0, past.dissipated, 0.0]
+        )
+        return Moment(None, past, state, record)
+
+    def advanced(self, moment: Moment, control: Control, length: float) -> Moment:
+        """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
+        prepared, problem = self.prepared, self.prepared.problem
+        weights = TimeWeights.of(self.remembering.times, length)
+        retarded = self.remembering.lift(moment.past, weights)
+        operator = prepared.operators.at(weights.after)
+        settled = self._apart(control, moment.state, operator, retarded) or prepared._settled(
+            Step(control), moment.state, operator, retarded
+        )
+        contact = settled.contact
+        ends = {
+            c.name: c.end(settled.exchanges[c.name], contact) for c in prepared.couplings if c.name in settled.exchanges
+        }
+        menisci = next(
+            (outcome for outcome in (end[1] for end in ends.values()) if hasattr(outcome, "external_force")), None
+        )
+        area, wraps = problem.grid.area, problem.boundary.wraps
+        external = contact.force if menisci is None else float(menisci.external_force)
+        approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
+        place = (max(external, 0.0) / area, approach, gap)
+        past, stored = self.remembering.after(
+            moment.past, weights, contact.pressure, contact.solution.state.deflection, place
+        )
+        memories = {name: memory for name, (memory, _) in ends.items() if memory}
+        earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
+        state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
+        fraction = measure.corrected_area(contact.touching, problem.grid, wraps=wraps) / area
+        numbers = (
+            past.time,
+            place[0],
+            contact.force,
+            approach,
+            gap,
+            fraction,
+            contact.pressure.max(),
+            stored,
+            past.dissipated,
+            0.0,
+        )
+        return Moment(settled, past, state, np.array(numbers), retarded, stored)
+
+    def _apart(
+        self, control: Control, state: InterfaceState | None, operator: Operator, retarded: RealArray
+    ) -> Settled | None:
+        """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
+        if not isinstance(control, Approach | MeanGap) or not retarded.any():
+            return None
+        prepared = self.prepared
+        dented = prepared.profile - retarded
+        if state is not None:
+            dented = dented - state.permanent_indentation
+        top = float(prepared.profile.max())
+        offset = top - control.value if isinstance(control, Approach) else control.value + float(dented.mean())
+        if float(dented.max()) > offset:
+            return None
+        none, scale = np.zeros_like(dented), _height_scale(prepared.profile, control, prepared.operator)
+        posed = Posed(operator, prepared.profile, dented, control, scale, retarded=retarded)
+        qp = ContactQP(operator, dented, np.inf, FixedOffset(offset), scale)
+        status = Status(Outcome.CONVERGED, "The surfaces lie apart: nothing to solve.")
+        contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
+        memories = {} if state is None else state.memory
+        exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in prepared.couplings}
+        return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
+
+    def error(self, first: Moment, second: Moment, third: Moment) -> float:
+        """Error that the last of two steps of time adds to the displacement, relative to it."""
+        weights = TimeWeights.of(self.remembering.times, third.past.time - second.past.time)
+        return self.remembering.curvature((first.past, second.past, third.past), weights)
+
+
+def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:
+    """What happened through the ``moments`` after ``begin``."""
+    records, last = np.stack([begin.record, *(moment.record for moment in moments)]), moments[-1]
+    force, approach = records[:, 2], records[:, 3]
+    return Creeping(
+        records,
+        np.broadcast_to(last.retarded, last.past.pressure.shape),
+        last.stored,
+        last.past.dissipated - begin.past.dissipated,
+        float((0.5 * (force[1:] + force[:-1]) * np.diff(approach)).sum()),
+        tries,
+    )
 
 
 def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:

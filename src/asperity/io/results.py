@@ -38,7 +38,9 @@ from .adhesion_files import (
     adhesion_text,
     following,
 )
+from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in
 from .description import describe, provenance, rebuild, software, surface_provenance
+from .memory_files import memories_of, memory_in, memory_node
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
@@ -84,6 +86,7 @@ ENERGIES = (
     Quantity("shear_work", "J", "work of the displacement by the shear of gross sliding along the path"),
     Quantity("tangential_work", "J", "work of the tangential force along the path, those at the ends of the steps"),
     Quantity("slip_work", "J", "energy dissipated by slip along the path"),
+    Quantity("viscous_work", "J", "heat of viscoelastic bodies along the path"),
     Quantity("step_work", "J", "what the length of the implicit steps takes along the path"),
     Quantity("residual", "J", "external and tangential work less all other energies"),
 )
@@ -225,7 +228,7 @@ def result_in(tree: Node, path: str | Path) -> Any:
             raise FileFormatError(
                 f"load path in {path} must be read with open_tree: files of format 1 hold no whole results."
             )
-        result = contact_from(groups["contact"], groups.get("film"), groups.get("memory"), groups.get(STICK_SLIP))
+        result = contact_from(groups["contact"], *map(groups.get, ("film", "memory", STICK_SLIP, CREEP)))
         if "path" in groups and "of_outcome" not in tree.attributes:
             return path_from(groups["path"], result)
         if "film" in groups and "stored_rounds" in groups["film"].attributes:
@@ -268,7 +271,8 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
         groups |= {} if result.menisci is None else {"film": film_node(result, result.menisci)}
         shear = result.stick_slip
         groups |= {} if shear is None else {STICK_SLIP: shear_node(shear, grid_lines(result))}
-        memories = {name: _memory_node(memory) for name, memory in result.memory.items() if name not in FOLLOWING}
+        groups |= creep_group(result, grid_lines(result))
+        memories = {name: memory_node(memory) for name, memory in result.memory.items() if name not in FOLLOWING}
         groups |= {"memory": Node((), {}, memories)} if memories else {}
         return Node((), root_attributes(result, document), groups)
     raise InputError(
@@ -317,9 +321,13 @@ def contact_node(result: ContactResult) -> Node:
 
 
 def contact_from(
-    node: Node, film: Node | None = None, memory: Node | None = None, shear: Node | None = None
+    node: Node,
+    film: Node | None = None,
+    memory: Node | None = None,
+    shear: Node | None = None,
+    creep: Node | None = None,
 ) -> ContactResult:
-    """The contact of a group, and of those of its film, of the memories of its couplings, and of stick and slip; equal to the one it was made of."""
+    """The contact of a group, and of those of its film, of the memories of its couplings, of stick and slip, and of creep; equal to the one it was made of."""
     attributes = node.attributes
     arrays = {item.quantity.name: np.asarray(item.values) for item in node.values if np.ndim(item.values) == 2}
     parts: dict[str, Any] = {part: rebuild(json.loads(attributes[part]), arrays) for part in PARTS}
@@ -333,8 +341,8 @@ def contact_from(
     parts |= {part: rebuild(json.loads(attributes[part]), arrays) for part in PHYSICS if part in attributes}
     problem = ContactProblem(surface=surface, **parts)
     numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
-    couplings = _couplings(problem, arrays, numbers, attributes.get("adhesion_found"))
-    memories = {} if memory is None else {name: _memory(child) for name, child in memory.children.items()}
+    couplings = _couplings(problem, arrays, numbers, attributes.get("adhesion_found")) | creep_in(creep)
+    memories = {} if memory is None else {name: memory_in(child) for name, child in memory.children.items()}
     if shear is not None and problem.friction is not None:
         couplings[STICK_SLIP] = shear_in(shear, problem.friction)
     return ContactResult(
@@ -407,7 +415,7 @@ def path_node(path: HistoryResult) -> Node:
     if started.earlier is not None:
         quantity = Quantity("start_earlier", "Pa", "pressure of the load before that")
         values.append(_field(quantity, started.earlier))
-    memory = Node((), {}, {name: _memory_node(memory) for name, memory in started.memory.items()})
+    memory = Node((), {}, {name: memory_node(memory) for name, memory in started.memory.items()})
     return Node(tuple(values), {}, {"start": memory})
 
 
@@ -423,6 +431,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
         yield _column(Quantity("menisci", "", "numbers of the menisci, as JSON"), list(map(_numbers_text, found)))
     yield from adhesion_columns([step.adhesion for step in steps if step.adhesion is not None])
     yield from shear_columns([step.stick_slip for step in steps if step.stick_slip is not None])
+    yield from creep_columns(steps)
     for name in _CHECKS:
         texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
         yield _column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts)
@@ -431,7 +440,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
             {
                 key: {name: np.asarray(a).tolist() for name, a in memory.items()}
                 for key, memory in step.memory.items()
-                if key not in FOLLOWING
+                if key not in (*FOLLOWING, CREEP)
             }
         )
         for step in steps
@@ -449,7 +458,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
     ends, results = np.cumsum(node["n_spots"]), list[ContactResult]()
     start = None
     if "start_pressure" in node:
-        memory = {name: _memory(child) for name, child in node.children["start"].children.items()}
+        memory = {name: memory_in(child) for name, child in node.children["start"].children.items()}
         start = InterfaceState(node["start_pressure"], memory, node.get("start_earlier"))
     before = None if start is None or not start.pressure.any() else start.pressure
     for step in range(len(ends)):
@@ -457,6 +466,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
         couplings, friction = _couplings(last.problem, at, at.get("menisci"), at.get(ADHESION)), last.problem.friction
         if f"{PREFIX}tangential" in at and friction is not None:
             couplings[STICK_SLIP] = shear_from(at, friction, PREFIX)
+        couplings |= creep_from(node, at, step)
         result = replace(
             last,
             control=rebuild(json.loads(at["control"])),
@@ -465,11 +475,9 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             certificate=_certificate({name: _plain(value) for name, value in at.items()}),
             status=status_from(at),
             couplings=couplings,
-            memory={
-                key: {name: np.asarray(value) for name, value in item.items()}
-                for key, item in json.loads(at["memory"]).items()
-            }
-            | following(couplings, at["gap"], float(at["approach"])),
+            memory=memories_of(at["memory"])
+            | following(couplings, at["gap"], float(at["approach"]))
+            | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == len(ends) - 1 else {}),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )
@@ -505,20 +513,6 @@ def _couplings(
 
 def _numbers_text(menisci: Menisci) -> str:
     return json.dumps({name: describe(getattr(menisci, name)) for name in _MENISCI})
-
-
-def _memory_node(memory: Mapping[str, Any]) -> Node:
-    """Group of the named arrays in the memory of a coupling; their axes have names of their own."""
-    values = []
-    for name, array in memory.items():
-        found = np.asarray(array)
-        dims = tuple(f"{name}_{axis}" for axis in range(found.ndim))
-        values.append(Labelled(Quantity(name, "", f"{name} that is remembered", dims=dims), found))
-    return Node(tuple(values))
-
-
-def _memory(node: Node) -> dict[str, Any]:
-    return {item.quantity.name: np.asarray(item.values) for item in node.values}
 
 
 def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:

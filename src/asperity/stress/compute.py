@@ -12,6 +12,8 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
+from ..solids.layers import materials_of
+from ..solids.viscoelastic import Viscoelastic, alike
 from .boundaries import FreePlanes, PeriodicPlanes, Reader, require_held
 from .field import StressField
 from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack
@@ -57,7 +59,12 @@ class Planes(Protocol):
 
 
 def _planes_of(
-    result: Loaded | LoadedBody, friction: float | Shear | None, direction: Direction, of: Of
+    result: Loaded | LoadedBody,
+    friction: float | Shear | None,
+    direction: Direction,
+    of: Of,
+    *,
+    displacement: bool = False,
 ) -> tuple[Tractions, object]:
     """Tractions of ``result`` on one of its bodies, and that body."""
     require.one_of(of, ("body", "counter_body"), "body in which stresses are asked")
@@ -68,7 +75,24 @@ def _planes_of(
                 f"holds both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
             )
         return result.tractions, result.body
-    return tractions_on(result, friction, direction, of), getattr(result.problem, of)
+    body = getattr(result.problem, of)
+    _require_as_elastic(result, body, displacement=displacement)
+    return tractions_on(result, friction, direction, of), body
+
+
+def _require_as_elastic(result: Loaded, body: Any, *, displacement: bool) -> None:
+    """Refuse bodies whose stresses depend on what has relaxed: layers that relax differently, or a Poisson's ratio that does."""
+    materials = materials_of(body)
+    if getattr(result, "creep", None) is not None and materials and not alike(materials):
+        raise InputError(
+            "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one another, with a constant Poisson's "
+            "ratio, but do not: its stresses would depend on the past. Ask for those of an Elastic body with the moduli of that time."
+        )
+    if displacement and any(isinstance(material, Viscoelastic) for material in materials):
+        raise InputError(
+            "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
+            "The displacement of the surface is in the result."
+        )
 
 
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
@@ -153,7 +177,7 @@ def stress(
     (free line: at the datum of the contact).
     Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
     """
-    loads, body = _planes_of(result, friction, direction, of)
+    loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
     job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
     return job.whole(displacement=displacement)
 
@@ -174,7 +198,7 @@ def stress_planes(
 
     Arguments and errors as for ``stress``; give the planes to ``save_stress`` or ``export_stress_vtk`` to write a volume.
     """
-    loads, body = _planes_of(result, friction, direction, of)
+    loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
     job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
     return job.each(displacement=displacement)
 

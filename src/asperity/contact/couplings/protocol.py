@@ -32,7 +32,7 @@ class Posed:
     profile
         Composite heights (nx, ny) in m of the virgin surfaces.
     dented
-        The same less the permanent indentation before this step.
+        The same less the permanent indentation and the retarded displacement before this step.
     control
         What is prescribed.
     height_scale
@@ -43,6 +43,8 @@ class Posed:
         That of the load before ``start`` on the same leg, beyond which both are extrapolated; None where there is none.
     tangential
         What is prescribed along the surfaces; None where that is as in the step before.
+    retarded
+        Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
     """
 
     operator: Operator
@@ -53,6 +55,7 @@ class Posed:
     start: RealArray | None = None
     earlier: RealArray | None = None
     tangential: Tangential | None = None
+    retarded: RealArray | float = 0.0
 
     @cached_property
     def top(self) -> float:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +16,7 @@ from ...core.grid import Grid
 from ...core.interpolation import covering_grid, log_table
 from ..elastic import Elastic
 from ..layers import Bonded, Frictionless, Interface, Layered
+from ..viscoelastic import Viscoelastic
 from .influence import (
     Limits,
     LineKernel,
@@ -44,6 +46,9 @@ from .influence import (
 
 
 Amplitude = RealArray | ComplexArray
+
+Modulus: TypeAlias = float | Any
+"""Modulus or Poisson's ratio: a number, or complex numbers of a viscoelastic solid."""
 
 _VANISHED = 400.0  # alpha h from which exp(-2 alpha h) is below the smallest double: the layer is a half-space
 _SERIES = 0.5  # alpha h below which sinh cosh - x is summed as a series
@@ -104,11 +109,12 @@ class LayerMatrices:
     D_T: RealArray
 
 
-def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: float, nu: float) -> LayerMatrices:
+def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: Modulus, nu: Modulus) -> LayerMatrices:
     """Hybrid matrices of an isotropic layer, evaluated times exp(-2 alpha h) so that nothing overflows or cancels.
 
     ``alpha``: wavenumbers in rad/m, > 0; ``thickness``: h in m, >= 0, infinite allowed; broadcast against ``alpha``;
-    ``shear_modulus``, ``nu``: G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5.
+    ``shear_modulus``, ``nu``: G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5; complex ones, numbers or arrays like ``alpha``, give the
+    matrices of a viscoelastic layer.
     """
     alpha = np.asarray(alpha, dtype=float)
     x = np.minimum(alpha * thickness, _VANISHED)
@@ -157,7 +163,7 @@ def _sinh_minus_x_cosh(x: RealArray, direct: RealArray, E2: RealArray) -> RealAr
     return np.where(x > _SERIES, direct, -E2 * x * y * series)
 
 
-def half_space(alpha: ArrayLike, *, shear_modulus: float, nu: float) -> PlaneCompliance:
+def half_space(alpha: ArrayLike, *, shear_modulus: Modulus, nu: Modulus) -> PlaneCompliance:
     """Homogeneous half-space: C_LL = C_zz = (1 - nu)/(G alpha), C_Lz = (1 - 2nu)/(2G alpha), C_T = 1/(G alpha)."""
     T = 1.0 / (shear_modulus * np.asarray(alpha, dtype=float))
     normal = (1.0 - nu) * T
@@ -230,16 +236,38 @@ def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompli
     ``stack``: layers and base; layers of zero thickness pass on the compliance below them unchanged; ``alpha``:
     Wavenumbers in rad/m, > 0.
     """
-    base = stack.base
-    if isinstance(base, Elastic):
-        compliance = half_space(alpha, shear_modulus=base.shear_modulus, nu=base.poisson_ratio)
+    return _compliances(stack, alpha, lambda solid: (solid.shear_modulus, solid.poisson_ratio))
+
+
+def operational_compliance(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> ComplexArray:
+    """C_zz (m/Pa) of the surface of a viscoelastic ``stack`` in operational form: its moduli replaced by those at complex ``s`` (1/s).
+
+    ``alpha``: wavenumbers in rad/m, > 0; ``s``: broadcast against them; at s = i omega the response to pressure that varies as
+    exp(i omega t). Elastic materials do not change with ``s``.
+    """
+
+    def moduli(solid: Elastic) -> tuple[Modulus, Modulus]:
+        if isinstance(solid, Viscoelastic):
+            return solid.operational(s)
+        return solid.shear_modulus, solid.poisson_ratio
+
+    return np.asarray(_compliances(stack, alpha, moduli)[0].zz, dtype=complex)
+
+
+def _compliances(
+    stack: Layered, alpha: ArrayLike, moduli: Callable[[Elastic], tuple[Modulus, Modulus]]
+) -> tuple[PlaneCompliance, ...]:
+    """Compliance at the top of every layer and of the base, with the ``moduli`` G and nu of each material."""
+    if isinstance(stack.base, Elastic):
+        G, nu = moduli(stack.base)
+        compliance = half_space(alpha, shear_modulus=G, nu=nu)
     else:
         compliance = rigid(alpha)
     found = [compliance]
     for layer in reversed(stack.layers):
         if layer.thickness > 0.0:
-            solid = layer.material
-            matrices = layer_matrices(alpha, layer.thickness, shear_modulus=solid.shear_modulus, nu=solid.poisson_ratio)
+            G, nu = moduli(layer.material)
+            matrices = layer_matrices(alpha, layer.thickness, shear_modulus=G, nu=nu)
             compliance = raised(compliance, matrices, layer.interface)
         found.append(compliance)
     return tuple(reversed(found))

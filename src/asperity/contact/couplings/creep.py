@@ -1,0 +1,402 @@
+"""Viscoelastic memory as a coupling: what earlier pressures still displace, and what they will.
+
+Internal pressures xi_k, lambda_k d(xi_k)/dt = p - xi_k, one for each retardation time of the compliance, hold all that matters of the past:
+u = K_0 p + sum K_k xi_k. With a pressure that is linear over a step they are known at its end, so that the step is an elastic contact
+with the compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as a lift.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import ClassVar, Protocol
+
+import numpy as np
+
+from ...core.arrays import ComplexArray, RealArray
+from ...core.engine import CpuEngine
+from ...core.spectral import PaddedTransform, RealTransform, wrapped
+from ...solids.compliance.creep import AnyCreep, LayeredCreep, SharedCreep
+from ..boundary import Periodic
+from ..operators.convolution import Operator, spectral_kernel
+from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+_SERIES = 0.02
+"""Relative length of a step below which differences of exponentials are summed as series."""
+
+
+@dataclass(frozen=True, eq=False)
+class TimeWeights:
+    """Of one step of length dt: xi(end) = e xi(begin) + before p(begin) + after p(end), for each retardation time."""
+
+    length: float
+    times: RealArray
+    e: RealArray
+    before: RealArray
+    after: RealArray
+
+    @classmethod
+    def of(cls, times: RealArray, length: float) -> TimeWeights:
+        """Weights for ``times`` (terms,) in s, infinite for a fluid, whose term is the integral of the pressure, and ``length`` >= 0 in s."""
+        r = length / times
+        e = np.exp(-r)
+        small = np.maximum(r, 1e-300)
+        f = np.where(r > 0.0, -np.expm1(-r) / small, 1.0)
+        after, before = 1.0 - f, f - e
+        flows = np.isinf(times)
+        half = 0.5 * length
+        return cls(length, times, e, np.where(flows, half, before), np.where(flows, half, after))
+
+    @property
+    def of_curvature(self) -> RealArray:
+        """Error (s²) of each xi at the end of the step by the second derivative of the pressure: ½ ∫ x (dt - x) exp(-x/lambda) dx/lambda."""
+        flows = np.isinf(self.times)
+        lam = np.where(flows, 1.0, self.times)
+        r = np.where(flows, 0.0, self.length / lam)
+        exact = 0.5 * lam**2 * (r - 2.0 + np.exp(-r) * (r + 2.0))
+        short = self.length**2 * r * (1.0 / 12.0 - r / 24.0)
+        found = np.where(r < _SERIES, short, exact)
+        return np.where(flows, self.length**3 / 12.0, found)
+
+    def dissipated(self, shares: RealArray, products: Products) -> float:
+        """sum (c_k/lambda_k) ∫ (p - xi)·K (p - xi) dt over the step, and c_f ∫ p·K p dt of a fluid, in the unit of the ``products``."""
+        flows = np.isinf(self.times)
+        lam = np.where(flows, 1.0, self.times)
+        r = np.where(flows, 1.0, self.length / lam)
+        y = -np.expm1(-r)
+        squares = 0.5 * lam * y * (2.0 - y)
+        crossed = 0.5 * lam**2 * y**2
+        series = sum(y**m / m for m in range(3, 9))
+        ramps = lam**3 * np.where(r < _SERIES, series, r - y - 0.5 * y**2)
+        p = products
+        start = p.p00 - 2.0 * p.xi_0 + p.xi_xi  # (p - xi)·K (p - xi) at the begin
+        change = p.p11 - 2.0 * p.p01 + p.p00
+        across = p.p01 - p.p00 - (p.xi_1 - p.xi_0)
+        dt = self.length or 1.0
+        total = (start * squares + 2.0 * across * crossed / dt + change * ramps / dt**2) / lam
+        fluid = self.length / 3.0 * (p.p00 + p.p01 + p.p11)
+        return float((shares * np.where(flows, fluid, total)).sum()) if self.length else 0.0
+
+    def advanced(self, products: Products) -> RealArray:
+        """xi·K xi at the end of the step."""
+        e, b, a, p = self.e, self.before, self.after, products
+        return np.asarray(
+            e**2 * p.xi_xi + b**2 * p.p00 + a**2 * p.p11 + 2.0 * (e * b * p.xi_0 + e * a * p.xi_1 + b * a * p.p01)
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Products x·K y over the area (J): of xi with itself, with the pressure before and after a step, and of these; each for all terms."""
+
+    xi_xi: RealArray
+    xi_0: RealArray
+    xi_1: RealArray
+    p00: RealArray | float
+    p01: RealArray | float
+    p11: RealArray | float
+
+
+@dataclass(frozen=True, eq=False)
+class Past:
+    """Memory of the pressures so far.
+
+    Attributes
+    ----------
+    time
+        s since the virgin state.
+    pressure
+        (nx, ny), Pa, at that time.
+    response
+        What it does by itself: K_0 p in m of a shared creep; the half spectrum of p of layers.
+    xi
+        Internal pressures, (terms, nx, ny) in Pa, or their half spectra; of a fluid in Pa s.
+    squares
+        xi·K xi of each term, J, of a fluid in J s².
+    dissipated
+        Heat so far, J.
+    place
+        Mean pressure (Pa), approach and mean gap (m) that were reached.
+    """
+
+    time: float
+    pressure: RealArray
+    response: RealArray | ComplexArray
+    xi: RealArray | ComplexArray
+    squares: RealArray
+    dissipated: float
+    place: tuple[float, float, float]
+
+    @property
+    def memory(self) -> Memory:
+        """Named real arrays; complex ones have a last axis of real and imaginary parts."""
+        numbers = {"time": self.time, "dissipated": self.dissipated, "place": self.place}
+        fields = {"pressure": self.pressure, "response": self.response, "xi": self.xi, "squares": self.squares}
+        return {
+            **{name: np.asarray(value, dtype=float) for name, value in numbers.items()},
+            **{name: _real_view(value) for name, value in fields.items()},
+        }
+
+
+def _real_view(values: RealArray | ComplexArray) -> RealArray:
+    if not np.iscomplexobj(values):
+        return np.asarray(values)
+    return np.ascontiguousarray(values)[..., None].view(float)
+
+
+def _complex_view(values: RealArray) -> ComplexArray:
+    return np.ascontiguousarray(values).view(complex)[..., 0]
+
+
+class Remembering(Protocol):
+    """How a past is kept and what it does, for one kind of creep."""
+
+    @property
+    def times(self) -> RealArray:
+        """Retardation times, s."""
+
+    def past(self, memory: Memory) -> Past:
+        """The past in a ``memory``; a virgin one of an empty memory."""
+
+    def lift(self, past: Past, weights: TimeWeights) -> RealArray:
+        """Displacement (nx, ny) in m at the end of a step but for that by the pressure then."""
+
+    def after(
+        self,
+        past: Past,
+        weights: TimeWeights,
+        pressure: RealArray,
+        deflection: RealArray,
+        place: tuple[float, float, float],
+    ) -> tuple[Past, float]:
+        """The past after a step that ended with ``pressure`` (Pa) and its ``deflection`` (m), and the energy (J) then stored."""
+
+    def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
+        """Error of the displacement at the end of the last of two steps by the curvature of the pressure, relative to it."""
+
+
+@dataclass(frozen=True, eq=False)
+class SharedPast:
+    """One field for each retardation time: K_k = shares_k K_0."""
+
+    creep: SharedCreep
+    operator: Operator
+
+    @property
+    def times(self) -> RealArray:
+        """Retardation times, s."""
+        return self.creep.times
+
+    def past(self, memory: Memory) -> Past:
+        """The past in a ``memory``; a virgin one of an empty memory."""
+        if memory:
+            return Past(
+                float(memory["time"]),
+                memory["pressure"],
+                memory["response"],
+                memory["xi"],
+                memory["squares"],
+                float(memory["dissipated"]),
+                _place(memory),
+            )
+        none, count = np.zeros(self.operator.grid.shape), self.times.size
+        return Past(0.0, none, none, np.zeros((count, *none.shape)), np.zeros(count), 0.0, VIRGIN)
+
+    def lift(self, past: Past, weights: TimeWeights) -> RealArray:
+        """K_0 sum shares_k (e_k xi_k + before_k p)."""
+        total = float(self.creep.shares @ weights.before) * past.pressure
+        for share, e, xi in zip(self.creep.shares, weights.e, past.xi, strict=True):
+            total += share * e * xi
+        return self.operator.apply(total) if total.any() else total
+
+    def after(
+        self,
+        past: Past,
+        weights: TimeWeights,
+        pressure: RealArray,
+        deflection: RealArray,
+        place: tuple[float, float, float],
+    ) -> tuple[Past, float]:
+        """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ shares_k xi_k·K_0 xi_k."""
+        area, shares = self.operator.grid.pixel_area, self.creep.shares
+        response = deflection / (1.0 + float(shares @ weights.after))
+
+        def product(x: RealArray, y: RealArray) -> float:
+            return area * float(np.einsum("ij,ij->", x, y))
+
+        with_0 = np.array([product(xi, past.response) for xi in past.xi])  # type: ignore[arg-type]
+        with_1 = np.array([product(xi, response) for xi in past.xi])
+        p00, p11 = product(past.pressure, past.response), product(pressure, response)  # type: ignore[arg-type]
+        products = Products(past.squares, with_0, with_1, p00, product(past.pressure, response), p11)
+        xi = np.empty_like(past.xi)
+        for number, (e, before, now) in enumerate(zip(weights.e, weights.before, weights.after, strict=True)):
+            np.multiply(past.xi[number], e, out=xi[number])
+            xi[number] += before * past.pressure
+            xi[number] += now * pressure
+        squares = weights.advanced(products)
+        heat = past.dissipated + weights.dissipated(shares, products)
+        solid = np.isfinite(self.times)
+        stored = 0.5 * p11 + 0.5 * float(shares[solid] @ squares[solid])
+        return Past(past.time + weights.length, pressure, response, xi, squares, heat, place), stored
+
+    def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
+        """|K_0 p''| sum shares_k G_k over |K_0 p| (1 + sum shares_k after_k)."""
+        second = _second_difference(pasts, tuple(past.response for past in pasts))
+        size = float(np.linalg.norm(pasts[2].response)) * (1.0 + float(self.creep.shares @ weights.after))
+        found = float(np.linalg.norm(second)) * float(self.creep.shares @ weights.of_curvature)
+        return found / size if size else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class LayeredPast:
+    """One half spectrum for each retardation time; ``kernels`` (terms, …) and ``instantaneous`` are compliances (m/Pa) on it."""
+
+    creep: LayeredCreep
+    operator: Operator
+    kernels: RealArray = field(repr=False)
+    transform: RealTransform | PaddedTransform = field(repr=False)
+
+    @classmethod
+    def prepared(cls, creep: LayeredCreep, operator: Operator) -> LayeredPast:
+        """Kernels of all terms on the grid of the ``operator`` at the first instant."""
+        engine, grid = operator.engine, operator.grid
+        threads = engine.threads_for(operator.padded) if isinstance(engine, CpuEngine) else 1
+        boundary, transform = operator.boundary, RealTransform(operator.padded, threads)
+        kernels = []
+        for number in range(creep.times.size):
+            if isinstance(boundary, Periodic):
+                kernels.append(spectral_kernel(creep.term(number), grid))
+            else:
+                influence = wrapped(boundary.influence(creep.term(number), grid), operator.padded)
+                kernels.append(transform.forward(influence, _spectrum(transform)).real.copy())
+        free = None if isinstance(boundary, Periodic) else PaddedTransform(grid.shape, operator.padded, threads)
+        return cls(creep, operator, np.stack(kernels), free or transform)
+
+    @property
+    def times(self) -> RealArray:
+        """Retardation times, s."""
+        return self.creep.times
+
+    def past(self, memory: Memory) -> Past:
+        """The past in a ``memory``; a virgin one of an empty memory."""
+        if memory:
+            return Past(
+                float(memory["time"]),
+                memory["pressure"],
+                _complex_view(memory["response"]),
+                _complex_view(memory["xi"]),
+                memory["squares"],
+                float(memory["dissipated"]),
+                _place(memory),
+            )
+        count, none = self.times.size, _spectrum(self.transform)
+        xi = np.zeros((count, *none.shape), dtype=complex)
+        return Past(0.0, np.zeros(self.operator.grid.shape), 0.0 * none, xi, np.zeros(count), 0.0, VIRGIN)
+
+    def lift(self, past: Past, weights: TimeWeights) -> RealArray:
+        """Inverse transform of sum c_k (e_k xi_k + before_k p)."""
+        total = np.zeros_like(past.xi[0])
+        for number, (e, before) in enumerate(zip(weights.e, weights.before, strict=True)):
+            total += self.kernels[number] * (e * past.xi[number] + before * past.response)
+        return (
+            self.transform.backward(total, np.empty(self.operator.grid.shape))
+            if total.any()
+            else np.zeros(self.operator.grid.shape)
+        )
+
+    def after(
+        self,
+        past: Past,
+        weights: TimeWeights,
+        pressure: RealArray,
+        deflection: RealArray,
+        place: tuple[float, float, float],
+    ) -> tuple[Past, float]:
+        """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ xi_k·K_k xi_k."""
+        response = self.transform.forward(np.asarray(pressure, dtype=float), _spectrum(self.transform))
+        pairs = [
+            [
+                self._product(kernel, *pair)
+                for pair in (
+                    (xi, past.response),
+                    (xi, response),
+                    (past.response, past.response),
+                    (past.response, response),
+                    (response, response),
+                )
+            ]
+            for kernel, xi in zip(self.kernels, past.xi, strict=True)
+        ]
+        products = Products(past.squares, *np.array(pairs).T)
+        xi = np.empty_like(past.xi)
+        for number, (e, before, now) in enumerate(zip(weights.e, weights.before, weights.after, strict=True)):
+            xi[number] = e * past.xi[number] + before * past.response + now * response
+        squares, ones = weights.advanced(products), np.ones(self.times.size)
+        heat = past.dissipated + weights.dissipated(ones, products)
+        stored = 0.5 * self._product(self.operator.kernel, response, response)
+        stored += 0.5 * float(squares[np.isfinite(self.times)].sum())
+        return Past(past.time + weights.length, pressure, response, xi, squares, heat, place), stored
+
+    def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
+        """Norm of the displacement by p'' over that by p."""
+        second = _second_difference(pasts, tuple(past.response for past in pasts))
+        retarded = np.tensordot(weights.of_curvature, self.kernels, 1)
+        whole = self.operator.kernel + np.tensordot(weights.after, self.kernels, 1)
+        size = float(np.linalg.norm(whole * pasts[2].response))
+        return float(np.linalg.norm(retarded * second)) / size if size else 0.0
+
+    def _product(self, kernel: RealArray, x: ComplexArray, y: ComplexArray) -> float:
+        """x·K y (J) over the area, from half spectra (Parseval)."""
+        nx, ny = self.operator.padded
+        each = kernel * (x.real * y.real + x.imag * y.imag)
+        columns = each.sum(axis=0)
+        total = 2.0 * float(columns.sum()) - float(columns[0]) - (float(columns[-1]) if ny % 2 == 0 else 0.0)
+        return total / (nx * ny) * self.operator.grid.pixel_area
+
+
+VIRGIN = (0.0, 0.0, math.nan)
+"""Place before any load; the mean gap is then that at first touch."""
+
+
+def _place(memory: Memory) -> tuple[float, float, float]:
+    mean, approach, gap = (float(value) for value in memory["place"])
+    return mean, approach, gap
+
+
+def _spectrum(transform: RealTransform | PaddedTransform) -> ComplexArray:
+    return np.empty(transform.spectrum_shape, np.complex128)
+
+
+def _second_difference(
+    pasts: tuple[Past, Past, Past], values: tuple[RealArray | ComplexArray, ...]
+) -> RealArray | ComplexArray:
+    """Second derivative in time of what has these ``values`` in the three ``pasts``."""
+    first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
+    return np.asarray(2.0 * ((values[2] - values[1]) / last - (values[1] - values[0]) / first) / (first + last))
+
+
+def remembering(creep: AnyCreep, operator: Operator) -> Remembering:
+    """How the past is kept for ``creep`` on the grid of the ``operator`` at the first instant."""
+    return SharedPast(creep, operator) if isinstance(creep, SharedCreep) else LayeredPast.prepared(creep, operator)
+
+
+@dataclass(frozen=True, eq=False)
+class CreepCoupling(Coupling):
+    """The displacement that the past leaves, as a lift: passive, since the step's own creep is in the operator."""
+
+    name: ClassVar[str] = "creep"
+    feedback: ClassVar[bool] = False
+    remedy: ClassVar[str] = ""
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """The displacement, prepared with the operator of the step."""
+        x = np.asarray(posed.retarded)
+        return Exchange(x, x)
+
+    def share(self, exchange: Exchange) -> Share:
+        """The displacement as a lift, where there is any."""
+        return Share(lift=exchange.x) if exchange.x.any() else Share()
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
+        """Nothing: the past is brought up to date by the steps of time, which may take a step back."""
+        return {}, None

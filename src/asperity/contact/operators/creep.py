@@ -1,0 +1,84 @@
+"""The operator of one step of time: a multiple of that of the first instant, or that of a sum of retarded compliances."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.engine import Convolution, Engine
+from ...solids.compliance.creep import AnyCreep, SharedCreep
+from ...solids.compliance.halfspace import Compliance
+from ..boundary import Periodic
+from .convolution import Octaves, Operator, _Prepared, prepare_operator, spectral_kernel
+
+
+class MultipleOperator(_Prepared):
+    """``factor`` times the operator ``whole``, with buffers of its own."""
+
+    def __init__(self, whole: Operator, factor: float) -> None:
+        self.whole, self.factor = whole, factor
+        self.grid, self.padded, self.boundary = whole.grid, whole.padded, whole.boundary
+        self.engine: Engine = whole.engine
+        self.compliance: Compliance = whole.compliance
+        self.zero_mean_mode, self.pairs_per_application = whole.zero_mean_mode, whole.pairs_per_application
+        self.octaves: Octaves = _Multiple(whole.octaves, factor)
+        self._preconditioners: dict[tuple[str, float], Convolution] = {}
+
+    @cached_property
+    def kernel(self) -> RealArray:  # type: ignore[override]
+        """Compliance (m/Pa) on the half spectrum."""
+        return np.asarray(self.factor * self.whole.kernel)
+
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the periodic compliance of the grid over ``scale``."""
+        if isinstance(self.boundary, Periodic):
+            return fast
+        if (dtype, scale) not in self._preconditioners:
+            kernel = spectral_kernel(self.compliance, self.grid) * (self.factor / scale)
+            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
+        return self._preconditioners[dtype, scale]
+
+    @cached_property
+    def coarsened(self) -> MultipleOperator:
+        """The same on half as many points per side."""
+        return MultipleOperator(self.whole.coarsened, self.factor)
+
+    def matrix(self) -> RealArray:
+        """Dense matrix in m/Pa."""
+        return np.asarray(self.factor * self.whole.matrix())
+
+
+class _Multiple(Octaves):
+    """``factor`` times the values of ``whole``."""
+
+    def __init__(self, whole: Octaves, factor: float) -> None:
+        self._whole, self._factor = whole, factor
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m)."""
+        return np.asarray(self._factor * self._whole.spectral(wavenumber))
+
+
+class OperatorsInTime:
+    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept."""
+
+    def __init__(self, creep: AnyCreep, instantaneous: Operator) -> None:
+        self.creep, self.instantaneous = creep, instantaneous
+        self._last: tuple[bytes, Operator] | None = None
+
+    def at(self, weights: RealArray) -> Operator:
+        """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are retarded."""
+        if not weights.any():
+            return self.instantaneous
+        key = weights.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._made(weights)
+        return self._last[1]
+
+    def _made(self, weights: RealArray) -> Operator:
+        whole = self.instantaneous
+        if isinstance(self.creep, SharedCreep):
+            return MultipleOperator(whole, 1.0 + float(self.creep.shares @ weights))
+        return prepare_operator(self.creep.with_terms(weights), whole.grid, whole.boundary, engine=whole.engine)

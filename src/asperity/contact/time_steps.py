@@ -1,0 +1,229 @@
+"""Steps of time through a load on viscoelastic bodies: how long they are, and what happened at each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.quantity import Quantity
+from .couplings.creep import Past
+from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
+
+if TYPE_CHECKING:
+    from .couplings.driver import Settled
+    from .state import InterfaceState
+
+_FIRST = 1.0 / 16.0
+"""Length of the first step of time over the duration, until the error says more."""
+
+_LARGEST, _SMALLEST = 2.0, 0.1
+"""Factors between the lengths of one step and the next."""
+
+_SHORTER = 0.7
+"""Factor to the length of a step that was rejected at most."""
+
+_SAFE = 0.85
+"""Share of the length at which the error would be the tolerance."""
+
+
+@dataclass(frozen=True)
+class TimeSteps:
+    """How a duration is divided into steps of time.
+
+    Parameters
+    ----------
+    tolerance
+        Error of the displacement that a step of time may add, over the displacement; the lengths follow from it.
+    number
+        Number of equal steps instead; None for steps by their error.
+    most
+        Largest number of steps of time within one step of a history, tries included.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    """
+
+    tolerance: float = 1e-3
+    number: int | None = None
+    most: int = 10000
+
+    def __post_init__(self) -> None:
+        require.between(self.tolerance, 0.0, 1.0, "tolerance of the steps of time")
+        if self.number is not None:
+            require.integer(self.number, 1, "number of steps of time")
+        require.integer(self.most, 3, "largest number of steps of time")
+
+    def first(self, duration: float) -> float:
+        """Length (s) of the first step of time."""
+        return duration / self.number if self.number is not None else _FIRST * duration
+
+    def factor(self, error: float) -> float:
+        """Length of the next step, or of the same one again, over the last, after one with this ``error``; it is of third order."""
+        if error <= 0.0:
+            return _LARGEST
+        return float(np.clip(_SAFE * (self.tolerance / error) ** (1.0 / 3.0), _SMALLEST, _LARGEST))
+
+
+COLUMNS = (
+    Quantity("time", "s", "time"),
+    Quantity("mean_pressure", "Pa", "mean (nominal) pressure"),
+    Quantity("force", "N", "force"),
+    Quantity("approach", "m", "approach from first touch"),
+    Quantity("mean_gap", "m", "mean gap"),
+    Quantity("area_fraction", "1", "real contact area / nominal area (perimeter-corrected)"),
+    Quantity("max_pressure", "Pa", "maximum pressure"),
+    Quantity("stored_energy", "J", "stored energy"),
+    Quantity("dissipated", "J", "heat since the virgin state"),
+    Quantity("time_error", "1", "error of the displacement that the step of time adds"),
+)
+"""What is recorded after every step of time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Creeping:
+    """What happened to a viscoelastic contact during one step of a history.
+
+    Attributes
+    ----------
+    records
+        (steps of time + 1, columns of ``COLUMNS``): before the step, and after each step of time.
+    retarded_displacement
+        Displacement (nx, ny) in m at the end that is not by the pressure then.
+    stored_energy, dissipated
+        Energy stored at the end; heat of this step; J.
+    work
+        Work of the force between the solids over the approach in this step, J, by trapezia through the steps of time.
+    tries
+        Solves, those of rejected steps of time included.
+    """
+
+    records: RealArray
+    retarded_displacement: RealArray
+    stored_energy: float
+    dissipated: float
+    work: float
+    tries: int
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of contacts that grow and recede."""
+        return ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
+
+    def column(self, name: str) -> RealArray:
+        """Values of the column ``name`` of ``COLUMNS``, the first one before the step. InputError if there is none."""
+        names = [item.name for item in COLUMNS]
+        require.one_of(name, names, "column of a viscoelastic step")
+        return np.asarray(self.records[:, names.index(name)])
+
+    @property
+    def time(self) -> RealArray:
+        """Time (s) since the virgin state."""
+        return self.column("time")
+
+    @property
+    def time_error(self) -> float:
+        """Sum of the errors of the displacement that the steps of time add, relative: an estimate of the error by their length."""
+        return float(self.column("time_error").sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """Contact after one step of time: what settled, the past then, the state to go on from, its record, and its error."""
+
+    settled: Settled | None
+    past: Past
+    state: InterfaceState | None
+    record: RealArray
+    retarded: RealArray | float = 0.0
+    stored: float = 0.0
+
+
+def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:
+    """Control after a ``share`` of a ramp to ``end`` from a ``place`` (mean pressure in Pa, approach and mean gap in m) on an ``area`` (m²)."""
+    if share >= 1.0:
+        return end
+    mean, approach, gap = place
+    kinds: dict[type, tuple[Callable[[float], Control], float]] = {
+        MeanPressure: (MeanPressure, mean),
+        Force: (Force, mean * area),
+        Approach: (Approach, approach),
+        MeanGap: (MeanGap, gap),
+        Unloaded: (MeanPressure, mean),
+    }
+    if type(end) not in kinds:
+        raise InputError(
+            f"load or position of a step with a duration must be one of {', '.join(k.__name__ for k in kinds)}, but is {end!r}."
+        )
+    kind, start = kinds[type(end)]
+    value = start + share * (end.value - start)
+    return kind(value) if value > 0.0 else Unloaded()
+
+
+class March(Protocol):
+    """What steps of time are taken of."""
+
+    @property
+    def area(self) -> float:
+        """Nominal area, m²."""
+
+    def advanced(self, moment: Moment, control: Control, length: float) -> Moment:
+        """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
+
+    def error(self, first: Moment, second: Moment, third: Moment) -> float:
+        """Error that the last of two steps of time adds to the displacement, relative to it."""
+
+
+def marched(
+    begin: Moment, end: Control, duration: float, settings: TimeSteps, march: March
+) -> tuple[list[Moment], int]:
+    """Moments through a ramp of this ``duration`` (s) to the control ``end``, and the number of solves tried.
+
+    The error of a step is that of the curvature of the pressure over it and the one before; the first two steps are one try.
+    """
+    if duration == 0.0:
+        return [march.advanced(begin, end, 0.0)], 1
+    moments, length, tries, equal = [begin], settings.first(duration), 0, settings.number is not None
+    while tries < settings.most:
+        done = moments[-1].past.time - begin.past.time
+        step, share = _next(done, duration, length, len(moments) / settings.number if settings.number else None)
+        now = march.advanced(moments[-1], control_at(end, share, begin.past.place, march.area), step)
+        tries += 1
+        if now.settled is None or not now.settled.status.converged:
+            return [*moments[1:], now], tries
+        if len(moments) > 1:
+            found = march.error(moments[-2], moments[-1], now)
+            factor = settings.factor(found)
+            if found > settings.tolerance and not equal:
+                length = step * min(factor, _SHORTER)
+                moments = moments[:1] if len(moments) == 2 else moments
+                continue
+            length = step * factor
+            record = now.record.copy()
+            record[-1] = found
+            now = replace(now, record=record)
+        moments.append(now)
+        if share >= 1.0:
+            break
+    return moments[1:], tries
+
+
+def _next(done: float, duration: float, length: float, share: float | None) -> tuple[float, float]:
+    """Length (s) of the next step, of about ``length`` after ``done`` (s), and the share of the ``duration`` at its end.
+
+    The last two are equal, so that none is very short. A ``share`` that is given is kept.
+    """
+    left = duration - done
+    if share is not None:
+        return duration * share - done, share
+    if left <= length * (1.0 + 1e-9):
+        return left, 1.0
+    step = 0.5 * left if left < 2.0 * length else length
+    return step, (done + step) / duration
