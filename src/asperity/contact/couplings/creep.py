@@ -289,9 +289,9 @@ class LayeredPast:
                 float(memory["dissipated"]),
                 _place(memory),
             )
-        count, none = self.times.size, _spectrum(self.transform)
+        count, none = self.times.size, np.zeros_like(_spectrum(self.transform))
         xi = np.zeros((count, *none.shape), dtype=complex)
-        return Past(0.0, np.zeros(self.operator.grid.shape), 0.0 * none, xi, np.zeros(count), 0.0, VIRGIN)
+        return Past(0.0, np.zeros(self.operator.grid.shape), none, xi, np.zeros(count), 0.0, VIRGIN)
 
     def lift(self, past: Past, weights: TimeWeights) -> RealArray:
         """Inverse transform of sum c_k (e_k xi_k + before_k p)."""
