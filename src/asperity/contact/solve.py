@@ -267,15 +267,7 @@ class Prepared:
         attraction = found["adhesion"].attraction if "adhesion" in found else None
         if attraction is not None:
             lift = (0.0 if lift is None else lift) - self.operator.apply(attraction)
-        certificate = certify(
-            contact.qp,
-            contact.solution,
-            contact.totals,
-            solver=self.solver.name,
-            tolerance=settled.tolerance,
-            wall_time=seconds,
-        )
-        certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
+        certificate = self._certificate(settled, seconds)
         status = doubted(settled.status, certificate)
         for name in ("stick_slip", "adhesion"):
             if status.converged and name in found and not found[name].status.converged:
@@ -294,6 +286,18 @@ class Prepared:
             outcomes=found,
             citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *papers})),
         )
+
+    def _certificate(self, settled: Settled, seconds: float) -> Certificate:
+        contact, name = settled.contact, self.solver.name
+        found = certify(
+            contact.qp,
+            contact.solution,
+            contact.totals,
+            solver=name,
+            tolerance=settled.tolerance,
+            wall_time=seconds,
+        )
+        return replace(found, couplings=settled.checks, rounds=settled.rounds)
 
 
 def _require_no_shear(couplings: tuple[Coupling, ...]) -> None:
