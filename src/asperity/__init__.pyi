@@ -44,6 +44,7 @@ from .contact.rough_rolling import RoughRolling, roll_rough
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
+from .contact.steady_sliding import SteadySliding, slide
 from .contact.tangential import Shift, TangentialForce
 from .contact.time_steps import Creeping, TimeSteps
 from .contact.wet_theory import WetTheory, wet_theory
@@ -192,6 +193,7 @@ __all__ = [
     "ShearTraction",
     "Shift",
     "Sliding",
+    "SteadySliding",
     "Step",
     "StickSlip",
     "Strength",
@@ -278,6 +280,7 @@ __all__ = [
     "save_surface_plot",
     "shear_cycles",
     "sliced",
+    "slide",
     "solve",
     "solvers",
     "stress",

@@ -55,8 +55,9 @@ from .rough.greenwood_williamson import (
 )
 from .rough.interacting_crests import InteractingCrests
 from .rough.majumdar_bhushan import MajumdarBhushan
-from .rough.persson import Persson
+from .rough.persson import IsotropicSpectrum, Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .rough.rubber_friction import RubberFriction, rubber_friction
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -163,6 +164,7 @@ __all__ = [
     "HistogramHeights",
     "IdenticalAsperities",
     "InteractingCrests",
+    "IsotropicSpectrum",
     "JacksonGreen",
     "JacksonGreenSphere",
     "KalkerLinear",
@@ -194,6 +196,7 @@ __all__ = [
     "PowerLawIndenter",
     "Prediction",
     "ProfilePlasticityIndex",
+    "RubberFriction",
     "SampledPeaks",
     "ShenHedrickElkins",
     "SinusoidalAsperity",
@@ -246,6 +249,7 @@ __all__ = [
     "plastic_area_share",
     "profile_plasticity_index",
     "rebound",
+    "rubber_friction",
     "separation_at_plastic_onset",
     "sphere_yield_onset",
     "strip_pressure",

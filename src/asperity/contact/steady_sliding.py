@@ -1,0 +1,390 @@
+"""Steady sliding of rough surfaces over viscoelastic bodies: hysteretic friction, contact area and heat.
+
+A surface that moves at a speed v along the direction of sliding, and with it its contact, is at rest in its own frame. A wave exp(i q·x) of
+pressure passes a point of the viscoelastic body with the frequency -q·v, so that u(q) = c(q, -q·v) p(q), with the complex compliance c. The
+operator K is real in space but not symmetric: pressure is larger in front. Its symmetric part is positive, so that there is one solution
+for each load, but there is no energy that it would minimise.
+
+With the symmetric operator S of the compliance 1/Re(1/c), of the storage modulus, K p = S p + (K - S) p. Contacts with S, whose profile is
+lowered by (K - S) p of the last one, approach the solution: in the norm of S each of them has at most sin(phi) times the error of the one
+before, phi being the largest loss angle, for |c - S|/S = sin(phi).
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import ComplexArray, RealArray
+from ..core.engine import CpuEngine
+from ..core.errors import ConvergenceError, InputError
+from ..core.spectral import RealTransform
+from ..core.status import Status
+from ..solids.compliance.creep import complex_compliance
+from ..solids.compliance.halfspace import Compliance
+from ..solids.elastic import Elastic
+from ..solids.layers import Body, materials_of
+from ..solids.viscoelastic import Viscoelastic
+from ..surfaces.surface import Surface
+from .boundary import Periodic
+from .couplings.driver import Rounds, Settled, settle
+from .couplings.hardness import ConstantHardness
+from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from .laws import HardWall
+from .operators.convolution import PeriodicOperator
+from .problem import ContactProblem, Control, Unloaded
+from .result import ContactResult, assemble, certify
+from .solvers.active_set.solver import ActiveSet
+
+TOLERANCE = 1e-7
+"""Relative L2 change of the displacement by lag from round to round that does not count."""
+
+
+@dataclass(frozen=True, eq=False)
+class MovingKernel:
+    """Complex compliance (m/Pa) on the half spectrum of a grid over which pressure moves, and that of the storage modulus.
+
+    Attributes
+    ----------
+    whole
+        c(q, -q·v), real where the grid holds no wave of the opposite direction.
+    storage
+        1/Re(1/c), symmetric.
+    along
+        Wavenumber q·v/v along the direction of motion, rad/m.
+    transform
+        Of the grid.
+    """
+
+    whole: ComplexArray
+    storage: RealArray
+    along: RealArray
+    transform: RealTransform = field(repr=False)
+
+    @classmethod
+    def of(cls, problem: ContactProblem, velocity: tuple[float, float], threads: int) -> MovingKernel:
+        """For the bodies of ``problem`` under a contact of ``velocity`` (m/s)."""
+        grid = problem.grid
+        (nx, ny), (qx, qy) = grid.shape, grid.wavevector()
+        q = np.hypot(qx, qy)
+        mean = q == 0.0
+        omega = -(qx * velocity[0] + qy * velocity[1])
+        q = np.where(mean, 1.0, q)
+        whole = np.empty(q.shape, dtype=complex)
+        for row in range(0, nx, _ROWS):
+            part = slice(row, row + _ROWS)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                whole[part] = complex_compliance(problem.body, problem.counter_body, q[part], omega[part])
+        whole[mean] = 1.0
+        if not np.isfinite(whole).all():
+            raise InputError(
+                f"bodies in steady sliding at {math.hypot(*velocity):g} m/s must be solid, but one flows under waves that stand still in it: "
+                "those along the motion, and at rest all of them. Take a spectrum whose shares add up to less than one."
+            )
+        storage = 1.0 / (1.0 / whole).real
+        speed = math.hypot(*velocity)
+        along = (qx * velocity[0] + qy * velocity[1]) / speed if speed else 0.0 * q
+        for lone in (np.s_[nx // 2 : nx // 2 + 1 - nx % 2, :], np.s_[:, ny // 2 : ny // 2 + 1 - ny % 2]):
+            whole[lone], along[lone] = whole[lone].real, 0.0
+            storage[lone] = 1.0 / (1.0 / whole[lone]).real
+        whole[mean] = storage[mean] = problem.compliance.mean_mode()
+        return cls(whole, storage, along, RealTransform(grid.shape, threads))
+
+    def lag(self, pressure: RealArray) -> RealArray:
+        """Displacement (nx, ny) in m by ``pressure`` (Pa) beyond that of the storage modulus."""
+        spectrum = self._spectrum(pressure)
+        spectrum *= self.whole - self.storage
+        return self.transform.backward(spectrum, np.empty(pressure.shape))
+
+    def slope(self, heights: RealArray) -> RealArray:
+        """Derivative of ``heights`` (nx, ny) along the direction of motion."""
+        spectrum = self._spectrum(heights)
+        spectrum *= 1j * self.along
+        return self.transform.backward(spectrum, np.empty(heights.shape))
+
+    def dissipation(self, pressure: RealArray) -> float:
+        """Mean of -p ∂u/∂x along the motion (Pa): sum of q_v Im c |p(q)|² over all waves (Parseval)."""
+        spectrum = self._spectrum(pressure)
+        each = self.along * self.whole.imag * np.abs(spectrum) ** 2
+        columns, ny = each.sum(axis=0), pressure.shape[1]
+        total = 2.0 * float(columns.sum()) - float(columns[0]) - (float(columns[-1]) if ny % 2 == 0 and ny > 1 else 0.0)
+        return total / pressure.size**2
+
+    def _spectrum(self, values: RealArray) -> ComplexArray:
+        return self.transform.forward(
+            np.ascontiguousarray(values, dtype=float), np.empty(self.transform.spectrum_shape, np.complex128)
+        )
+
+
+_NO_LAG = 1e-14
+"""Difference from the compliance of the storage modulus, over the largest, below which there is none."""
+
+_SOLVER = ActiveSet(tolerance=1e-12)
+"""Method of the normal solves; the error of the lag goes with the root of its tolerance."""
+
+_ROWS = 64
+"""Rows of a grid whose complex compliance is computed at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class LagCoupling(Coupling):
+    """Displacement beyond that of the storage modulus, as a lift; it is the unknown."""
+
+    kernel: MovingKernel = field(repr=False)
+    feedback: bool = True
+    tolerance: float = TOLERANCE
+    name: ClassVar[str] = "lag"
+    remedy: ClassVar[str] = "Allow more rounds, or loosen the tolerance of the lag."
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        """None, or that under the pressure to start from."""
+        x = np.zeros(posed.profile.shape) if posed.start is None else self.kernel.lag(posed.start)
+        return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
+
+    def share(self, exchange: Exchange) -> Share:
+        """The displacement as a lift."""
+        return Share(lift=exchange.x)
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """The displacement under the pressure of ``contact``."""
+        if not self.feedback:
+            return exchange
+        target = self.kernel.lag(contact.pressure)
+        size, change = float(np.linalg.norm(target)), float(np.linalg.norm(target - exchange.x))
+        return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
+
+    def settled(self, exchange: Exchange) -> str:
+        """That the displacement is."""
+        return "The lag of the viscoelastic displacement is settled"
+
+    def unsettled(self, exchange: Exchange) -> str:
+        """The change of the displacement."""
+        return f"The lag of the viscoelastic displacement still changes by {exchange.residual:.1e}"
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
+        """Nothing to remember."""
+        return {}, None
+
+
+@dataclass(frozen=True)
+class _Symmetric:
+    """Compliance of the storage modulus, for preconditioners: of waves along the motion in a line, at 45° to it on a map."""
+
+    problem: ContactProblem
+    speed: float
+    citation_keys: ClassVar[tuple[str, ...]] = ()
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """1/Re(1/c) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
+        across = 1.0 if self.problem.grid.shape[1] == 1 else math.sqrt(0.5)
+        c = complex_compliance(
+            self.problem.body, self.problem.counter_body, wavenumber, -across * self.speed * wavenumber
+        )
+        return np.asarray(1.0 / (1.0 / c).real)
+
+    def mean_mode(self) -> float:
+        """That of the bodies at rest, m/Pa."""
+        return self.problem.compliance.mean_mode()
+
+
+@dataclass(frozen=True, eq=False)
+class SteadySliding:
+    """A surface that slides, or rolls, steadily over a viscoelastic body. All values SI.
+
+    Attributes
+    ----------
+    normal
+        Pressure, displacement, gap and areas; the friction here is not part of its problem.
+    speed, direction
+        Speed (m/s) and direction of the motion of the rough surface over the viscoelastic body, angle in rad from +x towards +y.
+    friction
+        Coefficient of hysteretic friction: loss in every wave of the pressure, over the mean pressure.
+    slope_friction
+        The same from the slope of the surface, mean of -p ∂h/∂x over the mean pressure. Both agree where the contact is solved and the
+        grid resolves its edges; their difference is of first order in the pixel.
+    energy_error
+        Bound on the energy (J) of the error of the pressure in the symmetric part of the operator, over p·Kp.
+    """
+
+    normal: ContactResult
+    speed: float
+    direction: float
+    friction: float
+    slope_friction: float
+    energy_error: float
+
+    @property
+    def friction_stress(self) -> float:
+        """Friction force over nominal area, Pa."""
+        return self.friction * self.normal.mean_pressure
+
+    @property
+    def friction_force(self) -> float:
+        """Friction force, N."""
+        return self.friction * self.normal.force
+
+    @property
+    def heat(self) -> float:
+        """Heat per nominal area and time, W/m²."""
+        return self.friction_stress * self.speed
+
+    @property
+    def status(self) -> Status:
+        """How it ended."""
+        return self.normal.status
+
+    @property
+    def converged(self) -> bool:
+        """Whether pressure and displacement agree."""
+        return self.normal.converged
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers behind the numbers."""
+        return tuple(sorted({"Hunter1961", "Carbone2013", *self.normal.citation_keys}))
+
+
+def slide(
+    problem: ContactProblem,
+    control: Control,
+    speed: float,
+    *,
+    direction: float = 0.0,
+    tolerance: float = TOLERANCE,
+    rounds: Rounds = Rounds(),
+) -> SteadySliding:
+    """Steady sliding of the rough body of ``problem`` over its viscoelastic one under ``control``, without adhesion and interfacial shear.
+
+    Friction is by hysteresis alone. What does not slide but rolls with its contact, as a smooth wheel, has the same pressure, and the
+    friction is its rolling resistance.
+
+    Parameters
+    ----------
+    problem
+        Periodic contact with a hard wall, without film and friction. The surfaces of viscoelastic bodies must be flat: roughness
+        that moves with them causes no hysteresis. A rigid rough body on rubber: ``ContactProblem(rough, Rigid(), counter_body=rubber)``.
+    control
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
+    speed
+        Of the rough body over the viscoelastic one, m/s, >= 0; zero finds the relaxed contact.
+    direction
+        Of the motion, angle in rad from +x towards +y.
+    tolerance
+        Largest relative change of the displacement from round to round.
+    rounds
+        When to give up.
+
+    Raises
+    ------
+    InputError
+        If the problem has another boundary, law or physics, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
+        waves that stand still in it.
+    NoSolutionError
+        If a position has no solution.
+    ConvergenceError
+        If pressure and displacement do not agree.
+    """
+    started = time.perf_counter()
+    _require_slidable(problem, control)
+    v = require.not_negative(speed, "sliding speed (m/s)")
+    angle = require.finite(direction, "direction of sliding (rad)")
+    engine = CpuEngine()
+    kernel = MovingKernel.of(
+        problem, (v * math.cos(angle), v * math.sin(angle)), engine.threads_for(problem.grid.shape)
+    )
+    symmetric: Compliance = _Symmetric(problem, v)  # type: ignore[assignment]
+    operator = PeriodicOperator(symmetric, problem.grid, engine=engine, kernel=kernel.storage)
+    profile = problem.profile()
+    lags = bool(np.abs(kernel.whole - kernel.storage).max() > _NO_LAG * kernel.storage.max())
+    couplings = ConstantHardness(HardWall()), LagCoupling(kernel, lags, tolerance)
+    posed = Posed(operator, profile, profile, control, float(profile.std()) or 1.0)
+    settled = settle(posed, couplings, {}, _SOLVER, rounds=rounds)
+    normal = _normal(problem, settled, couplings[0], kernel.lag(settled.contact.pressure), started)
+    result = _with_friction(normal, kernel, profile, v, angle)
+    if not result.converged:
+        raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
+    return result
+
+
+def _normal(
+    problem: ContactProblem, settled: Settled, hardness: ConstantHardness, lag: RealArray, started: float
+) -> ContactResult:
+    """Fields and scalars of the contact that ``settled``, whose displacement is beyond that of the storage modulus by ``lag``."""
+    contact, seconds = settled.contact, time.perf_counter() - started
+    certificate = certify(
+        contact.qp,
+        contact.solution,
+        contact.totals,
+        solver=_SOLVER.name,
+        tolerance=settled.tolerance,
+        wall_time=seconds,
+    )
+    return assemble(
+        problem,
+        replace(contact, solution=replace(contact.solution, status=settled.status)),
+        before=None,
+        memories={"hardness": hardness.end(settled.exchanges["hardness"], contact)[0]},
+        lift=lag,
+        attraction=None,
+        stiffness=False,
+        certificate=replace(certificate, couplings=settled.checks, rounds=settled.rounds),
+        outcomes={},
+        citations=tuple(sorted({*problem.citation_keys, *_SOLVER.citation_keys, "Ferry1980"})),
+    )
+
+
+def _with_friction(
+    normal: ContactResult, kernel: MovingKernel, profile: RealArray, speed: float, direction: float
+) -> SteadySliding:
+    """Friction by the loss in all waves and by the slope of the surface, and the bound on the error."""
+    p = np.asarray(normal.pressure, dtype=float)
+    mean = float(p.mean())
+    gap = normal.displacement - profile
+    bound = float((p * (gap - gap.min())).sum())
+    work = float((p * normal.displacement).sum())
+    return SteadySliding(
+        normal,
+        speed,
+        direction,
+        kernel.dissipation(p) / mean if mean > 0.0 else 0.0,
+        -float((p * kernel.slope(profile)).mean()) / mean if mean > 0.0 else 0.0,
+        bound / work if work > 0.0 else 0.0,
+    )
+
+
+def _require_slidable(problem: ContactProblem, control: Control) -> None:
+    """Refuse what is not steady, or has no hysteresis."""
+    if not isinstance(problem.boundary, Periodic):
+        raise InputError(f"boundary of steady sliding must be Periodic(), but is {problem.boundary!r}.")
+    if not isinstance(problem.law, HardWall) or any(
+        each is not None for each in (problem.film, problem.friction, problem.adhesion)
+    ):
+        raise InputError(
+            "law of steady sliding must be HardWall(), and film, friction and adhesion None: the friction found is that of hysteresis alone."
+        )
+    if isinstance(control, Unloaded):
+        raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
+    pairs: tuple[tuple[Body, object, str], ...] = (
+        (problem.body, problem.surface, "surface"),
+        (problem.counter_body, problem.counter_surface, "counter_surface"),
+    )
+    relaxing = [(surface, name) for body, surface, name in pairs if any(map(_relaxes, materials_of(body)))]
+    if not relaxing:
+        raise InputError(
+            "body or counter_body of steady sliding must be viscoelastic, but neither is. Give a Viscoelastic(...)."
+        )
+    for surface, name in relaxing:
+        if isinstance(surface, Surface) and float(np.ptp(surface.heights)) > 0.0:
+            raise InputError(
+                f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on it is at rest, but is rough. "
+                "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
+            )
+
+
+def _relaxes(material: Elastic) -> bool:
+    return isinstance(material, Viscoelastic) and bool(material.spectrum)

@@ -1,0 +1,191 @@
+"""Steady sliding over viscoelastic bodies against closed forms, the reference of a sliding wave, limits, and a march in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from reference_data import Row, every_row, reference
+from refusals import refused
+
+import asperity as asp
+
+PRONY = {
+    "sls": (1.0, ((9.0, 1.0),)),
+    "sls_mild": (1.0, ((1.0, 1.0),)),
+    "prony3": (1.0, ((2.0, 10.0), (5.0, 1.0), (20.0, 0.01))),
+    "prony5": (0.5, ((0.2, 100.0), (0.4, 10.0), (1.0, 1.0), (3.0, 0.1), (10.0, 0.01))),
+}
+
+
+def rubber(name: str) -> asp.Viscoelastic:
+    return asp.Viscoelastic.prony(*PRONY[name], 0.0)
+
+
+def wave(points: int, amplitude: float, length: float) -> asp.Surface:
+    x = 2.0 * np.pi * np.arange(points) / points
+    return asp.Surface(amplitude * np.cos(x)[:, None], length / points, 1.0)
+
+
+def over(surface: asp.Surface, body: asp.Elastic | asp.Layered) -> asp.ContactProblem:
+    return asp.ContactProblem(surface, asp.Rigid(), counter_body=body)
+
+
+@every_row(reference("viscoelasticity/sliding_wave_full_contact"))
+def test_wave_in_full_contact(row: Row) -> None:
+    """Pressure amplitude, its lead in front of the wave, and friction, to the error of the solve."""
+    material = str(row["material"])
+    problem = over(wave(32, 0.01, 2.0 * np.pi), rubber(material))
+    found = asp.slide(problem, asp.MeanPressure(0.5 * PRONY[material][0] + 1.0), float(row["omega"]))
+    assert found.normal.area_fraction == 1.0
+    first = np.fft.rfft(found.normal.pressure[:, 0])[1] / 16.0
+    assert abs(first) == pytest.approx(row["pressure_amplitude"], rel=1e-5)
+    assert -np.angle(first) == pytest.approx(row["phase_lead_rad"], rel=1e-4, abs=1e-9)
+    assert found.friction_stress == pytest.approx(row["friction_stress"], rel=1e-4, abs=1e-10)
+    assert found.slope_friction == pytest.approx(found.friction, rel=1e-4, abs=1e-10)
+
+
+@every_row(reference("viscoelasticity/sliding_wave_partial_contact"))
+def test_wave_in_partial_contact(row: Row) -> None:
+    """Friction, largest pressure, fraction and shift of the contact at 256 points: error of the reference at 1024, and a pixel at the edge."""
+    material, points = str(row["material"]), 256
+    scale = np.pi * PRONY[material][0] * 0.01
+    problem = over(wave(points, 0.01, 1.0), rubber(material))
+    load = asp.MeanPressure(float(row["pbar_over_pstar_relaxed"]) * scale)
+    found = asp.slide(problem, load, float(row["v_tau0_over_lambda"]))
+    touching = found.normal.contact[:, 0]
+    x = (np.arange(points) / points + 0.5) % 1.0 - 0.5
+    width = touching.mean()
+    assert found.friction == pytest.approx(row["mu"], abs=float(row["err_mu"]) + 4e-5)
+    assert found.normal.max_pressure / scale == pytest.approx(
+        row["p_max_over_pstar"], rel=0.04 + float(row["err_pmax"])
+    )
+    assert width == pytest.approx(row["contact_fraction"], abs=2.0 / points + float(row["err_fraction"]))
+    assert x[touching].mean() == pytest.approx(
+        row["centre_shift_over_lambda"], abs=1.0 / points + float(row["err_fraction"])
+    )
+    assert found.energy_error < 1e-5
+
+
+def rough() -> asp.Surface:
+    x = 2.0 * np.pi * (np.arange(32) + 0.5) / 32
+    waves = np.cos(x)[:, None] + 0.4 * np.cos(3 * x + 1.0)[:, None] * np.cos(2 * x) + 0.2 * np.sin(5 * x)
+    return asp.Surface(1e-7 * waves, 1e-6 / 32)
+
+
+RUBBER = asp.Viscoelastic.prony(2e6, ((5e6, 1e-3), (9e6, 1e-4)), 0.5)
+LOAD = asp.MeanPressure(0.3e6)
+
+
+@pytest.mark.parametrize("speed", [0.0, 1e6])
+def test_slow_and_fast_sliding_are_elastic(speed: float) -> None:
+    """The relaxed contact at rest, that of the first instant at high speed, where no wave stands still; no friction in either."""
+    E = 16e6 if speed else 2e6
+    x = 2.0 * np.pi * (np.arange(64) + 0.5) / 64
+    surface = asp.Surface(1e-7 * (np.cos(x) + 0.4 * np.cos(3 * x + 1.0))[:, None], 1e-6 / 64)
+    elastic = asp.solve(over(surface, asp.Elastic(E, 0.5)), LOAD)
+    found = asp.slide(over(surface, RUBBER), LOAD, speed)
+    assert np.abs(found.normal.pressure - elastic.pressure).max() < 1e-3 * elastic.max_pressure
+    assert abs(found.friction) < 1e-4
+    assert found.heat == pytest.approx(found.friction * 0.3e6 * speed)
+
+
+def test_direction_turns_with_the_surface_and_times_scale_with_the_speed() -> None:
+    surface = rough()
+    first = asp.slide(over(surface, RUBBER), LOAD, 1e-3)
+    turned = asp.Surface(np.ascontiguousarray(surface.heights.T), surface.grid.spacing[0])
+    second = asp.slide(over(turned, RUBBER), LOAD, 1e-3, direction=np.pi / 2)
+    assert second.friction == pytest.approx(first.friction, rel=1e-4)
+    np.testing.assert_allclose(second.normal.pressure.T, first.normal.pressure, atol=1e-4 * first.normal.max_pressure)
+    slower = asp.slide(over(surface, RUBBER.with_times(2.0)), LOAD, 0.5e-3)
+    assert slower.friction == pytest.approx(first.friction, rel=1e-9)
+    back = asp.slide(over(surface, RUBBER), LOAD, 1e-3, direction=np.pi)
+    mirrored = asp.Surface(np.ascontiguousarray(surface.heights[::-1]), surface.grid.spacing[0])
+    assert asp.slide(over(mirrored, RUBBER), LOAD, 1e-3).friction == pytest.approx(back.friction, rel=1e-4)
+    assert first.friction > 0.01
+    assert first.slope_friction == pytest.approx(first.friction, rel=0.05)
+
+
+def test_coating_between_rigid_base_and_half_space() -> None:
+    """A thick coating is the half-space of its material; a thin one on a stiff base dissipates less."""
+    whole = asp.slide(over(rough(), RUBBER), LOAD, 1e-3)
+    stiff = asp.Elastic(1e9, 0.3)
+    thick, thin = (
+        asp.slide(over(rough(), asp.Layered([asp.Layer(RUBBER, h)], stiff)), LOAD, 1e-3) for h in (3e-6, 1e-7)
+    )
+    assert thick.friction == pytest.approx(whole.friction, rel=1e-3)
+    assert thin.friction < 0.8 * whole.friction
+    assert thin.normal.area_fraction < whole.normal.area_fraction
+
+
+def test_load_that_reaches_a_position() -> None:
+    problem = over(rough(), RUBBER)
+    by_load = asp.slide(problem, LOAD, 1e-3)
+    by_gap = asp.slide(problem, asp.MeanGap(by_load.normal.mean_gap), 1e-3)
+    assert by_gap.normal.mean_pressure == pytest.approx(0.3e6, rel=1e-5)
+    assert by_gap.friction == pytest.approx(by_load.friction, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("make", "subject"),
+    [
+        (
+            lambda: asp.slide(asp.ContactProblem(rough(), RUBBER), LOAD, 1.0),
+            "surface of a viscoelastic body in steady sliding",
+        ),
+        (lambda: asp.slide(over(rough(), asp.Elastic(1e6, 0.5)), LOAD, 1.0), "body or counter_body of steady sliding"),
+        (lambda: asp.slide(over(rough(), RUBBER), LOAD, -1.0), "sliding speed (m/s)"),
+        (
+            lambda: asp.slide(over(rough(), asp.Viscoelastic.maxwell(1e6, 1.0, 0.5)), LOAD, 0.0),
+            "bodies in steady sliding at 0 m/s",
+        ),
+        (lambda: asp.slide(over(rough(), RUBBER), asp.Unloaded(), 1.0), "control of steady sliding"),
+        (
+            lambda: asp.slide(
+                asp.ContactProblem(rough(), asp.Rigid(), counter_body=RUBBER, boundary=asp.Free()), LOAD, 1.0
+            ),
+            "boundary of steady sliding",
+        ),
+        (
+            lambda: asp.slide(
+                asp.ContactProblem(rough(), asp.Rigid(), counter_body=RUBBER, law=asp.Hardness(1e6)), LOAD, 1.0
+            ),
+            "law of steady sliding",
+        ),
+    ],
+)
+def test_what_is_refused(make: Callable[[], object], subject: str) -> None:
+    with refused(asp.InputError, subject):
+        make()
+
+
+# Persson's theory of rubber friction.
+
+
+@every_row(reference("viscoelasticity/persson_friction"))
+def test_rubber_friction_of_persson(row: Row) -> None:
+    """Friction and area of the reference, to the error of 800 wavenumbers between two of the table."""
+    q = [float(row[name]) for name in ("qL_per_m", "q0_per_m", "q1_per_m")]
+    level = float(row["C0_m4"]) * (2.0 * np.pi) ** 2
+    C = [level, level, level * (q[2] / q[1]) ** (-2.0 - 2.0 * float(row["H"]))]
+    start = 0 if q[1] > q[0] else 1
+    spectrum = asp.theories.IsotropicSpectrum(q[start:], C[start:])
+    solid = asp.Viscoelastic.prony(float(row["E_relaxed_Pa"]), ((float(row["E_step_Pa"]), float(row["tau_s"])),), 0.0)
+    found = asp.theories.rubber_friction(
+        spectrum, solid.contact_relaxation.complex_modulus, speed=float(row["v_m_per_s"]), pressure=float(row["p0_Pa"])
+    )
+    assert found.friction == pytest.approx(row["mu"], rel=1e-7)
+    assert found.area_fraction == pytest.approx(row["area_fraction"], rel=1e-7)
+    assert found.cumulative_friction[-1] == found.friction
+
+
+def test_reduced_deformation_lowers_the_friction() -> None:
+    spectrum = asp.theories.IsotropicSpectrum([1e3, 1e6], [1e-15, 1e-26])
+    E = asp.Viscoelastic.standard_linear(2e6, 2e8, 1e-4, 0.5).contact_relaxation.complex_modulus
+    whole, reduced = (
+        asp.theories.rubber_friction(spectrum, E, speed=0.1, pressure=1e5, reduction=gamma) for gamma in (1.0, 0.5)
+    )
+    assert 0.5 * whole.friction < reduced.friction < whole.friction
+    with refused(asp.InputError, "sliding speed (m/s)"):
+        asp.theories.rubber_friction(spectrum, E, speed=0.0, pressure=1e5)
