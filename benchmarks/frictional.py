@@ -3,7 +3,8 @@
 Self-affine surface of unit rms slope (``surfaces.self_affine``), load 0.05 E*, friction 0.3. *Step*: equal bodies, one step of half the
 friction limit, for the pressure found before. *History*: rigid on elastic (ν = 0.3) and on a layer four times as stiff as its base,
 20 coupled steps: four of pressing, then a cycle of shift. Times are those of processors, so that other work on the machine
-matters little; the least of several runs counts. FFT pairs do not depend on the machine.
+matters little; the least of several runs counts. FFT pairs do not depend on the machine. *Tamaas*, where installed: contact and one step
+of half the friction limit on an incompressible body, by both packages in the same process.
 """
 
 from __future__ import annotations
@@ -19,10 +20,13 @@ from surfaces import self_affine
 import asperity as asp
 from asperity.contact.operators.tangential import TangentialOperator
 from asperity.contact.solvers.stick_slip.newton import StickSlipNewton
-from asperity.contact.solvers.stick_slip.problem import TangentialQP
+from asperity.contact.solvers.stick_slip.problem import Deviation, Points, TangentialQP, best_shift
+from asperity.core.arrays import RealArray
 
 FRICTION = 0.3
 LOAD = 0.05
+MOST_OF_TAMAAS = 5000
+"""Iterations of Tamaas at most, five times its own limit."""
 PLAIN = asp.Keep(stiffness=False)
 
 
@@ -76,11 +80,50 @@ def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) ->
     )
 
 
+def beside_tamaas(n: int, repeats: int) -> str:
+    """Row of the contact and one step of half the friction limit, rigid on an incompressible body, by asperity and by Tamaas.
+
+    There the bodies do not couple, and ``PolonskyKeerTan`` of Tamaas, which alternates as well, means the same contact. Both start from
+    heights; errors are duality gaps of the tangential problem for the pressure of each, by the same code.
+    """
+    try:
+        import tamaas
+    except ImportError:
+        return f"| {n} | Tamaas: not installed | | | | | |"
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    tamaas.initialize(1)
+    surface, body = self_affine(n), asp.Elastic(0.75, 0.5)
+    problem = asp.ContactProblem(surface, body, friction=asp.Coulomb(FRICTION))
+    mean = 0.5 * FRICTION * LOAD
+    step = asp.Step(asp.MeanPressure(LOAD), asp.TangentialForce(mean * problem.grid.area))
+    ours, seconds = timed(lambda: asp.solve(problem, step, keep=PLAIN), repeats)
+    heights = np.ascontiguousarray(surface.heights) / n
+    model = tamaas.Model(tamaas.model_type.surface_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 0.75, 0.5
+    solver = tamaas.PolonskyKeerTan(model, heights, 1e-6, FRICTION)
+    solver.max_iter = MOST_OF_TAMAAS
+    _, theirs = timed(lambda: solver.solve([mean, 0.0, LOAD]), 1)
+    found = np.array(model.traction)
+    operator = TangentialOperator(problem.grid, (body, asp.Rigid()))
+
+    def gap(pressure: RealArray, traction: RealArray) -> float:
+        points = Points.of(TangentialQP(operator, FRICTION * pressure, np.zeros((2, n, n))))
+        q, u = points.gathered(traction), points.gathered(operator.displacement(traction))
+        return Deviation.of(points, q, u, best_shift(points, q, -u)[:, None] - u).gap
+
+    errors = gap(ours.pressure, ours.stick_slip.traction), gap(found[..., 2], np.moveaxis(found[..., :2], -1, 0))
+    apart = np.linalg.norm(found[..., 0] - ours.stick_slip.traction[0]) / np.linalg.norm(found[..., 0])
+    return f"| {n} | {seconds:.2f} | {theirs:.1f} | {theirs / seconds:.0f} | {errors[0]:.0e} | {errors[1]:.0e} | {apart:.0e} |"
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
     parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument(
+        "--peer-sizes", type=int, nargs="*", default=[64, 128], help="grids to run Tamaas on, if installed"
+    )
     options = parser.parse_args()
     coated = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
     print(
@@ -92,6 +135,10 @@ def main() -> None:
             print(one_step(n, nu, options.repeats), flush=True)
         for name, body in (("rigid on elastic", asp.Elastic(0.91, 0.3)), ("rigid on layer E 4", coated)):
             print(history(n, name, body, options.repeats), flush=True)
+    print("\n| n | asperity (s) | Tamaas (s) | ratio | gap, asperity | gap, Tamaas | tractions apart |")
+    print("|---|---|---|---|---|---|---|")
+    for n in options.peer_sizes:
+        print(beside_tamaas(n, options.repeats), flush=True)
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ from .contact.laws import (
     TrescaFriction,
     VanDerWaalsAdhesion,
 )
+from .contact.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import (
@@ -201,6 +202,7 @@ __all__ = [
     "Surface",
     "SurfacePair",
     "TangentialForce",
+    "TangentialStiffness",
     "TimeSteps",
     "Tractions",
     "Tresca",
@@ -223,6 +225,7 @@ __all__ = [
     "compare",
     "composite",
     "contact_modulus",
+    "contraction_factor",
     "creep_curve",
     "cropped",
     "depths_through",
@@ -285,6 +288,7 @@ __all__ = [
     "solvers",
     "stress",
     "stress_planes",
+    "tangential_stiffness",
     "tapered",
     "theories",
     "tip_limited",

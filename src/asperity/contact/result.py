@@ -68,6 +68,8 @@ class Certificate:
         Residual, rate and tolerance of every coupling with feedback.
     rounds
         Number of normal solves that the couplings took.
+    complementarity
+        De Saxcé's residual of gap, slip and friction together, see ``StickSlip``; zero without stick and slip.
     """
 
     duality_gap: float
@@ -82,6 +84,7 @@ class Certificate:
     solver: str
     couplings: tuple[CouplingCheck, ...] = ()
     rounds: int = 1
+    complementarity: float = 0.0
 
 
 def certify(

@@ -267,7 +267,8 @@ class Prepared:
         attraction = found["adhesion"].attraction if "adhesion" in found else None
         if attraction is not None:
             lift = (0.0 if lift is None else lift) - self.operator.apply(attraction)
-        certificate = self._certificate(settled, seconds)
+        residual = found["stick_slip"].complementarity if "stick_slip" in found else 0.0
+        certificate = replace(self._certificate(settled, seconds), complementarity=residual)
         status = doubted(settled.status, certificate)
         for name in ("stick_slip", "adhesion"):
             if status.converged and name in found and not found[name].status.converged:

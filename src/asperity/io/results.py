@@ -60,7 +60,7 @@ PARTS = ("body", "counter_body", "boundary", "law", "control")
 PHYSICS = ("film", "friction", "adhesion")
 """The same for physics that a problem need not have."""
 
-_CHECKS = ("couplings", "rounds")
+_CHECKS = ("couplings", "rounds", "complementarity")
 """Entries of the certificate that files of format 1 lack, written as JSON texts."""
 
 _MENISCI = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "feedback")

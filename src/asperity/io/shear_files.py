@@ -34,8 +34,8 @@ SHEAR_FIELDS = (
 WORK = (
     Quantity("duality_gap", "1", "bound on the relative error of the tangential energy"),
     Quantity("complementarity", "1", "residual of gap and slip together"),
-    Quantity("iterations", "1", "iterations of the last tangential solve"),
-    Quantity("fft_pairs", "1", "FFT pairs of the last tangential solve"),
+    Quantity("iterations", "1", "Newton steps of all tangential solves"),
+    Quantity("fft_pairs", "1", "FFT pairs of all tangential solves"),
 )
 """Error and work of the tangential solve."""
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
@@ -33,6 +33,12 @@ SignedForce: TypeAlias = Annotated[float, Number("force")]
 
 KEYS = ("shift", "force", "twist")
 """What can be prescribed along the surfaces, one of them."""
+
+LINEAR = (
+    Quantity("tangential_stiffness", "N/m", "change of the tangential force / change of the shift along it"),
+    Quantity("contraction_factor", "1", "reduction of what pressure and shear are off by a round between them"),
+)
+"""Numbers of the last step, linearised."""
 
 USUAL_STEPS = 8
 """Steps from zero to the largest value where it turns, if not said otherwise; one where it does not."""
@@ -213,6 +219,7 @@ class StickSlip(Part):
         return (
             *SHEAR_SCALARS,
             Quantity("cycle_dissipation", "J", "energy dissipated by slip in the last closed cycle"),
+            *LINEAR,
         )
 
     def settings_in(self, document: Any) -> ShearSettings | None:
@@ -266,8 +273,10 @@ class StickSlip(Part):
         found = solved.result.require_stick_slip()
         loop = None if solved.path is None else loop_of(solved.path.steps)
         last = math.nan if loop is None or not loop.cycles else float(loop.cycle_energies[-1])
-        values = {**shear_numbers(solved.result), "cycle_dissipation": last}
-        return Found(values, None, _findings(solved), found.citation_keys)
+        stiffness, factor = _linearised(solved.result)
+        linear = dict(zip((item.name for item in LINEAR), (stiffness, factor), strict=True))
+        values = {**shear_numbers(solved.result), "cycle_dissipation": last, **linear}
+        return Found(values, None, (*_findings(solved), *_contraction(solved.result, factor)), found.citation_keys)
 
     def citations(self, ask: Sheared, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
@@ -286,7 +295,8 @@ class StickSlip(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Shares of the area, forces, heat; steps and cycles of a history."""
-        return shear_words(solved.result, solved.path)
+        words = shear_words(solved.result, solved.path)
+        return replace(words, rows=[*words.rows, *_linear_rows(found.values)])
 
 
 def _findings(solved: Solved) -> tuple[Advice, ...]:
@@ -306,6 +316,45 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
             )
             made.append(Advice("note", "length of the steps", text))
     return tuple(made)
+
+
+def _linearised(result: ContactResult) -> tuple[float, float]:
+    """Tangential stiffness along the shift, or where there is none along the force or x, and contraction factor."""
+    from ..contact.linearised import contraction_factor, tangential_stiffness
+
+    if not result.pressure.any():
+        return math.nan, math.nan
+    found = result.require_stick_slip()
+    ways = ((found.shift_x, found.shift_y), (found.force_x, found.force_y), (1.0, 0.0))
+    way = next(pair for pair in ways if math.hypot(*pair) > 0.0)
+    return tangential_stiffness(result).along(*way), contraction_factor(result)
+
+
+def _contraction(result: ContactResult, factor: float) -> tuple[Advice, ...]:
+    """How pressure and shear settle in turn, where shear changes the pressure."""
+    if not factor > 0.0:
+        return ()
+    check = next((item for item in result.certificate.couplings if item.name == "stick_slip"), None)
+    met = (
+        ""
+        if check is None
+        else f" They were off by {check.residual:.1e} at the end, after {result.certificate.rounds} rounds."
+    )
+    if factor >= 1.0:
+        text = (
+            f"A round between pressure and shear enlarges what they are off by a factor of {factor:.2g}: the alternation does not contract, and the "
+            f"solution found may be one of several.{met} Lower the friction coefficient, or follow the path in smaller steps."
+        )
+        return (Advice("warning", "contraction of pressure and shear", text),)
+    text = f"A round between pressure and shear reduces what they are off to {factor:.2g} of it.{met}"
+    return (Advice("note", "contraction of pressure and shear", text),)
+
+
+def _linear_rows(values: Mapping[str, float]) -> Rows:
+    from ..io.words import value_text
+
+    shown = [item for item in LINEAR if math.isfinite(values.get(item.name, math.nan))]
+    return [(item.label, value_text(item, values[item.name])) for item in shown]
 
 
 def _slides(step: ContactResult) -> bool:

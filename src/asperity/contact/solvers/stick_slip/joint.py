@@ -111,10 +111,10 @@ def solve_jointly(
     Until ``Deviation.error`` is at most ``shear_error`` and the mean gap under load over the rms height at most ``normal_error``. Where that
     is not reached the best iterate is returned: no energy falls from step to step, so that there is no promise.
     """
-    return _Iteration(problem, pressure, traction).solved(shear_error, normal_error)
+    return JointIterate(problem, pressure, traction).solved(shear_error, normal_error)
 
 
-class _Place(NamedTuple):
+class Place(NamedTuple):
     """Iterate on its free points: traction (2, n) and pressure (n,), slip, residual of the gap (m), and errors over those wanted."""
 
     free: FreeSet
@@ -127,7 +127,7 @@ class _Place(NamedTuple):
     error: float
 
 
-class _Iteration:
+class JointIterate:
     """Iterate of one joint solve."""
 
     def __init__(self, problem: JointProblem, pressure: RealArray, traction: RealArray) -> None:
@@ -194,7 +194,7 @@ class _Iteration:
             self._step(place, reduction)
         return self._solution(best)
 
-    def _solution(self, place: _Place) -> JointSolution:
+    def _solution(self, place: Place) -> JointSolution:
         pressure, slipping = np.zeros(self.p.size), np.zeros(self.p.size, bool)
         index = place.points.index
         pressure[index], slipping[index] = place.p, place.sets.slip
@@ -203,7 +203,7 @@ class _Iteration:
             pressure.reshape(self.shape), traction, slipping.reshape(self.shape), self.pairs, self.steps
         )
 
-    def _place(self, shear_error: float, normal_error: float) -> _Place:
+    def _place(self, shear_error: float, normal_error: float) -> Place:
         normal = self.problem.normal
         survey = self.engine.survey(self.p, self.u[2], normal.profile, None)
         constraint = normal.constraint
@@ -219,9 +219,9 @@ class _Iteration:
         pressed = float(p @ np.abs(gap)) / (float(p.sum()) * normal.height_scale or 1.0)
         error = max(shear / shear_error, pressed / normal_error)
         single = self.engine.points(self.shape, index, "float32")
-        return _Place(single, points, q, p, s, gap, Sets.of(points, q, s), error)
+        return Place(single, points, q, p, s, gap, Sets.of(points, q, s), error)
 
-    def _step(self, place: _Place, reduction: float) -> None:
+    def _step(self, place: Place, reduction: float) -> None:
         """One step of Newton's method."""
         self.steps += 1
         system = JointSystem.of(self, place)
@@ -245,7 +245,7 @@ class _Iteration:
         self.p.reshape(-1)[index] = p
         self.q.reshape(2, -1)[:, index] = q
 
-    def _moved(self, place: _Place, system: JointSystem, z: RealArray) -> tuple[RealArray, RealArray]:
+    def _moved(self, place: Place, system: JointSystem, z: RealArray) -> tuple[RealArray, RealArray]:
         """Pressure (n,) and traction (2, n) after the step ``z`` (3, n): pressed or open, turned on their circles or within their bounds.
 
         What that takes from a prescribed load or force is given back first as a uniform displacement would do it.
@@ -266,7 +266,7 @@ class _Iteration:
         q[:, enters] = then.projected(place.s / self.work.pixel)[:, enters]
         return p, q if self.force is None else then.with_sum(q, self.force)
 
-    def _turned(self, place: _Place, z: RealArray, change: RealArray, bound: RealArray) -> RealArray:
+    def _turned(self, place: Place, z: RealArray, change: RealArray, bound: RealArray) -> RealArray:
         sets, points = place.sets, place.points
         towards = sets.normal + sets.tangent * (
             np.einsum("ij,ij->j", z[1:], sets.tangent) / np.where(sets.slip, points.bound, 1.0)
@@ -291,14 +291,14 @@ class JointSystem:
     ``follows`` (2, n) is N, ``bears`` (n,) one where there is a bound.
     """
 
-    joint: _Iteration
+    joint: JointIterate
     shear: NewtonSystem
     free: FreeSet
     follows: RealArray
     bears: RealArray
 
     @classmethod
-    def of(cls, joint: _Iteration, place: _Place) -> JointSystem:
+    def of(cls, joint: JointIterate, place: Place) -> JointSystem:
         """System at ``place``."""
         work = replace(joint.work, points=place.points, free=place.free)
         shear = NewtonSystem.of(work, place.sets, zero_sum=False)
