@@ -222,7 +222,7 @@ class Axes {
     context.fillText(xLabel, left + width / 2, top + height + 20);
     context.textAlign = "right"; context.textBaseline = "middle";
     const low = Math.min(this.y0, this.y1) / yUnit, high = Math.max(this.y0, this.y1) / yUnit;
-    for (const t of ticks(low, high, Math.max(2, Math.round(height / 45)))) {
+    for (const t of ticks(low, high, Math.max(3, Math.round(height / 45)))) {
       const at = this.py(t * yUnit);
       context.fillRect(left - 4, at, 4, 1);
       context.fillText(short(t), left - 6, at);
