@@ -10,7 +10,7 @@ from ..core import units
 from ..core.errors import AsperityError
 from ..core.parameters import Parameter, taken_apart
 from ..core.settings import Settings, declared
-from ..core.values import Choice, Flag, Number, Several, Whole
+from ..core.values import Choice, Flag, Interval, Number, Numbers, Several, Whole
 
 Shape = Literal["flag", "choice", "number", "text", "table", "kinds", "list"]
 
@@ -48,6 +48,14 @@ class Asked:
     choices: tuple[str, ...] = ()
     tables: Mapping[str, type[Settings]] | None = None
     tag: str = ""
+
+    def text_of(self, value: Any) -> str:
+        """Text of an entry that holds ``value``, as its declaration reads it."""
+        if not isinstance(value, list | tuple):
+            return "" if value is None else str(value)
+        values = self.parameter.values
+        between = "x" if isinstance(values, Numbers) else " : " if isinstance(values, Interval) else ", "
+        return between.join(map(str, value))
 
     def problem(self, text: Any) -> str | None:
         """Why ``text`` cannot stand here; None if it can."""

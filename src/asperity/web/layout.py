@@ -150,6 +150,16 @@ def _keeping(place: Place, session: Session) -> None:
     )
 
 
+def drop(key: str, name: str, text: str, hint: str) -> None:
+    """Area on which files are dropped, or that opens the choice of files."""
+    area = ui.element("div").classes("drop")
+    with area.props(f'tabindex=0 role="button" data-upload="/upload/{key}" aria-label="{name}"'):
+        ui.icon("upload_file").classes("drop-icon")
+        ui.label(text)
+        ui.label(hint).classes("hint")
+        ui.label("").classes("drop-state").props('role="status"')
+
+
 def failure(text: str) -> None:
     """A message that something could not be done."""
     with ui.card().classes("failure").props('flat bordered role="alert"'):

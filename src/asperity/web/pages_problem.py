@@ -6,7 +6,7 @@ import html
 import math
 from typing import Any
 
-from nicegui import ui
+from nicegui import events, ui
 
 from ..core.errors import AsperityError
 from ..core.units import parse, show
@@ -15,8 +15,9 @@ from ..run.document import document_model
 from ..solids.library import MaterialRecord, materials
 from .draft import Keys
 from .forms import Asked, asked_of
+from .layout import drop
 from .session import Session
-from .widgets import Context, form, listed, nested, text_of
+from .widgets import Context, form, listed, nested
 
 OF_PAGES = frozenset({"version", "title", "surface", "counter_surface", "body", "counter_body"})
 """Keys of the document that other pages fill."""
@@ -50,6 +51,7 @@ def bodies_page(key: str, session: Session) -> None:
                 drawing()
             drawings[name] = drawing
     _library()
+    _own_materials(key, session)
 
 
 def _body(context: Context, item: Asked, name: str) -> None:
@@ -86,7 +88,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     def inside() -> None:
         word = kind()
         if word == "material":
-            _named(context, (name, "material"), "Material")
+            form(context, table, (name,), frozenset(entries) - {"material"})
         elif word == "constants":
             form(context, table, (name,), own)
         elif word == "layers":
@@ -103,17 +105,6 @@ def _body(context: Context, item: Asked, name: str) -> None:
         f'no-caps dense data-key="{name}.kind"'
     )
     inside()
-
-
-def _named(context: Context, keys: Keys, label: str) -> None:
-    """A material of the library."""
-    options = {record.name: f"{record.name}  –  {_constants(record)}" for record in materials()}
-    value = context.get(keys)
-    if value and value not in options:
-        options[value] = str(value)
-    ui.select(options, label=label, value=value, with_input=True, on_change=lambda e: context.set(keys, e.value)).props(
-        f'dense data-key="{".".join(map(str, keys))}"'
-    ).classes("field wide")
 
 
 def _constants(record: MaterialRecord) -> str:
@@ -133,6 +124,30 @@ def _library() -> None:
                 for text in (record.note, *record.sources):
                     if text:
                         ui.label(text).classes("hint")
+
+
+def _own_materials(key: str, session: Session) -> None:
+    """Takes a file of own materials, for every body that names one."""
+
+    def uploaded(event: events.GenericEventArguments) -> None:
+        path = str(event.args.get("path") if isinstance(event.args, dict) else "")
+        if path not in session.labels:
+            return
+        try:
+            materials(path)
+        except AsperityError as error:
+            ui.notify(session.said(str(error)), type="negative", multi_line=True)
+            return
+        for name in ("body", "counter_body"):
+            body = session.draft.get(name)
+            if isinstance(body, dict) and ("material" in body or "layers" in body):
+                session.draft.set((name, "materials_file"), path)
+        session.touched()
+        ui.navigate.reload()
+
+    text = "Drop a file of own materials here, or press to choose"
+    drop(key, "drop a file of own materials, or choose it", text, "TOML with a table for each material; see the how-to")
+    ui.on("asperity-uploaded", uploaded)
 
 
 def drawn(body: Any, *, title: str) -> str:
@@ -186,7 +201,7 @@ def _name(part: Any) -> str:
     if part.get("rigid"):
         return "rigid"
     named = part.get("name") or part.get("material")
-    return text_of(named or (f"E {part['youngs_modulus']}" if part.get("youngs_modulus") else "material missing"))
+    return str(named or (f"E {part['youngs_modulus']}" if part.get("youngs_modulus") else "material missing"))
 
 
 def _thickness(layer: dict[str, Any]) -> float:

@@ -51,7 +51,7 @@ def _begin(session: Session, run: Run, function: str, task: dict[str, Any]) -> N
 
     async def work() -> None:
         answer = await worker.call(function, **task, out=out, progress=progress)
-        worker.cancel()  # a worker serves one run
+        await worker.end()  # a worker serves one run
         session.workers.pop(run.key, None)
         if "error" in answer:
             run.state = "cancelled" if answer.get("cancelled") else "failed"

@@ -16,7 +16,7 @@ from . import maps
 from .beginning import measured
 from .draft import Keys
 from .forms import asked_of
-from .layout import failure, rows
+from .layout import drop, failure, rows
 from .session import Session
 from .widgets import Context, entry, kinds, listed
 
@@ -120,7 +120,7 @@ def surface_page(key: str, session: Session) -> None:
             path = session.files[-1].path if session.files else None
             context.set((SURFACE,), {"kind": "file"} if path is None else measured(path))
         else:
-            context.set((SURFACE,), {"kind": "rough", "points": "256, 256", "size": "10 um x 10 um", "seed": 1})
+            context.set((SURFACE,), {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1})
         source.refresh()
 
     def uploaded(event: events.GenericEventArguments) -> None:
@@ -131,19 +131,12 @@ def surface_page(key: str, session: Session) -> None:
 
     with ui.element("div").classes("two"):
         with ui.element("section"):
-            with (
-                ui.element("div")
-                .classes("drop")
-                .props(
-                    f'tabindex=0 role="button" data-upload="/upload/{key}" aria-label="drop files with heights, or choose them"'
-                )
-            ):
-                ui.icon("upload_file").classes("drop-icon")
-                ui.label("Drop files with heights here, or press to choose")
-                ui.label(
-                    "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine"
-                ).classes("hint")
-                ui.label("").classes("drop-state").props('role="status"')
+            drop(
+                key,
+                "drop files with heights, or choose them",
+                "Drop files with heights here, or press to choose",
+                "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine",
+            )
             ui.on("asperity-uploaded", uploaded)
             kind = "file" if (session.draft.get(SURFACE) or {}).get("kind") == "file" else "made"
             ui.toggle({"file": "A file", "made": "A generator"}, value=kind, on_change=lambda e: choose(e.value)).props(
@@ -202,15 +195,14 @@ def prepare_page(key: str, session: Session) -> None:
     item = next(item for item in asked_of(FileSurface) if item.name == "prepare")
 
     def crop() -> None:
-        view = shown["after"].view or shown["before"].view
+        last, first = shown["after"].view, shown["before"].view
+        view = last or first
         if view is None:
             ui.notify("Draw a rectangle on one of the maps first.")
             return
-        x0, x1, y0, y1 = (f"{value * 1e6:.9g} um" for value in view)
+        x0, x1, y0, y1 = (f"{value * 1e6:.5g} um" for value in view)
         present = session.draft.get(SURFACE, "prepare") or []
-        at = next((n for n, step in enumerate(present) if step.get("step") != "level"), len(present))
-        if shown["after"].view is not None:
-            at = len(present)
+        at = len(present) if last is not None else 0  # a rectangle belongs to the surface that is shown
         step = {"step": "crop", "x": [x0, x1], "y": [y0, y1]}
         context.set((SURFACE, "prepare"), [*present[:at], step, *present[at:]])
         ui.navigate.reload()

@@ -9,6 +9,7 @@ from typing import Any
 
 from nicegui import ui
 
+from ..core.errors import AsperityError
 from ..core.settings import Settings
 from ..solids.library import liquids, materials
 from .draft import Keys, is_file
@@ -70,7 +71,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
     else:
         made = ui.input(
             item.label + (" *" if item.required else ""),
-            value=text_of(value),
+            value=item.text_of(value),
             placeholder=item.hint,
             validation=item.problem,
             on_change=lambda e: context.set(keys, (e.value or "").strip() or None),
@@ -85,7 +86,8 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
 def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
     """Choice of a name of the library, or of a file of the session."""
     named = not is_file(item.name)
-    options = {name: name for name in LIBRARIES[item.name]()} if named else dict(context.session.labels)
+    own = str(context.get((keys[0], "materials_file")) or "") or None
+    options = {name: name for name in LIBRARIES[item.name](own)} if named else dict(context.session.labels)
     if value and value not in options:
         options[value] = str(value)
     return ui.select(
@@ -98,23 +100,19 @@ def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
     )
 
 
-def _material_names() -> list[str]:
-    return [record.name for record in materials()]
+def _material_names(own: str | None) -> list[str]:
+    try:
+        return [record.name for record in materials(own)]
+    except AsperityError:
+        return [record.name for record in materials()]
 
 
-def _liquid_names() -> list[str]:
+def _liquid_names(own: str | None) -> list[str]:
     return [record.name for record in liquids()]
 
 
 LIBRARIES = MappingProxyType({"material": _material_names, "liquid": _liquid_names})
 """Names of the library for keys that take them."""
-
-
-def text_of(value: Any) -> str:
-    """Text of an entry that holds ``value``."""
-    if value is None:
-        return ""
-    return ", ".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
 
 
 def nested(context: Context, item: Asked, keys: Keys) -> None:

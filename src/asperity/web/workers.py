@@ -65,6 +65,14 @@ class Worker:
         self._cancelled = True
         self._kill()
 
+    async def end(self) -> None:
+        """Stop, and wait until the process is gone."""
+        process = self._process
+        self.cancel()
+        if process is not None:
+            await process.wait()
+            await asyncio.sleep(0)  # its pipes are closed in the next round of the loop
+
     def _kill(self) -> None:
         process, self._process = self._process, None
         if process is not None and process.returncode is None:
