@@ -573,16 +573,16 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
     engine, shape = operator.engine, operator.grid.shape
     scaled = ScaledOperator.of(operator, "float32", float(operator.kernel.max()) or 1.0)
     p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
-    survey = engine.survey(p, flat, flat, None)  # u = h: no point enters
-    free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 0.0, 1.0, scaled.dtype)
+    survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
+    free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
     if free.size == 0:
         return 0.0
     if free.size == operator.grid.n_points and operator.zero_mean_mode:
         return math.inf
-    unit, _ = free.gather(engine.array(np.ones(shape), scaled.dtype))
+    unit = free.residual(centred=False)
     found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=False), unit, _STIFFNESS_STOPPING)
     if not found.reached or found.d is None:
         return math.nan
     free.scatter(found.d, scaled.field)
-    _, total = free.gather(scaled.field)
+    total = free.gather_products(scaled.field, found.d, found.d, free.empty()).total
     return total / scaled.scale / operator.grid.n_points
