@@ -426,7 +426,7 @@ class Stopping(NamedTuple):
     """When to stop: at this ``reduction`` of the residual, or after ``max_steps``.
 
     It counts in the norm of the preconditioner, or in the plain one if that is the first to be reduced: it is known before
-    the next use of the preconditioner, a quarter of which are not needed then. FFT pairs with and without, cases as in
+    the next use of the preconditioner, a quarter of which are not needed then. FFT pairs with and without, cases much as in
     ``solver``: elastic 14.1 both, films 21.6 and 22.8, cap 15.9 and 16.0, free 44.1 and 43.3.
     """
 
