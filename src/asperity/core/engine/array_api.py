@@ -132,7 +132,8 @@ class _ArrayFreeSet:
         return vector
 
     def square(self, vector: Any) -> float:
-        return self.library.numbers([self._sum(vector * vector)])[0]
+        found = self.library.numbers([self._sum(vector * vector)])[0]
+        return found if math.isfinite(found) else math.nan
 
     def gather(self, values: Any) -> tuple[Any, float]:
         vector = self.library.select(self.inside, values)

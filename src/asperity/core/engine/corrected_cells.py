@@ -55,6 +55,7 @@ class CorrectedCells:
         """r - factor times the deflection of nested cells without coarse correction, which is near enough."""
         return self._cells.predicted_residual(free, r, loaded, change, factor)
 
+    @np.errstate(over="ignore", invalid="ignore")  # as in compiled passes: what is not finite shows in the solution
     def _deflect(self, span: tuple[int, int], free: FreeSet, r: RealArray) -> None:
         """Deflections of the finest cells of the hierarchies of the span."""
         cells, depth, last = self._cells, self._depth, len(self._cells.weights) - 1
@@ -73,9 +74,9 @@ class CorrectedCells:
             sweep((depth + 1, last, depth, 0))
             step = residual - s  # the direction t of the step over T
             np.multiply(unit, step, out=field)
-            gain = float(np.vdot(field, residual))
+            gain = float(np.vdot(field.astype(float), residual))
             self._products[number].apply(argument, response)
-            curvature = float(np.vdot(field, step + product))
+            curvature = float(np.vdot(field.astype(float), step + product))
             length = s.dtype.type(gain / curvature if curvature > 0.0 else 0.0)
             np.subtract(guess, length * step, out=s)
             sweep((depth + 1, depth, 1, 0))

@@ -133,7 +133,9 @@ class _CpuFreeSet:
         return vector.copy()
 
     def square(self, vector: RealArray) -> float:
-        return float(np.dot(vector, vector))
+        with np.errstate(over="ignore"):
+            found = float(np.dot(vector, vector))
+        return found if np.isfinite(found) else np.nan
 
     def gather(self, values: RealArray) -> tuple[RealArray, float]:
         out = np.empty(self.size, values.dtype)

@@ -151,7 +151,7 @@ class FreeSet(Protocol):
         """Copy of ``vector`` that may be overwritten."""
 
     def square(self, vector: Any) -> float:
-        """Sum of the squares of ``vector``."""
+        """Sum of the squares of ``vector``; NaN beyond the range of its precision."""
 
     def gather(self, values: Any) -> tuple[Any, float]:
         """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
