@@ -21,6 +21,7 @@ from .friction.rolling import CarterRolling, CreepForces, Fastsim, KalkerLinear,
 from .friction.sliding import SlidingCylinder, SlidingPunch
 from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
+from .hardness.cavities import ExpandingCavity, cavity_model, expanding_cavity
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr, StackHardness
 from .hardness.plasticity import (
     LeastArea,
@@ -104,6 +105,7 @@ from .subsurface.loads import (
     strip_pressure,
     strip_shear,
 )
+from .subsurface.shakedown import CylinderShakedown, LineShakedown, cylinder_shakedown, line_shakedown
 from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
@@ -132,6 +134,7 @@ __all__ = [
     "CreepForces",
     "CrossedWaves",
     "CylinderInHole",
+    "CylinderShakedown",
     "CylinderYield",
     "DiscreteSummits",
     "DropletMeniscus",
@@ -139,6 +142,7 @@ __all__ = [
     "ElasticPlasticSummits",
     "EllipticPunch",
     "Evaluation",
+    "ExpandingCavity",
     "ExponentialHeights",
     "Fastsim",
     "FilmMeniscus",
@@ -177,6 +181,7 @@ __all__ = [
     "Limit",
     "LineFlatPunch",
     "LinePowerLawIndenter",
+    "LineShakedown",
     "LubkinSphere",
     "MajumdarBhushan",
     "MaugisDugdale",
@@ -227,11 +232,14 @@ __all__ = [
     "YieldOnset",
     "belt_stick_slip",
     "boussinesq",
+    "cavity_model",
     "cerruti",
     "critical_interference",
     "critical_stiffness",
+    "cylinder_shakedown",
     "cylinder_yield_onset",
     "evaluate",
+    "expanding_cavity",
     "flamant_normal",
     "flamant_tangential",
     "flutter_friction",
@@ -244,6 +252,7 @@ __all__ = [
     "hertz_normal",
     "hertz_shear",
     "kalker_coefficients",
+    "line_shakedown",
     "maugis_pull_off",
     "nominal_interference",
     "plastic_area_share",
