@@ -374,13 +374,7 @@ def _notes(
         "the largest, of gaps the smallest, of heights the mean."
     ]
     for block in sorted({item.block for item in maps if item.block > 1}):
-        names = [
-            f"{item.title} ({REDUCED[entry['reduce']]})"
-            if entry["kind"] == "values"
-            else f"{item.title} (the last kind)"
-            for item, entry in zip(maps, described, strict=True)
-            if item.block == block
-        ]
+        names = [_coarse(item, entry) for item, entry in zip(maps, described, strict=True) if item.block == block]
         notes.append(
             f"Shown coarser than computed, to keep this page small: one value for each {block} × {block} points in {', '.join(names)}. "
             "Numbers and tables of this page are those of all points."
@@ -388,6 +382,15 @@ def _notes(
     if path is not None and 0 < len(steps) < len(path.steps):
         notes.append(f"The slider shows {len(steps)} of the {len(path.steps)} steps, evenly chosen.")
     return notes
+
+
+def _coarse(item: _Map, entry: dict[str, Any]) -> str:
+    """Title of a map that is shown coarser, what stands for a block of its points, and whether the last step is finer."""
+    how = REDUCED[entry["reduce"]] if entry["kind"] == "values" else "the kind that is last in its key"
+    last = item.blocks[-1]
+    if last < item.block:
+        how += ", in all steps but the last" + (f", which has one for each {last} × {last}" if last > 1 else "")
+    return f"{item.title} ({how})"
 
 
 def as_json(value: Any) -> str:

@@ -151,6 +151,13 @@ def test_arrays_take_no_more_than_the_budget(path: asp.HistoryResult) -> None:
         assert made is not None
         assert sum(len(array["data"]) for item in made["maps"] for array in item["arrays"]) <= budget
     assert any("Shown coarser" in note for note in made["notes"])
+    made = scene_of(outcome, budget=8000)
+    assert made is not None
+    for item in made["maps"]:
+        for array in item["arrays"][:-1] if item["along"] == "steps" else ():
+            coarser = array["cell"] > item["arrays"][-1]["cell"]
+            said = any(f"{item['title']} (" in note and "in all steps but the last" in note for note in made["notes"])
+            assert coarser <= said
 
 
 def test_a_scene_is_the_same_from_a_file(path: asp.HistoryResult, tmp_path: Path) -> None:

@@ -245,7 +245,7 @@ class Panel {
     make("h4", head, {}, map.title);
     this.said = make("output", head, { class: "av-value" }, ""); this.where = make("span", head, { class: "av-at" }, "");
     const stage = this.stage = make("div", box, { class: "av-stage" });
-    this.canvas = make("canvas", stage, { role: "img", tabindex: "0", "aria-label": `${map.alt} ${HELP}` });
+    this.canvas = make("canvas", stage, { role: "application", "aria-roledescription": "map", tabindex: "0", "aria-label": `${map.alt} ${HELP}` });
     this.over = make("canvas", stage, { class: "av-over", "aria-hidden": "true" });
     this.handles = [0, 1].map((end) => this.handle(stage, end));
     if (map.kind === "values") this.bar(box); else this.legend(box);
@@ -563,7 +563,7 @@ class Below {
     const box = this.box = make("div", null, { class: "av-panel av-below" }), head = make("div", box, { class: "av-head" });
     make("h4", head, {}, section.title);
     this.said = make("output", head, { class: "av-value" }, "");
-    this.canvas = make("canvas", box, { role: "img", tabindex: "0", "aria-label": `${section.alt} Arrow keys move the cross and read the value.` });
+    this.canvas = make("canvas", box, { role: "application", "aria-roledescription": "section", tabindex: "0", "aria-label": `${section.alt} Arrow keys move the cross and read the value.` });
     this.barCanvas = make("canvas", box, { "aria-hidden": "true" });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); this.point(this.axes.x(event.clientX - r.left), this.axes.y(event.clientY - r.top)); });
     this.canvas.addEventListener("pointerleave", (event) => { if (event.pointerType === "touch") return; this.at = null; this.said.textContent = ""; this.draw(); });
@@ -672,7 +672,7 @@ class Curve {
     const head = make("div", this.box, { class: "av-head" });
     make("h4", head, {}, panel.map.title);
     this.said = make("output", head, { class: "av-value" }, "");
-    this.canvas = make("canvas", this.box, { role: "img", tabindex: "0", "aria-label": `${panel.map.title} along the section line. Left and right arrow move along the line and read the value.` });
+    this.canvas = make("canvas", this.box, { role: "application", "aria-roledescription": "curve", tabindex: "0", "aria-label": `${panel.map.title} along the section line. Left and right arrow move along the line and read the value.` });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); viewer.go(this.axes.x(event.clientX - r.left)); });
     this.canvas.addEventListener("pointerleave", (event) => { if (event.pointerType !== "touch") viewer.leave(); });
     this.canvas.addEventListener("keydown", (event) => {
