@@ -164,7 +164,13 @@ def test_a_step_without_tangential_control_keeps_what_was_prescribed():
 def test_prescribed_forces_up_to_the_limit():
     problem = posed(counter_body=SOFT)
     limit = 0.1 * MU * problem.grid.area
-    for share in (0.99, 0.9999, 0.999999):  # few points stick, and they alone say how far the others have slipped
+    for share in (
+        0.99,
+        0.999,
+        0.9999,
+        0.99999,
+        0.999999,
+    ):  # few points stick, and they alone say how far the others have slipped
         near = solved(problem, asp.Step(LOAD, asp.TangentialForce(0.0, share * limit))).last.stick_slip
         assert near.force_y == pytest.approx(share * limit, rel=1e-10)
         assert near.duality_gap <= 1e-9
@@ -174,6 +180,29 @@ def test_prescribed_forces_up_to_the_limit():
     with pytest.raises(asp.NoSolutionError) as refused:
         solved(problem, asp.Step(LOAD, asp.TangentialForce(1.01 * limit)))
     assert "tangential force" in refused.value.subject
+
+
+@pytest.mark.parametrize(("seed", "points"), [(3, 48), (5, 24), (5, 48)])
+def test_forces_just_below_the_limit_settle(seed, points):
+    """Surfaces on which neither the mean residual of the few sticking points nor the duality gap alone finds the shift."""
+    problem = asp.ContactProblem(
+        rough((points, points), seed, power=1.6), SOFT, counter_body=SOFT, friction=asp.Coulomb(MU)
+    )
+    limit = 0.1 * MU * problem.grid.area
+    force = asp.TangentialForce(0.6 * 0.999 * limit, 0.8 * 0.999 * limit)
+    assert asp.solve(problem, asp.Step(LOAD, force)).stick_slip.duality_gap <= 1e-6
+
+
+def test_a_strength_that_begins_at_once_may_leave_no_solution():
+    """Unlike bodies pressed and shifted at once: most settle; where a point opens under its own shear, the message says so."""
+    settles = posed(friction=asp.TrescaFriction(0.03))
+    assert asp.solve(settles, asp.Step(LOAD, asp.Shift(2.0))).converged
+    has_none = posed(friction=asp.TrescaFriction(0.05))
+    result = asp.solve(has_none, asp.Step(LOAD, asp.Shift()), on_failure="return")
+    assert not result.converged
+    assert "1 point" in result.status.message
+    begins_at_zero = posed(friction=asp.Coulomb(10.0, limit=0.05))
+    assert asp.solve(begins_at_zero, asp.Step(LOAD, asp.Shift())).converged
 
 
 def test_a_map_of_friction_and_a_limit_bound_the_traction():

@@ -13,7 +13,7 @@ sampled finely enough that slip does not turn or reverse within a step.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from ...core.engine import CpuEngine
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.status import Outcome, Status
-from ..laws import Coulomb, FrictionLaw
+from ..laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from ..operators.tangential import TangentialOperator, slips_inside
 from ..problem import ContactProblem
 from ..solvers.protocol import FixedMean
@@ -53,6 +53,9 @@ _NORMAL = 0.03
 
 _GAIN = 0.5
 """Residual over that of the round before above which they are not solved for together again."""
+
+_RESTLESS = 3
+"""Openings and closings of a point in one step from which on it does so by turns."""
 
 _GROSS = 1.0 - 1e-9
 """Share of the largest friction force from which on a prescribed force slides everything."""
@@ -168,7 +171,7 @@ class _Note:
     """The step's beginning, and where its rounds are.
 
     ``traction`` (2, nx, ny) is the last one, of which ``slipping`` points are at their bound; ``solution`` that for the pressure
-    ``solved_for``; ``drawn`` the displacement by that pressure. ``joint``: pressure and traction may be solved for together.
+    ``solved_for``. ``joint``: pressure and traction may be solved for together. ``turns`` (nx, ny) is how often each point has opened or closed.
     """
 
     before: _Before
@@ -180,6 +183,8 @@ class _Note:
     joint: bool = True
     steps: int = 0
     pairs: float = 0.0
+    touching: BoolArray | None = None
+    turns: Any = None
 
     def with_solution(self, solution: TangentialSolution) -> _Note:
         """The same with a tangential ``solution``."""
@@ -190,8 +195,15 @@ class _Note:
             slipping=solution.slipping,
             solution=solution,
             solved_for=None,
+            steps=self.steps + solution.iterations,
             pairs=pairs,
         )
+
+    def touched(self, touching: BoolArray) -> _Note:
+        """The same after a round in which the points ``touching`` (nx, ny) touch."""
+        if self.touching is None:
+            return replace(self, touching=touching, turns=np.zeros(touching.shape, np.int64))
+        return replace(self, touching=touching, turns=self.turns + (touching != self.touching))
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +216,18 @@ class StickSlipCoupling(Coupling):
     feedback: bool = True
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "stick_slip"
-    remedy: ClassVar[str] = "Take smaller steps, tighten the solver's tolerance, or lower the friction coefficient."
+
+    @property
+    def remedy(self) -> str:
+        """What to do if it does not settle."""
+        if self._jumps:
+            return "Take Coulomb(mu, limit=strength) with a large mu, whose bound begins at zero, or a finer grid."
+        return "Take smaller steps, tighten the solver's tolerance, or lower the friction coefficient."
+
+    @property
+    def _jumps(self) -> bool:
+        """Whether a point bears shear as soon as it touches."""
+        return isinstance(self.law, TrescaFriction | FullStick)
 
     @classmethod
     def prepared(cls, problem: ContactProblem, tolerance: float, threads: int | None) -> Self:
@@ -263,8 +286,8 @@ class StickSlipCoupling(Coupling):
         """The displacement by the shear traction that ``contact`` bears."""
         if not self.feedback:
             return exchange
-        note: _Note = exchange.note
-        exchange = replace(exchange, pressure=None)
+        note: _Note = exchange.note.touched(contact.touching)
+        exchange = replace(exchange, pressure=None, note=note)
         posed = self._posed_together(exchange, contact)
         if posed is not None and note.traction is None:
             return self._together(exchange, posed, contact, note.before.traction)
@@ -361,8 +384,15 @@ class StickSlipCoupling(Coupling):
         return "The displacement by shear is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
-        """The change of the displacement."""
-        return f"The normal displacement by the shear of stick and slip still changes by {exchange.residual:.1e}"
+        """The change of the displacement, and which points open and close by turns where the bound jumps."""
+        text = f"The normal displacement by the shear of stick and slip still changes by {exchange.residual:.1e}"
+        turns = exchange.note.turns
+        restless = 0 if turns is None else int(np.count_nonzero(turns >= _RESTLESS))
+        if not self._jumps or not restless:
+            return text
+        which = "1 point, which opens and closes" if restless == 1 else f"{restless} points, which open and close"
+        why = "it bears its whole shear strength as soon as it touches, and that shear opens it: between the two this law has no solution"
+        return f"{text} because of {which} by turns ({why})"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, StickSlip]:
         """Memory of tractions, slip, shift and work; shear and slip of the step.

@@ -263,13 +263,13 @@ def free_part(slip: BoolArray, tangent: RealArray, values: RealArray) -> RealArr
     return np.where(slip, tangent * np.einsum("ij,ij->j", values, tangent), values)
 
 
-def best_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
+def best_shift(points: Points, traction: RealArray, residual: RealArray, *, by_few: bool = False) -> RealArray:
     """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound.
 
-    Where hardly any point has room, the one that makes the duality gap smallest.
+    Where hardly any point has room, the one that makes the duality gap smallest; unless it is to follow ``by_few``, if there are any.
     """
     inside = size_of(traction) < points.bound * AT_BOUND
-    if np.count_nonzero(inside) <= _FEW * inside.size:
+    if np.count_nonzero(inside) <= (0.0 if by_few else _FEW) * inside.size:
         return _median_shift(points, traction, residual)
     room = np.where(np.isfinite(points.bound), points.bound - size_of(traction), 1.0)
     weight = np.where(inside, room, 0.0)
