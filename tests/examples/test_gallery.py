@@ -177,6 +177,19 @@ def test_fretting_loop():
     assert 3.1 > left.exponents[0] > left.exponents[1] > 1.0
 
 
+@pytest.mark.slow
+def test_pull_off_of_a_rough_surface():
+    """The work of the closed cycle is what was lost; the stiff pad jumps less, loses less and holds less than the soft one."""
+    left = run("intermediate/plot_7_pull_off_of_a_rough_surface")
+    soft, stiff = left.loops.values()
+    assert soft.work[-1] == pytest.approx(soft.hysteresis, rel=1e-3)
+    assert soft.jumped.any()
+    assert not stiff.jumped.any()
+    assert soft.hysteresis > 100.0 * abs(stiff.hysteresis)
+    assert soft.pull_off_force > stiff.pull_off_force
+    assert all(history.last.adhesion.resolved for history in left.histories.values())
+
+
 def test_wet_and_sliding():
     """Friction resists load and menisci: μ_s = μ (1 + F/W); both fall towards the dry values as the load grows."""
     left = run("intermediate/plot_5_wet_and_sliding")
