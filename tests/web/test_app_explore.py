@@ -155,6 +155,21 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
 
 
 @pytest.mark.slow
+def test_a_phone_shows_what_was_solved_without_scrolling_sideways(
+    app: AppServer, open_page: Callable[..., Any]
+) -> None:
+    page = open_page(app.address, viewport={"width": 390, "height": 800}).page
+    page.wait_for_url("**/s/**")
+    base = page.url.rsplit("/", 1)[0]
+    page.goto(f"{base}/explore")
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.goto(f"{base}/sweep")
+    page.wait_for_selector("[data-sweep]")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@pytest.mark.slow
 def test_curves_of_a_sweep(app: AppServer, open_page: Callable[..., Any]) -> None:
     page = opened(app, open_page, "sweep")
     page.wait_for_selector("[data-sweep]")
