@@ -5,6 +5,10 @@ slipping ones, solves the linear system of ``linear_system`` to a modest accurac
 circles and puts sticking ones that went beyond their bound back on it (Alart & Curnier 1991, with the active sets of the normal
 solver). The energy falls in every step: one that would raise it is halved, and at last replaced by one along the projected
 gradient. First guesses come from coarser grids.
+
+Behind some constants stand FFT pairs for other values: means on self-affine surfaces of two seeds, 256², load 0.05 E*, tolerance 1e-6. *Force*: equal
+bodies of ν = 0.3 at 0.5 and 0.9 of the limit; *shift*: a prescribed one; *coated*: both on a layer of E 4, h 4 pixels; *field*: slip in all
+directions at once. The constants as they are take 48, 58, 61 and 85 pairs.
 """
 
 from __future__ import annotations
@@ -33,9 +37,10 @@ _REDUCTION = 0.3
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 12
 """Products with the compliance in one system, at most, while sets change, and on settled ones: doubled whenever the error does not fall to
-a half, as with slip in all directions at once, which the preconditioner is not made for."""
+a half. Pairs for 2, 4, 6 while sets change the same as for 3; for 6 on settled ones force 46, shift 54, coated 57, field 79; for 24 as for 12."""
 
 _MOST_DOUBLINGS = 5
+"""Doublings of these products at most. Pairs for 0, 2, 8: the same; no case of the sweep needs one."""
 
 _MARGIN = 0.3
 """Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first powers of the residual, which is
@@ -54,6 +59,8 @@ _SLOW = 0.5
 """Error over the lowest so far above which rounding of the updates may be the reason."""
 
 _HALVINGS = 5
+"""Lengths of a step that are tried before one along the projected gradient takes its place. Pairs for 1, 3, 8: the same; just below the limit of
+friction steps get there."""
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 """Rise of the energy, over the work of the slip, that is rounding of the sums."""
