@@ -190,6 +190,16 @@ def test_pull_off_of_a_rough_surface():
     assert all(history.last.adhesion.resolved for history in left.histories.values())
 
 
+def test_rough_wheel():
+    """Carter's curve; the soft layer bends the curve of the plain rollers down; roughness hardly changes the force."""
+    left = run("intermediate/plot_8_rough_wheel")
+    limit = left.plain.friction_limit
+    assert left.plain.longitudinal_force == pytest.approx(left.carter.force_x, abs=0.01 * limit)
+    assert np.all(left.layered.longitudinal_force[:4] < left.plain.longitudinal_force[:4])
+    assert 0.4 < left.share < 0.8
+    assert left.mean == pytest.approx(left.plain.longitudinal_force[2], rel=0.03)
+
+
 def test_wet_and_sliding():
     """Friction resists load and menisci: μ_s = μ (1 + F/W); both fall towards the dry values as the load grows."""
     left = run("intermediate/plot_5_wet_and_sliding")

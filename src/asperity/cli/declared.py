@@ -191,7 +191,7 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
         if name not in known:
             raise InputError(f"--with must be one of {', '.join(known)}, but is {name!r}.")
         made.setdefault(name, {})
-    if "friction" in chosen and not {"film", "shear", "dynamics"} & made.keys():
+    if "friction" in chosen and not {"film", "shear", "dynamics", "rolling"} & made.keys():
         made.setdefault("stress", {})
     return made
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +22,7 @@ from .boundary import FreeLine, Periodic
 from .laws import Coulomb
 from .problem import ContactProblem, Control
 from .rolling import DIRECTIONS, Creepage, Rolling, RollingContact, roll
-from .rough_rolling import roll_rough
+from .rough_rolling import RoughRolling, roll_rough
 
 if TYPE_CHECKING:
     import xarray
@@ -169,11 +168,12 @@ def creep_curve(
         creepage = Creepage(float(x), float(y), float(phi))
         if roughness is None:
             before = roll(problem, control, creepage, direction=direction, tolerance=tolerance, start=before)
-            rows.append((*_forces(before), 0.0))
+            rows.append(mean_forces(before, None))
         else:
-            options = {"distance": distance, "direction": direction, "tolerance": tolerance}
-            before, row = _rough(problem, control, creepage, roughness, options)
-            rows.append(row)
+            options: Any = {"distance": distance, "direction": direction, "tolerance": tolerance}
+            rough = roll_rough(problem, control, creepage, roughness, **options)
+            before = rough.last
+            rows.append(mean_forces(before, rough))
         first = first or before
         progress.update(number, 1.0 - number / len(at[0]), 0.0)
     assert first is not None
@@ -195,22 +195,17 @@ def _points(*creepages: ArrayLike) -> tuple[RealArray, ...]:
     return tuple(np.array(part) for part in at)
 
 
-def _forces(found: RollingContact) -> tuple[float, ...]:
-    """``FORCES`` of a smooth wheel, but for the deviation."""
-    return found.longitudinal_force, found.lateral_force, found.torque, found.slip_area_fraction, found.dissipated
-
-
-def _rough(
-    problem: ContactProblem, control: Control, creepage: Creepage, roughness: Surface, options: Mapping[str, Any]
-) -> tuple[RollingContact, tuple[float, ...]]:
-    """The contact after the last move of a rough wheel, and ``FORCES``."""
-    found = roll_rough(problem, control, creepage, roughness, **options)
-    axis = DIRECTIONS[found.last.direction]
-    x, y = found.mean("force_x"), found.mean("force_y")
+def mean_forces(found: RollingContact, rough: RoughRolling | None) -> tuple[float, ...]:
+    """``FORCES`` of the contact ``found``: its own, or means over the distance of the ``rough`` wheel of which it is the last."""
+    if rough is None:
+        forces = (found.longitudinal_force, found.lateral_force, found.torque)
+        return (*forces, found.slip_area_fraction, found.dissipated, 0.0)
+    axis = DIRECTIONS[found.direction]
+    x, y = rough.mean("force_x"), rough.mean("force_y")
     along, across = (x, y) if axis.axis == 0 else (y, -x)
-    deviation = found.deviation("force_x" if axis.axis == 0 else "force_y")
-    others = (found.mean(name) for name in ("torque", "slip_area_fraction", "dissipated"))
-    return found.last, (axis.sign * along, axis.sign * across, *others, deviation)
+    deviation = rough.deviation("force_x" if axis.axis == 0 else "force_y")
+    others = (rough.mean(name) for name in ("torque", "slip_area_fraction", "dissipated"))
+    return (axis.sign * along, axis.sign * across, *others, deviation)
 
 
 # Theories of smooth wheels beside it.
@@ -233,7 +228,8 @@ def theories_of(found: RollingContact, *, plain: bool) -> tuple[str, ...]:
     """Names of the theories that know the contact ``found``: equal, homogeneous bodies under one coefficient of friction on an ellipse, or on a line under
     ``plain`` longitudinal creepage."""
     problem, law = found.normal.problem, found.law
-    equal = isinstance(problem.body, Elastic) and problem.body == problem.counter_body
+    pair = [body for body in (problem.body, problem.counter_body) if isinstance(body, Elastic)]
+    equal = len({(body.youngs_modulus, body.poisson_ratio) for body in pair}) == 1 and len(pair) == 2
     coulomb = isinstance(law, Coulomb) and not np.ndim(law.coefficient) and math.isinf(law.limit)
     if not equal or not coulomb or not found.normal.contact.any() or isinstance(problem.boundary, Periodic):
         return ()
@@ -242,8 +238,7 @@ def theories_of(found: RollingContact, *, plain: bool) -> tuple[str, ...]:
     a, b = semi_axes(found)
     area = np.count_nonzero(found.normal.contact) * problem.grid.pixel_area
     ellipse = abs(area / (math.pi * a * b) - 1.0) <= _ELLIPSE and SMALLEST_RATIO <= a / b <= LARGEST_RATIO
-    known = 0.0 <= problem.body.poisson_ratio <= 0.5 if isinstance(problem.body, Elastic) else False
-    return ("fastsim", "linear") if ellipse and known else ()
+    return ("fastsim", "linear") if ellipse and 0.0 <= pair[0].poisson_ratio <= 0.5 else ()
 
 
 def theory_forces(name: str, found: RollingContact, at: tuple[RealArray, RealArray, RealArray]) -> CreepForces:

@@ -219,8 +219,7 @@ def roll(
     ConvergenceError
         If traction or pressure do not come to rest.
     """
-    friction = rolling_friction(problem)
-    require.one_of(direction, DIRECTIONS, "direction of rolling")
+    friction = require_rolling(problem, creepage, direction)
     require.one_of(method, METHODS, "method of rolling")
     require.positive(tolerance, "tolerance of rolling")
     require.integer(rounds, 1, "number of rounds")
@@ -277,8 +276,9 @@ def _balanced(
     return _Balance(normal, qp, found, total, change, found.settled and (change <= tolerance or not coupled))
 
 
-def rolling_friction(problem: ContactProblem) -> FrictionLaw:
-    """Friction law of a ``problem`` that can roll; InputError for one that cannot."""
+def require_rolling(problem: ContactProblem, creepage: Creepage, direction: Rolling) -> FrictionLaw:
+    """Friction law of a ``problem`` that can roll in this ``direction``; InputError for one that cannot."""
+    require.one_of(direction, DIRECTIONS, "direction of rolling")
     if problem.friction is None:
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
     if problem.film is not None:
@@ -286,6 +286,12 @@ def rolling_friction(problem: ContactProblem) -> FrictionLaw:
     if not isinstance(problem.law, HardWall):
         raise InputError(
             f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not stay in the contact."
+        )
+    if problem.grid.shape[DIRECTIONS[direction].axis] < 2:
+        raise InputError(f"direction of rolling must lead across the line contact, but is {direction}. Choose x or -x.")
+    if creepage.spin and any(problem.boundary.wraps):
+        raise InputError(
+            f"spin must be zero for the boundary {problem.boundary.name}, where the contact repeats, but is {creepage.spin:g}. Choose Free()."
         )
     return problem.friction
 
@@ -305,14 +311,6 @@ class RollingBodies:
     def of(cls, problem: ContactProblem, creepage: Creepage, direction: Rolling) -> RollingBodies:
         """Prepared for ``problem``."""
         grid, axis = problem.grid, DIRECTIONS[direction]
-        if grid.shape[axis.axis] < 2:
-            raise InputError(
-                f"direction of rolling must lead across the line contact, but is {direction}. Choose x or -x."
-            )
-        if creepage.spin and any(problem.boundary.wraps):
-            raise InputError(
-                f"spin must be zero for the boundary {problem.boundary.name}, where the contact repeats, but is {creepage.spin:g}. Choose Free()."
-            )
         x, y = about_centre(grid)
         along_x, along_y = creepage.along_axes(axis)
         rigid = np.empty((2, *grid.shape))

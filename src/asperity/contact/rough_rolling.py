@@ -21,7 +21,7 @@ from ..surfaces.surface import Surface
 from .laws import FrictionLaw
 from .problem import ContactProblem, Control
 from .result import ContactResult
-from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, rolling_friction
+from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling
 from .solvers.stick_slip.newton import StickSlipNewton
 from .state import InterfaceState
 from .tangential import resultant
@@ -167,8 +167,7 @@ def roll_rough(
     ConvergenceError
         If a move is not solved.
     """
-    friction = rolling_friction(problem)
-    require.one_of(direction, DIRECTIONS, "direction of rolling")
+    friction = require_rolling(problem, creepage, direction)
     require.positive(tolerance, "tolerance of rolling")
     require.integer(rounds, 1, "number of rounds")
     bodies = RollingBodies.of(problem, creepage, direction)

@@ -99,9 +99,16 @@ def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulom
 
 
 def sticks(document: Any) -> bool:
-    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's."""
+    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's; not where they roll."""
     table: FrictionSettings = document.friction
+    if rolls(document):
+        return False
     return document.shear is not None or table.law != "coulomb" or table.limit is not None
+
+
+def rolls(document: Any) -> bool:
+    """Whether the friction of a ``document`` is that of its table [rolling]."""
+    return getattr(document, "rolling", None) is not None
 
 
 class Friction(Part):
@@ -116,6 +123,8 @@ class Friction(Part):
     def asked(self, document: Any, folder: Path) -> FrictionLaw | None:
         """The law, where the friction takes part in the solve."""
         table: FrictionSettings = document.friction
+        if rolls(document):
+            return None
         sheared = sticks(document)
         return friction_law(table, sheared=sheared) if sheared or (table.coupled and table.coefficient) else None
 

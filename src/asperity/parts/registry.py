@@ -13,6 +13,7 @@ from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .dynamics import Dynamics
 from .film import Friction, Menisci, WetTheory
 from .part import Part
+from .rolling import Rolling
 from .stick_slip import StickSlip
 from .stress import Stress, Yielding
 
@@ -23,6 +24,7 @@ BUILT_IN: tuple[Part, ...] = (
     Contact(),
     Friction(),
     StickSlip(),
+    Rolling(),
     Menisci(),
     WetTheory(),
     Adhesion(),
