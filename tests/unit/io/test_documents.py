@@ -396,6 +396,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         *ProblemDocument.model_fields,
         "friction",
         "shear",
+        "rolling",
         "film",
         "stress",
         "plastic_load",
