@@ -119,5 +119,7 @@ def test_rolling_is_refused_where_it_makes_no_sense():
     ball, load = wheel()
     with refused(asp.InputError, "spin"):
         asp.roll(replace(ball, boundary=asp.Periodic()), load, asp.Creepage(0.0, 0.0, 1e-3))
+    with refused(asp.InputError, "adhesion of a rolling contact"):
+        asp.roll(replace(ball, adhesion=asp.ExponentialAdhesion(1e-3, 1e-3)), load, asp.Creepage(1e-3))
     with refused(asp.InputError, "law of a rolling contact"):
         asp.roll(replace(ball, law=asp.Hardness(1.0)), load, asp.Creepage(1e-3))

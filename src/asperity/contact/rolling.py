@@ -194,7 +194,7 @@ def roll(
     Parameters
     ----------
     problem
-        A contact with a friction law, without film and hardness. Where it repeats along the rolling direction, its surfaces must part somewhere in each row.
+        A contact with a friction law, without film, adhesion and hardness. Where it repeats along the rolling direction, its surfaces must part somewhere in each row.
     control
         ``Force``, ``MeanPressure``, ``Approach`` or ``MeanGap``.
     creepage
@@ -215,7 +215,7 @@ def roll(
     Raises
     ------
     InputError
-        If the problem has no friction, a film, a hardness or a layer that slips, or touches all along a row.
+        If the problem has no friction, a film, adhesion, a hardness or a layer that slips, or touches all along a row.
     ConvergenceError
         If traction or pressure do not come to rest.
     """
@@ -283,6 +283,10 @@ def require_rolling(problem: ContactProblem, creepage: Creepage, direction: Roll
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
     if problem.film is not None:
         raise InputError("film of a rolling contact must be None: menisci of moving surfaces are not steady.")
+    if problem.adhesion is not None:
+        raise InputError(
+            f"adhesion of a rolling contact must be None, but is {problem.adhesion!r}: edges that open and close would take their own energy."
+        )
     if not isinstance(problem.law, HardWall):
         raise InputError(
             f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not stay in the contact."

@@ -396,6 +396,8 @@ def test_schema_is_json_and_names_every_table() -> None:
         *ProblemDocument.model_fields,
         "friction",
         "shear",
+        "adhesion",
+        "dynamics",
         "rolling",
         "film",
         "stress",
