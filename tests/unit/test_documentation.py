@@ -253,12 +253,9 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     scan = asp.generate.gaussian(asp.Grid((24, 24), (40e-9, 40e-9)), waves, seed=5)
     asp.save_surface(scan, "scan.nc")
     page, names = ROOT / "docs/how-to/stick-slip.md", {"scan": scan}
-    code, rolling = blocks(page, "python")
+    (code,) = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
     assert names["found"].dissipated > 0.0
-    rolled = {}
-    exec(compile(rolling.replace("64)", "24)"), page.name, "exec"), rolled)  # noqa: S102 - the same on a coarser grid
-    assert 0.3 < rolled["found"].force_x / rolled["found"].friction_limit < 0.5
     capsys.readouterr()
     for line in commands(page):
         result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
@@ -272,6 +269,25 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     assert len(outcome.path.steps) == 4
     assert outcome.values["force_x"] == pytest.approx(0.1e-6, rel=1e-4)
     assert outcome.values["mean_pressure"] == pytest.approx(40e6)
+
+
+def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
+    """Python and the commands of the page, on coarser grids."""
+    monkeypatch.chdir(tmp_path)
+    page, names = ROOT / "docs/how-to/rolling.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code.replace("64)", "24)"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert 0.3 < names["found"].force_x / names["found"].friction_limit < 0.5
+    assert names["curve"].theories == ()
+    capsys.readouterr()
+    for line in commands(page):
+        shorter = line.replace("--points 64", "--points 32").replace("--creep-points 8", "--creep-points 2")
+        result = CliRunner().invoke(app, shlex.split(shorter)[1:])
+        assert result.exit_code == 0, result.output
+    saved = asp.open_tree("run/result.nc")["rolling"]
+    assert float(saved["fastsim_longitudinal_force"]) == pytest.approx(
+        float(saved["rolling_longitudinal_force"]), rel=0.1
+    )
 
 
 def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch):
