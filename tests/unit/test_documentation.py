@@ -280,9 +280,10 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
     assert 0.3 < names["found"].force_x / names["found"].friction_limit < 0.5
     assert names["curve"].theories == ()
     capsys.readouterr()
-    for line in commands(page):
+    (block,) = blocks(page, "console")
+    for line in block.splitlines():
         shorter = line.replace("--points 64", "--points 32").replace("--creep-points 8", "--creep-points 2")
-        result = CliRunner().invoke(app, shlex.split(shorter)[1:])
+        result = CliRunner().invoke(app, shlex.split(shorter.removeprefix("$ "))[1:])
         assert result.exit_code == 0, result.output
     saved = asp.open_tree("run/result.nc")["rolling"]
     assert float(saved["fastsim_longitudinal_force"]) == pytest.approx(
