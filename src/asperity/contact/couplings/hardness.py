@@ -6,8 +6,12 @@ any size ends in agreement, and steps are needed only for loads that go up and d
 
 With a constant hardness this takes one round. A hardness that changes with depth is itself the unknown; it starts at the
 indentation so far. Where the solid softens with depth (hard film), limits fall and the indentation grows from round to
-round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. A point that
-yields by the error of a normal solve stays indented, so all of them are solved to the full tolerance.
+round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. Where limits fall
+so steeply that a pixel may come to rest at several depths, one that yields by the error of a normal solve stays indented, so all
+solves are to the full tolerance. Where they fall gently, solves follow the residual, and limits are foreseen: a point sinks by
+some compliance times the fall of its limit, at least twice its own since the points around it give way as well, later as much as it
+did in the last round. On self-affine surfaces of 512² points, with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, this and
+starts in which yielding points go along with their limits take 6.1 times the FFT pairs of elastic contact instead of 12.9.
 
 Where the solid hardens (soft film) there is only one answer. A pixel whose limit rises springs back by its own compliance c,
 along the line p + w/c = y, which crosses the curve p = H(w) once: the place y of that crossing is the unknown, extrapolated
@@ -51,6 +55,19 @@ _CHANGING = 0.1
 _FINAL = 1e-11
 """Error of the last normal solve where depths are prescribed: of the pressures there, which go with its root, it is 3e-6."""
 
+_SINKING = 2.0
+"""Compliance by which a yielding point sinks over that of its pixel alone, at least. Pairs over those of elastic contact, 512² as above,
+for this alone: 8.1; together with the compliance of the last round: 6.1; with 0.6 of that, 6.4."""
+
+_GENTLE = 0.6
+"""Slope -H'(w) times such a compliance, at most: from one on there is no depth at which the point would come to rest."""
+
+_RESOLVED_FALL = 1e-7
+"""Fall of a limit, relative to the pressure, from which it tells by what compliance the point sank."""
+
+_FALL = 0.6
+"""Factor by which residuals of softening films at best fall from round to round."""
+
 _MORE_DEPTHS = tuple(10.0**power for power in range(-12, 7))
 
 
@@ -79,12 +96,14 @@ def _after(law: InterfaceLaw, note: _Note, contact: Contact) -> Memory:
 class _Note:
     """Indentation before the step (nx, ny) in m, its memory, the last unknown (nx, ny) in Pa whose limits bore the load, and whether
     some did not: then depths are prescribed everywhere, for where all points yield limits alone do not determine the contact.
+    Limits (Pa) and depths (m) of the last round.
     """
 
     before: RealArray
     memory: Memory
     bearing: RealArray | None = None
     weak: bool = False
+    last: tuple[RealArray, RealArray] | None = None
 
 
 @dataclass(frozen=True)
@@ -115,13 +134,15 @@ class DepthHardness(Coupling):
     """Limit of the pressure that follows the indentation reached.
 
     The unknown (nx, ny) in Pa is the place H(w) + w/c where the solid hardens, else the limit itself. ``own_compliance`` c is the
-    displacement (m) of a pixel by one Pa on it alone, ``deepest`` (m) where the limit no longer changes.
+    displacement (m) of a pixel by one Pa on it alone, ``deepest`` (m) where the limit no longer changes, ``fall`` (Pa/m) the steepest
+    fall of the limit with depth.
     """
 
     law: LimitByDepth
     own_compliance: float = field(repr=False)
     deepest: float = field(repr=False)
     tolerance: float = TOLERANCE
+    fall: float = field(default=np.inf, repr=False)
     name: ClassVar[str] = "hardness"
     feedback: ClassVar[bool] = True
     remedy: ClassVar[str] = (
@@ -137,14 +158,21 @@ class DepthHardness(Coupling):
         limits = np.asarray(law.cap_at(depths))
         changing = np.flatnonzero(np.abs(limits - limits[0, -1]) > _CHANGING * tolerance * limits[0, -1])
         deepest = float(depths[0, min(changing[-1] + 1, depths.size - 1)]) if changing.size else 0.0
-        return cls(law, float(operator.apply(unit)[0, 0]), deepest, tolerance)
+        fine = np.geomspace(_MORE_DEPTHS[0], _MORE_DEPTHS[-1], 20 * len(_MORE_DEPTHS))
+        slopes = np.diff(np.asarray(law.cap_at(fine[None])).ravel()) / np.diff(fine)
+        return cls(law, float(operator.apply(unit)[0, 0]), deepest, tolerance, max(0.0, -float(slopes.min())))
+
+    @property
+    def _gentle(self) -> bool:
+        """Whether a pixel can come to rest at one depth only."""
+        return self.fall * _SINKING * self.own_compliance <= _GENTLE
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The limit at the indentation so far."""
         before = _before(posed, memory)
         x = self._place(before)
         note = _Note(before, memory)
-        return Exchange(x, x, np.inf, self.tolerance, exact=True, lowest=x, note=note)
+        return Exchange(x, x, np.inf, self.tolerance, exact=not self._gentle, lowest=x, note=note)
 
     def share(self, exchange: Exchange) -> Share:
         """The limit, or the indentation that goes with it where the limit is steep; the indentation before the step as a lift."""
@@ -167,15 +195,38 @@ class DepthHardness(Coupling):
         place, highest = contact.pressure + reached / self.own_compliance, self._place(np.maximum(before, self.deepest))
         return replace(
             exchange,
-            target=np.clip(place, exchange.lowest, highest) if smooth else limit,
+            target=np.clip(place, exchange.lowest, highest)
+            if smooth
+            else self._foreseen(exchange, contact, reached, limit),
             final=_FINAL if np.any(contact.indentation) else np.inf,
             residual=self._disagreement(exchange.note, contact, reached),
             smooth=smooth,
-            exact=not smooth,
+            exact=not smooth and not self._gentle,
+            slowest=0.0 if smooth else _FALL,
             scale=float(np.linalg.norm(exchange.x)),
             lowest=exchange.lowest if smooth else 0.0,
-            note=replace(exchange.note, bearing=exchange.x),
+            note=replace(exchange.note, bearing=exchange.x, last=(exchange.x, reached)),
         )
+
+    def _foreseen(self, exchange: Exchange, contact: Contact, reached: RealArray, limit: RealArray) -> RealArray:
+        """The ``limit`` at the depth ``reached``; if it falls gently, at that to which points sink while their pressure follows it."""
+        sinking, note = contact.pressure > limit, exchange.note
+        if not (self._gentle and sinking.any()):
+            return limit
+        first, pressure = reached[sinking], contact.pressure[sinking]
+        compliance = np.full(first.shape, _SINKING * self.own_compliance)
+        if note.last is not None:
+            fell, sank = (note.last[0] - exchange.x)[sinking], (reached - note.last[1])[sinking]
+            known = (fell > _RESOLVED_FALL * pressure) & (note.last[1] > note.before)[sinking]
+            compliance[known] = np.clip(
+                sank[known] / fell[known], compliance[known], _GENTLE / max(self.fall, np.finfo(float).tiny)
+            )
+        depth = first
+        for _ in range(_HALVINGS):
+            depth = first + compliance * np.maximum(pressure - self.law.cap_at(depth), 0.0)
+        foreseen = limit.copy()
+        foreseen[sinking] = self.law.cap_at(depth)
+        return foreseen
 
     def _place(self, depth: RealArray) -> RealArray:
         """y (nx, ny) in Pa of a depth (nx, ny) in m."""

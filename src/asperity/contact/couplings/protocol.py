@@ -186,6 +186,8 @@ class Exchange:
         Largest error of the last normal solve.
     exact
         Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
+    slowest
+        Factor by which the residual is at best expected to fall in the next round; what has been observed counts where it is larger.
     stuck
         Whether no unknown can be right, so that it must be given up.
     pressure
@@ -205,6 +207,7 @@ class Exchange:
     accuracy: float = np.inf
     final: float = np.inf
     exact: bool = False
+    slowest: float = 0.0
     stuck: bool = False
     pressure: RealArray | None = None
     note: Any = None
