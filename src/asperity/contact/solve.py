@@ -214,7 +214,6 @@ class Prepared:
             _require_no_shear(self.couplings)
             self.remembering, self.operators = remembering(creep, self.operator), OperatorsInTime(creep, self.operator)
             self.couplings = (*self.couplings, CreepCoupling())
-        self._known: list[tuple[RealArray, RealArray]] = []  # the last pressures of steps, and their deflections
 
     def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
         """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter."""
@@ -239,17 +238,9 @@ class Prepared:
         lift: RealArray | float = 0.0
         if retarded is not None:
             dented, lift = dented - retarded, retarded
-        deflections = self._deflections(earlier, start) if operator is self.operator else None
-        posed = Posed(
-            operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift, deflections
-        )
+        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift)
         memories = {} if state is None else state.memory
         return settle(posed, self.couplings, memories, self.solver, rounds=self.rounds, progress=self.progress)
-
-    def _deflections(self, *pressures: RealArray | None) -> tuple[RealArray, RealArray] | None:
-        """Those by two ``pressures``, if they are the last of steps."""
-        same = [mine is p for (mine, _), p in zip(self._known, pressures, strict=False)]
-        return (self._known[0][1], self._known[1][1]) if same == [True, True] else None
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""
@@ -257,9 +248,7 @@ class Prepared:
         if self.remembering is not None:
             return InTime(self, self.remembering).step(step, state)
         settled = self.settled(step, state)
-        result = self.result(settled, state, time.perf_counter() - started)
-        self._known = [*self._known[-1:], (result.pressure, settled.contact.solution.state.deflection)]
-        return result
+        return self.result(settled, state, time.perf_counter() - started)
 
     def result(
         self,

@@ -20,7 +20,7 @@ import asperity as asp
 from asperity.contact.operators import Operator
 from asperity.contact.solve import steps
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean
-from asperity.contact.solvers.protocol import KnownStart, SolverState
+from asperity.contact.solvers.protocol import SolverState
 from asperity.core.arrays import RealArray
 
 SOLVER = ActiveSet(tolerance=1e-10)
@@ -294,29 +294,3 @@ def test_the_examples_of_the_guide() -> None:
     assert path.plastic_work[:10].sum() > 0.0
     assert path.plastic_work[10:].sum() <= 0.02 * path.plastic_work[:10].sum()
     np.testing.assert_allclose(names["areas"], path.area_fraction_corrected[:10], rtol=1e-3)
-
-
-def test_deflections_go_on_with_the_pressures_along_a_leg(monkeypatch: pytest.MonkeyPatch) -> None:
-    """K (p + r (p - p')) needs no product; at the turn of the leg, where points lose their pressure, it is computed."""
-    loads = (0.03, 0.05, 0.07, 0.10, 0.06)
-    started: list[KnownStart] = []
-    given = ActiveSet.resumed
-
-    def resumed(self: ActiveSet, qp: ContactQP, start: KnownStart) -> SolverState | None:
-        deflection = qp.operator.apply(start.pressure)
-        np.testing.assert_allclose(start.deflection, deflection, atol=1e-13 * float(deflection.max()))
-        assert start.pressure.mean() == pytest.approx(qp.constraint.mean_pressure, rel=1e-13)  # type: ignore[union-attr]
-        started.append(start)
-        return given(self, qp, start)
-
-    monkeypatch.setattr(ActiveSet, "resumed", resumed)
-    path = asp.solve(problem(), asp.History(pressures(loads)), solver=SOLVER)
-    assert len(started) == 2, "two loads and one direction come before"
-    monkeypatch.setattr(ActiveSet, "resumed", lambda self, qp, start: None)
-    plain = asp.solve(problem(), asp.History(pressures(loads)), solver=SOLVER)
-    for one, other in zip(path.steps, plain.steps, strict=True):
-        distance, bound = energy_distance(one, other)
-        assert distance <= bound
-    saved = [b.certificate.fft_pairs - a.certificate.fft_pairs for a, b in zip(path.steps, plain.steps, strict=True)]
-    assert saved[:2] == [0.0, 0.0]
-    assert min(saved[2:4]) > 0.0

@@ -45,8 +45,6 @@ class Posed:
         What is prescribed along the surfaces; None where that is as in the step before.
     retarded
         Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
-    deflections
-        Deflections (nx, ny) in m by the pressures ``earlier`` and ``start``; None where they are not known.
     """
 
     operator: Operator
@@ -58,7 +56,6 @@ class Posed:
     earlier: RealArray | None = None
     tangential: Tangential | None = None
     retarded: RealArray | float = 0.0
-    deflections: tuple[RealArray, RealArray] | None = None
 
     @cached_property
     def top(self) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, TypeAlias, cast, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -243,27 +243,10 @@ class _Best:
         return self.since >= self.patience
 
 
-@dataclass(frozen=True, eq=False)
-class KnownStart:
-    """Feasible pressure (Pa) to start from whose deflection K·pressure (m) is known; both are given away."""
-
-    pressure: RealArray
-    deflection: RealArray
-
-
-class Continuing(Protocol):
-    """Solver that need not compute a deflection that is known."""
-
-    def resumed(self, qp: ContactQP, start: KnownStart) -> SolverState | None:
-        """State at ``start``; None where ``init`` at its pressure is better."""
-
-
-def run(
-    solver: Solver, qp: ContactQP, start: RealArray | KnownStart | None = None, progress: Progress | None = None
-) -> Solution:
+def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress: Progress | None = None) -> Solution:
     """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, until it converges, stagnates or gives up."""
     report = progress or NoProgress()
-    state = _begun(solver, qp, start)
+    state = solver.init(qp, start)
     errors = [state.error]
     best = _Best(state, solver.max_iterations)
     while True:
@@ -277,14 +260,6 @@ def run(
         state = solver.step(qp, state)
         errors.append(state.error)
         best.add(state)
-
-
-def _begun(solver: Solver, qp: ContactQP, start: RealArray | KnownStart | None) -> SolverState:
-    """First state of ``solver`` at ``start``."""
-    if not isinstance(start, KnownStart):
-        return solver.init(qp, start)
-    state = cast(Continuing, solver).resumed(qp, start) if hasattr(solver, "resumed") else None
-    return solver.init(qp, start.pressure) if state is None else state
 
 
 _OVERFLOWN = Status(

@@ -264,17 +264,16 @@ class Workspace:
     deflection: Any
 
     @classmethod
-    def of(cls, qp: ContactQP, precision: str, start: RealArray, known: RealArray | None = None) -> Workspace:
-        """Workspace of ``qp`` with the pressure ``start`` (Pa) and, where it is ``known``, its deflection, which it may take over.
+    def of(cls, qp: ContactQP, precision: str, start: RealArray) -> Workspace:
+        """Workspace of ``qp`` with the pressure ``start`` (Pa), which it may take over.
 
         ``precision`` is ``"double"``, ``"single"``, or ``"mixed"`` for corrections in single and the rest in double.
         """
         operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
         dtype = "float32" if precision == "single" else "float64"
-        pressure, exact = engine.array(start, dtype), operator.convolution(dtype)
-        deflection = engine.zeros(shape, dtype) if known is None else engine.array(known, dtype)
-        if known is None:
-            exact.apply(pressure, deflection)
+        pressure, deflection = engine.array(start, dtype), engine.zeros(shape, dtype)
+        exact = operator.convolution(dtype)
+        exact.apply(pressure, deflection)
         scale = float(operator.kernel.max()) or 1.0
         return cls(
             qp=qp,

@@ -28,7 +28,6 @@ from ..protocol import (
     ContactQP,
     FixedMean,
     FixedOffset,
-    KnownStart,
     Solver,
     SolverState,
     feasible_start,
@@ -369,18 +368,9 @@ class ActiveSet:
         begin, pairs = nested_start(qp, self)
         return self._started(qp, begin, 1, pairs)
 
-    def resumed(self, qp: ContactQP, start: KnownStart) -> SolverState | None:
-        """State at ``start`` without a product, where that is neither poor nor good enough already."""
-        if self.precision == "single":
-            return None  # whose deflections are not known well enough
-        state = self._started(qp, start.pressure, 0, 0.0, known=start.deflection)
-        return state if self.tolerance < state.error <= _POOR else None
-
-    def _started(
-        self, qp: ContactQP, begin: RealArray, applications: int, pairs: float, *, known: RealArray | None = None
-    ) -> SolverState:
-        """State at the feasible pressure ``begin``, with the work it has cost; its deflection may be ``known``."""
-        work = Workspace.of(qp, self.precision, begin, known)
+    def _started(self, qp: ContactQP, begin: RealArray, applications: int, pairs: float) -> SolverState:
+        """State at the feasible pressure ``begin``, with the work it has cost."""
+        work = Workspace.of(qp, self.precision, begin)
         survey = work.survey()
         unsuccessful = None if self.monotone or work.cap is not None else 0
         error = _relative_error(work, survey.totals)
