@@ -9,6 +9,7 @@ from .contact.couplings.menisci import Menisci
 from .contact.couplings.sliding import GrossSliding
 from .contact.couplings.stick_slip import StickSlip
 from .contact.creep import CreepCurve, creep_curve
+from .contact.harmonic import HarmonicResponse, harmonic
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
 from .contact.laws import (
     Coulomb,
@@ -154,6 +155,7 @@ __all__ = [
     "GrossSliding",
     "HardWall",
     "Hardness",
+    "HarmonicResponse",
     "History",
     "HistoryResult",
     "InputError",
@@ -242,6 +244,7 @@ __all__ = [
     "fracture_indicators",
     "generate",
     "graded",
+    "harmonic",
     "levelled",
     "line_corrected",
     "liquid",

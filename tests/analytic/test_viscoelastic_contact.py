@@ -14,6 +14,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.couplings.creep import TimeWeights
 from asperity.contact.solve import steps
+from asperity.contact.solvers.active_set.linear_system import normal_stiffness
 from asperity.solids.compliance.creep import LayeredCreep, SharedCreep, complex_compliance, contact_creep
 
 PRONY = {
@@ -373,6 +374,35 @@ def test_weights_of_short_and_long_steps_are_smooth() -> None:
 def test_what_is_refused(make: Callable[[], object], subject: str) -> None:
     with refused(asp.InputError, subject):
         make()
+
+
+@pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
+@pytest.mark.parametrize("name", STACKS)
+def test_harmonic_stiffness_of_a_coated_contact(name: str, boundary: asp.Free | asp.Periodic) -> None:
+    """At high and low frequency the stiffness of the same area with instantaneous and relaxed moduli, between them a loss."""
+    body = STACKS[name][0]
+    soft = asp.Elastic(1.0, 0.4)
+    layers = [replace(layer, material=soft if layer.material is RUBBER else layer.material) for layer in body.layers]
+    relaxed = asp.Layered(layers, soft if body.base is RUBBER else body.base)
+    surface = asp.Surface(sphere(0.5, 24).heights / 5.0, 1.0 / 24)
+    problem = asp.ContactProblem(surface, body, boundary=boundary)
+    found = asp.solve(problem, asp.Force(0.01))
+    fast, slow, middle = (asp.harmonic(found, f) for f in (1e5, 1e-7, 0.1))
+    assert fast.stiffness.real == pytest.approx(found.normal_stiffness, rel=1e-3)
+    operator = asp.prepare_operator(asp.ContactProblem(surface, relaxed).compliance, problem.grid, boundary)
+    assert slow.stiffness.real == pytest.approx(normal_stiffness(operator, found.contact), rel=2e-3)
+    assert slow.stiffness.real < middle.stiffness.real < fast.stiffness.real
+    assert middle.loss_tangent > 0.02 > fast.loss_tangent
+
+
+def test_harmonic_stiffness_of_a_half_space_is_the_complex_modulus() -> None:
+    found = asp.solve(free(sphere(0.3, 24), solid("prony3")), asp.Force(0.02))
+    response = asp.harmonic(found, 0.2)
+    modulus = solid("prony3").complex_modulus(2.0 * np.pi * 0.2)
+    assert response.stiffness == pytest.approx(found.normal_stiffness * modulus / 28.0, rel=1e-9)
+    assert response.heat(1e-3) == pytest.approx(np.pi * response.stiffness.imag * 1e-6 * 0.36, rel=1e-9)
+    with refused(asp.InputError, "contact that oscillates"):
+        asp.harmonic(asp.solve(free(sphere(0.3, 24), asp.Elastic(1.0, 0.3)), asp.Force(0.02)), 1.0)
 
 
 def test_stresses_only_where_they_do_not_depend_on_the_past() -> None:

@@ -118,6 +118,15 @@ def test_measured_moduli_are_fitted_with_their_error() -> None:
     assert rough.errors.shape == f.shape
 
 
+def test_terms_halfway_between_others_are_converted() -> None:
+    """Zeros at the middle between two poles, where the sign of the modulus is that of rounding."""
+    for strength in (1.0, 3.0, 10.0):
+        solid = Relaxation(strength, ((strength, 1.0), (strength, 3.0)))
+        omega = np.geomspace(1e-3, 1e3, 30)
+        product = solid.complex_modulus(omega) * solid.creep.complex_compliance(omega)
+        np.testing.assert_allclose(product, 1.0, rtol=1e-12)
+
+
 def test_temperature_shifts_all_times() -> None:
     wlf = asp.WilliamsLandelFerry(300.0, 17.44, 51.6)
     solid = asp.Viscoelastic.standard_linear(1e6, 1e9, 1.0, 0.4, shift=wlf)

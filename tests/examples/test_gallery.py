@@ -198,6 +198,28 @@ def test_rough_wheel():
     assert np.all(left.layered.longitudinal_force[:4] < left.plain.longitudinal_force[:4])
     assert 0.4 < left.share < 0.8
     assert left.mean == pytest.approx(left.plain.longitudinal_force[2], rel=0.03)
+def test_polymer_coating():
+    """The coating creeps less than the thick polymer, no energy is lost, and both recover."""
+    left = run("intermediate/plot_9_polymer_coating")
+    grown = [result.steps[2].approach / result.steps[0].approach for result in left.found.values()]
+    assert 1.0 < grown[0] < grown[1] < 5.0
+    for result in left.found.values():
+        assert result.energies.relative_error < 0.3, "the load at once is one trapezium"
+        assert result.last.approach < 0.05 * result.steps[2].approach
+
+
+def test_rubber_on_rough_ground():
+    """Friction rises and falls with speed, the area falls, and theory and solution peak within a decade of each other."""
+    left = run("intermediate/plot_8_rubber_on_rough_ground")
+    peak = int(left.friction.argmax())
+    assert 0 < peak < 6
+    assert np.all(np.diff(left.friction[: peak + 1]) > 0.0)
+    assert np.all(np.diff(left.friction[peak:]) < 0.0)
+    assert left.area[0] > 3.0 * left.area[-1]
+    theory = np.array([each.friction for each in left.theory])
+    assert abs(int(theory.argmax()) - peak) <= 2
+    slopes = np.array([each.slope_friction for each in left.found])
+    np.testing.assert_allclose(slopes[: peak + 1], left.friction[: peak + 1], rtol=0.1)
 
 
 def test_wet_and_sliding():

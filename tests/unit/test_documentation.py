@@ -289,6 +289,13 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
     assert float(saved["fastsim_longitudinal_force"]) == pytest.approx(
         float(saved["rolling_longitudinal_force"]), rel=0.1
     )
+def test_the_examples_of_viscoelastic_bodies():
+    page, names = ROOT / "docs/how-to/viscoelastic.md", {}
+    for code in blocks(page, "python"):
+        exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["fit"].largest_error < 0.05
+    assert names["response"].loss_tangent > 0.0
+    assert names["found"].slope_friction == pytest.approx(names["found"].friction, rel=0.1)
 
 
 def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch):

@@ -212,7 +212,8 @@ class Prepared:
         self.remembering: Remembering | None = None
         if creep is not None:
             _require_no_shear(self.couplings)
-            self.remembering, self.operators = remembering(creep, self.operator), OperatorsInTime(creep, self.operator)
+            self.remembering = remembering(creep, self.operator)
+            self.operators = OperatorsInTime(creep, self.operator, self.remembering.kernels)
             self.couplings = (*self.couplings, CreepCoupling())
 
     def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:

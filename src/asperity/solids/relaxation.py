@@ -249,7 +249,12 @@ def _zero_from(
     low = high - 1.0
     while sign * function(distances(low)) > 0.0:
         low -= 2.0 * (high - low)
-    log = high if function(distances(high)) == 0.0 else brentq(lambda x: function(distances(x)), low, high, xtol=1e-15)
+    # at the middle between two poles the sign may be that of rounding
+    log = (
+        high
+        if sign * function(distances(high)) <= 0.0
+        else brentq(lambda x: function(distances(x)), low, high, xtol=1e-15)
+    )
     return float(poles[number] + sign * math.exp(log)), distances(log)
 
 

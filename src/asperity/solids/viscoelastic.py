@@ -385,6 +385,10 @@ def _non_negative(columns: RealArray, wanted: RealArray) -> tuple[RealArray, flo
     return strengths[:-1], float(strengths[-1])
 
 
+_NEGLIGIBLE = 1e-12
+"""Strength of a term over the largest below which it is left out of a fit: rounding."""
+
+
 @dataclass(frozen=True, eq=False)
 class MasterCurve:
     """Fit of a Prony series to measured storage and loss moduli.
@@ -482,6 +486,7 @@ def fitted_solid(
     from scipy.optimize import nnls
 
     strengths, _ = nnls(rows, np.concatenate([real / size, imaginary / size]), maxiter=100 * taus.size)
-    terms = tuple((float(g), float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True))
+    least = _NEGLIGIBLE * float(strengths.max())
+    terms = tuple((float(g), float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True) if g > least)
     solid = Viscoelastic.prony(float(strengths[-1]), terms, poisson_ratio, **more)
     return MasterCurve(solid, f, real, imaginary, solid.complex_modulus(omega))

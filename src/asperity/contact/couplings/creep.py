@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -155,6 +156,10 @@ class Remembering(Protocol):
     def times(self) -> RealArray:
         """Retardation times, s."""
 
+    @property
+    def kernels(self) -> RealArray | None:
+        """Compliances (terms, …) in m/Pa on the half spectrum of the operator; None where all are multiples of one."""
+
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
 
@@ -181,6 +186,7 @@ class SharedPast:
 
     creep: SharedCreep
     operator: Operator
+    kernels: None = None
 
     @property
     def times(self) -> RealArray:
@@ -295,9 +301,10 @@ class LayeredPast:
 
     def lift(self, past: Past, weights: TimeWeights) -> RealArray:
         """Inverse transform of sum c_k (e_k xi_k + before_k p)."""
-        total = np.zeros_like(past.xi[0])
-        for number, (e, before) in enumerate(zip(weights.e, weights.before, strict=True)):
-            total += self.kernels[number] * (e * past.xi[number] + before * past.response)
+        total = np.asarray(np.tensordot(weights.before, self.kernels, 1) * past.response, dtype=complex)
+        each = np.empty_like(total)
+        for e, kernel, xi in zip(weights.e, self.kernels, past.xi, strict=True):
+            total += np.multiply(kernel, xi, out=each) if e == 1.0 else np.multiply(e * kernel, xi, out=each)
         return (
             self.transform.backward(total, np.empty(self.operator.grid.shape))
             if total.any()
@@ -313,27 +320,31 @@ class LayeredPast:
         place: tuple[float, float, float],
     ) -> tuple[Past, float]:
         """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ xi_k·K_k xi_k."""
-        response = self.transform.forward(np.asarray(pressure, dtype=float), _spectrum(self.transform))
-        pairs = [
+        response = self.spectrum(pressure)
+        counted, before = self._counted, np.asarray(past.response, dtype=complex)
+        of_pressures = np.stack(
             [
-                self._product(kernel, *pair)
-                for pair in (
-                    (xi, past.response),
-                    (xi, response),
-                    (past.response, past.response),
-                    (past.response, response),
-                    (response, response),
-                )
+                counted * (x.real * y.real + x.imag * y.imag)
+                for x, y in ((before, before), (before, response), (response, response))
             ]
-            for kernel, xi in zip(self.kernels, past.xi, strict=True)
-        ]
-        products = Products(past.squares, *np.array(pairs).T)
-        xi = np.empty_like(past.xi)
-        for number, (e, before, now) in enumerate(zip(weights.e, weights.before, weights.after, strict=True)):
-            xi[number] = e * past.xi[number] + before * past.response + now * response
+        )
+        p00, p01, p11 = np.tensordot(self.kernels, of_pressures, ((1, 2), (1, 2))).T
+        with_0, with_1, xi, each = (
+            np.empty(self.times.size),
+            np.empty(self.times.size),
+            np.empty_like(past.xi),
+            np.empty_like(response),
+        )
+        for number, (kernel, old) in enumerate(zip(self.kernels, past.xi, strict=True)):
+            np.multiply(counted * kernel, old, out=each)
+            with_0[number], with_1[number] = (_real_product(each, p) for p in (before, response))
+            np.multiply(old, weights.e[number], out=xi[number])
+            xi[number] += np.multiply(before, weights.before[number], out=each)
+            xi[number] += np.multiply(response, weights.after[number], out=each)
+        products = Products(past.squares, with_0, with_1, p00, p01, p11)
         squares, ones = weights.advanced(products), np.ones(self.times.size)
         heat = past.dissipated + weights.dissipated(ones, products)
-        stored = 0.5 * self._product(self.operator.kernel, response, response)
+        stored = 0.5 * float((self.operator.kernel * of_pressures[2]).sum())
         stored += 0.5 * float(squares[np.isfinite(self.times)].sum())
         return Past(past.time + weights.length, pressure, response, xi, squares, heat, place), stored
 
@@ -345,13 +356,28 @@ class LayeredPast:
         size = float(np.linalg.norm(whole * pasts[2].response))
         return float(np.linalg.norm(retarded * second)) / size if size else 0.0
 
-    def _product(self, kernel: RealArray, x: ComplexArray, y: ComplexArray) -> float:
-        """x·K y (J) over the area, from half spectra (Parseval)."""
-        nx, ny = self.operator.padded
-        each = kernel * (x.real * y.real + x.imag * y.imag)
-        columns = each.sum(axis=0)
-        total = 2.0 * float(columns.sum()) - float(columns[0]) - (float(columns[-1]) if ny % 2 == 0 else 0.0)
-        return total / (nx * ny) * self.operator.grid.pixel_area
+    def spectrum(self, values: RealArray) -> ComplexArray:
+        """Half spectrum of ``values`` (nx, ny)."""
+        return self.transform.forward(np.asarray(values, dtype=float), _spectrum(self.transform))
+
+    def field(self, spectrum: ComplexArray) -> RealArray:
+        """Field (nx, ny) of a half ``spectrum``, which is used up."""
+        return self.transform.backward(spectrum, np.empty(self.operator.grid.shape))
+
+    @cached_property
+    def _counted(self) -> RealArray:
+        """Area (m²) by which the products of a half spectrum count, (1, columns): twice where it stands for two waves (Parseval)."""
+        (nx, ny), columns = self.operator.padded, self.kernels.shape[2]
+        found = np.full((1, columns), 2.0)
+        found[0, 0] = 1.0
+        if ny % 2 == 0 and ny > 1:
+            found[0, -1] = 1.0
+        return found * (self.operator.grid.pixel_area / (nx * ny))
+
+
+def _real_product(x: ComplexArray, y: ComplexArray) -> float:
+    """Sum of Re(x conj y)."""
+    return float(np.vdot(y, x).real)
 
 
 VIRGIN = (0.0, 0.0, math.nan)

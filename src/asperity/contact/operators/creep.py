@@ -8,10 +8,10 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, Engine
-from ...solids.compliance.creep import AnyCreep, SharedCreep
+from ...solids.compliance.creep import AnyCreep, RetardedCompliance, SharedCreep
 from ...solids.compliance.halfspace import Compliance
 from ..boundary import Periodic
-from .convolution import Octaves, Operator, _Prepared, prepare_operator, spectral_kernel
+from .convolution import Octaves, Operator, _Prepared, coarse_grid, prepare_operator, spectral_kernel
 
 
 class MultipleOperator(_Prepared):
@@ -61,11 +61,44 @@ class _Multiple(Octaves):
         return np.asarray(self._factor * self._whole.spectral(wavenumber))
 
 
-class OperatorsInTime:
-    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept."""
+class SummedOperator(_Prepared):
+    """Operator of a ``compliance`` whose ``kernel`` (m/Pa) on the half spectrum of ``whole``, the operator at the first instant, is known."""
 
-    def __init__(self, creep: AnyCreep, instantaneous: Operator) -> None:
-        self.creep, self.instantaneous = creep, instantaneous
+    def __init__(self, whole: Operator, compliance: RetardedCompliance, kernel: RealArray) -> None:
+        self.whole, self.compliance, self.kernel = whole, compliance, kernel
+        self.grid, self.padded, self.boundary = whole.grid, whole.padded, whole.boundary
+        self.engine: Engine = whole.engine
+        self.zero_mean_mode, self.pairs_per_application = whole.zero_mean_mode, whole.pairs_per_application
+        self.octaves = Octaves(compliance)
+        self._preconditioners: dict[tuple[str, float], Convolution] = {}
+
+    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
+        """Convolution whose ``solve`` divides by the periodic compliance of the grid over ``scale``."""
+        if isinstance(self.boundary, Periodic):
+            return fast
+        if (dtype, scale) not in self._preconditioners:
+            kernel = spectral_kernel(self.compliance, self.grid) / scale
+            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
+        return self._preconditioners[dtype, scale]
+
+    @cached_property
+    def coarsened(self) -> Operator:
+        """The same on half as many points per side."""
+        return prepare_operator(self.compliance, coarse_grid(self.grid), self.boundary, engine=self.engine)
+
+    def matrix(self) -> RealArray:
+        """Dense matrix in m/Pa."""
+        return prepare_operator(self.compliance, self.grid, self.boundary, engine=self.engine).matrix()
+
+
+class OperatorsInTime:
+    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept.
+
+    ``kernels`` (terms, …) are compliances (m/Pa) of the terms of a layered creep on its half spectrum.
+    """
+
+    def __init__(self, creep: AnyCreep, instantaneous: Operator, kernels: RealArray | None) -> None:
+        self.creep, self.instantaneous, self.kernels = creep, instantaneous, kernels
         self._last: tuple[bytes, Operator] | None = None
 
     def at(self, weights: RealArray) -> Operator:
@@ -81,4 +114,5 @@ class OperatorsInTime:
         whole = self.instantaneous
         if isinstance(self.creep, SharedCreep):
             return MultipleOperator(whole, 1.0 + float(self.creep.shares @ weights))
-        return prepare_operator(self.creep.with_terms(weights), whole.grid, whole.boundary, engine=whole.engine)
+        kernel = whole.kernel + np.tensordot(weights, np.asarray(self.kernels), 1)
+        return SummedOperator(whole, self.creep.with_terms(weights), kernel)

@@ -204,8 +204,11 @@ def _stacked(solid: Elastic | Layered) -> Layered:
     return solid.reduced if isinstance(solid, Layered) else Layered((), solid)
 
 
-_PER_DECADE = (3, 4, 6, 8)
+_PER_DECADE = (2, 3, 4, 6, 8)
 """Retardation times, and frequencies, a decade, tried one after the other; those of the materials themselves stand among the times."""
+
+_APART, _NEAR = 0.6, 0.25
+"""Share of a step from a time of the materials within which no other is taken, where few a decade serve and where many are needed."""
 
 ERROR = 3e-3
 """Largest relative error of a complex compliance at which no more terms are taken. Coatings need 3 a decade for 1e-3; a stiff film on a
@@ -316,8 +319,8 @@ def _real(stack: Layered, nodes: RealArray, s: float) -> RealArray:
 
 
 def _distinct(pilot: tuple[float, ...], own: tuple[float, ...], per_decade: int) -> Terms:
-    """Times of the materials, and those of the ``pilot`` that are not within a quarter of a step of one."""
-    near = 10.0 ** (0.25 / per_decade)
+    """Times of the materials, and those of the ``pilot`` that do not stand near one."""
+    near = 10.0 ** ((_APART if per_decade < 4 else _NEAR) / per_decade)
     kept = [t for t in pilot if not any(1.0 / near < t / lam < near for lam in own)]
     return merged((1.0, t) for t in (*kept, *own))
 
