@@ -75,9 +75,9 @@ def _planes_of(
                 f"holds both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
             )
         return result.tractions, result.body
-    body = getattr(result.problem, of)
+    tractions, body = tractions_on(result, friction, direction, of), getattr(result.problem, of)
     _require_as_elastic(result, body, displacement=displacement)
-    return tractions_on(result, friction, direction, of), body
+    return tractions, body
 
 
 def _require_as_elastic(result: Loaded, body: Any, *, displacement: bool) -> None:
