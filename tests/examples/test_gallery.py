@@ -198,6 +198,8 @@ def test_rough_wheel():
     assert np.all(left.layered.longitudinal_force[:4] < left.plain.longitudinal_force[:4])
     assert 0.4 < left.share < 0.8
     assert left.mean == pytest.approx(left.plain.longitudinal_force[2], rel=0.03)
+
+
 def test_polymer_coating():
     """The coating creeps less than the thick polymer, no energy is lost, and both recover."""
     left = run("intermediate/plot_9_polymer_coating")

@@ -289,6 +289,8 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
     assert float(saved["fastsim_longitudinal_force"]) == pytest.approx(
         float(saved["rolling_longitudinal_force"]), rel=0.1
     )
+
+
 def test_the_examples_of_viscoelastic_bodies():
     page, names = ROOT / "docs/how-to/viscoelastic.md", {}
     for code in blocks(page, "python"):
