@@ -58,7 +58,9 @@ def test_a_block_and_its_files(run: Runner, matrix: Path, tmp_path: Path) -> Non
     assert words.sentence in " ".join(done.output.split())
     names = {figure.name for figure in outcome.figures["dynamics"]}
     assert (
-        {"dynamics_law", "dynamics_forces", "dynamics_sliding"} <= names <= {p.stem for p in (out / "plots").iterdir()}
+        {"dynamics_law", "dynamics_forces", "dynamics_sliding", "dynamics_stability"}
+        <= names
+        <= {p.stem for p in (out / "plots").iterdir()}
     )
     stored = outcome.found["dynamics"].values
     assert stored["curve_pressure"][0] < outcome.result.mean_pressure < stored["curve_pressure"][-1]

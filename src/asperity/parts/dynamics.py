@@ -186,6 +186,17 @@ SPEEDS = (
 """The curve of friction against speed."""
 
 
+STABILITY = (
+    Quantity("map_friction", "1", "friction coefficient of the map of stability", ("map_friction",)),
+    Quantity("map_damping", "1", "damping ratio of the map of stability", ("map_damping",)),
+    Quantity("map_growth_rate", "1/s", "largest growth rate about steady sliding", ("map_friction", "map_damping")),
+)
+"""The map of stability of a block over friction and damping, about those asked for."""
+
+MAP_POINTS = 25
+"""Points of that map along each axis."""
+
+
 class Dynamics(Part):
     """Motion on the interface of the contact."""
 
@@ -206,7 +217,7 @@ class Dynamics(Part):
             Quantity(f"motion_{name}", labels[name].unit, f"{labels[name].label} of the motion", ("motion_time",))
             for name in TRACES
         )
-        return (*SCALARS, *BLOCK_SCALARS, *CURVE, *SPEEDS, time, *traces)
+        return (*SCALARS, *BLOCK_SCALARS, *CURVE, *SPEEDS, *STABILITY, time, *traces)
 
     def asked(self, document: Any, folder: Path) -> Moving | None:
         """The table [dynamics] with speed and friction."""
@@ -490,10 +501,29 @@ class _Made:
         found = {
             "growth_rate": block.stability.margin,
             "critical_friction": block.critical_friction(),
+            **self._map(),
         }
         if self.slides:
             found |= self.run.numbers(min(window, 0.75 * self.duration))
         return found | self._sweep()
+
+    def _map(self) -> dict[str, Any]:
+        """Growth rates over friction and damping, both from nothing to twice what is asked, or what flutters at all."""
+        import numpy as np
+
+        from ..dynamics.sweeps import stability_map
+
+        damping = max(2.0 * self.ask.settings.damping_ratio, 0.05)
+        axes = {
+            "friction": list(np.linspace(0.0, 2.0 * self.friction, MAP_POINTS)[1:]),
+            "damping_ratio": list(np.linspace(0.0, damping, MAP_POINTS)),
+        }
+        made = stability_map(self.block, axes)
+        return {
+            "map_friction": made.axis_values[0],
+            "map_damping": made.axis_values[1],
+            "map_growth_rate": made.growth_rate,
+        }
 
     def _sweep(self) -> dict[str, Any]:
         import numpy as np

@@ -127,6 +127,17 @@ def plot_friction_curve(values: Mapping[str, Any], ax: Axes) -> Axes:
     return legend_above(ax)
 
 
+def plot_stability_of(values: Mapping[str, Any], ax: Axes) -> Axes:
+    """Draw the map of stability over friction and damping on ``ax``."""
+    found = StabilityMap(
+        ("friction", "damping_ratio"),
+        (values["map_friction"], values["map_damping"]),
+        values["map_growth_rate"],
+        np.full_like(values["map_growth_rate"], np.nan),
+    )
+    return plot_stability(found, ax, labels=("friction coefficient", "damping ratio"))
+
+
 PLOTS = (
     (
         "curve_pressure",
@@ -171,6 +182,15 @@ PLOTS = (
             "Phase portrait of the normal motion",
             "Normal force against penetration at the end of the motion: the loop is the work of the damping.",
             plot_normal_portrait,
+        ),
+    ),
+    (
+        "map_growth_rate",
+        Plot(
+            "dynamics_stability",
+            "Stability of steady sliding",
+            "Largest growth rate of small motion about steady sliding, over friction and damping of the interface. On the line it is zero; white where the block topples.",
+            plot_stability_of,
         ),
     ),
     (
