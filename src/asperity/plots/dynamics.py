@@ -227,7 +227,9 @@ def plot_stability(found: StabilityMap, ax: Axes, *, labels: tuple[str, str] | N
     largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
     make_room(ax, right=0.9)
     mesh = ax.pcolormesh(*found.axis_values, growth, cmap="PuOr_r", vmin=-largest, vmax=largest, shading="nearest")
-    edge = 1e-6 * largest  # without a dashpot the tangential motion neither grows nor decays: zero on all of the stable side
+    edge = (
+        1e-6 * largest
+    )  # without a dashpot the tangential motion neither grows nor decays: zero on all of the stable side
     if np.nanmin(growth) < edge < np.nanmax(growth):
         ax.contour(*found.axis_values, growth, levels=[edge], colors=BLACK, linewidths=1.0)
     bar = ax.inset_axes((1.03, 0.0, 0.04, 1.0))
