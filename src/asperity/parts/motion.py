@@ -1,0 +1,337 @@
+"""From a solved contact to a motion on it: the law of its interface, the model that is asked for, its motion, and what that comes to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..contact.problem import MeanPressure
+from ..contact.solve import steps
+from ..core.errors import ConvergenceError, InputError
+from ..core.status import Advice
+from ..core.units import percent, show
+from ..dynamics.belt import BeltOscillator, RateState, StaticKinetic
+from ..dynamics.block import SlidingBlock
+from ..dynamics.block_motion import BlockRun, move_block
+from ..dynamics.interface import ComplianceFit, NormalCompliance, fit_compliance
+from ..dynamics.motion import Motion
+from ..dynamics.normal_motion import NormalOscillator
+from ..dynamics.sweeps import SLIDES_FROM, stability_map, sweep_block
+from .dynamics import TRACES, Moving
+from .part import Solved
+
+MOST_PERIODS = 20_000
+"""Periods of the normal vibration that loading the spring may take in a run that starts from rest: some ten seconds of work."""
+
+USUAL_PERIODS = 300
+"""Periods of the normal vibration after the spring is loaded: flutter has grown by then where it grows faster than 1 % a period."""
+
+SLID = 0.9
+"""Largest spring force over the friction at rest above which the block has begun to slide."""
+
+MOST_SAMPLES = 20_000
+"""Samples of a run that files and figures hold."""
+
+WIDEST = 2.5
+"""Largest pressure of the curve over that of the load: vibrating blocks reach about this much."""
+
+POOR_FIT = 0.1
+"""Largest relative error of the fitted law above which that is a finding."""
+
+MAP_POINTS = 25
+"""Points of that map along each axis."""
+
+
+def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
+    """Law of normal compliance of the contact about its mean pressure: from the load path where that spans it, else from a path of its own."""
+    pressure = solved.result.mean_pressure
+    if pressure <= 0.0:
+        raise InputError("The contact must bear a load for motion on it, but its mean pressure is zero.")
+    path = [] if solved.path is None else list(_loading(solved.path.steps))
+    if len(path) < ask.settings.points:
+        loads = np.geomspace(pressure / WIDEST, pressure * WIDEST, ask.settings.points)
+        path = list(steps(solved.problem, [MeanPressure(float(p)) for p in loads], on_failure="return"))
+    if not all(step.converged for step in path):
+        raise ConvergenceError("The contact curve that the law is fitted to did not converge at every load.")
+    offset = 0.0 if ask.settings.law_begins == "first touch" else None
+    return fit_compliance([step.approach for step in path], [step.mean_pressure for step in path], offset=offset)
+
+
+def _loading(found: Any) -> Any:
+    """The steps of a path as long as pressure and approach grow."""
+    last = (0.0, -math.inf)
+    for step in found:
+        if step.mean_pressure <= last[0] or step.approach <= last[1]:
+            return
+        last = (step.mean_pressure, step.approach)
+        yield step
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """The model that is asked for, on the law of the contact, and its motion."""
+
+    ask: Moving
+    solved: Solved
+    fit: ComplianceFit
+
+    @cached_property
+    def friction(self) -> float:
+        """Coefficient of friction under the load: that of the table, or the static one with the menisci of a film."""
+        menisci = self.solved.result.menisci
+        if menisci is not None and menisci.friction_force > 0.0:
+            return float(menisci.static_friction)
+        return self.ask.friction
+
+    @property
+    def area(self) -> float:
+        """Of the base in m²."""
+        length, width = self.base
+        return length * width
+
+    @property
+    def base(self) -> tuple[float, float]:
+        """Length and width of the base in m."""
+        assert self.ask.settings.base is not None
+        return self.ask.settings.base
+
+    @property
+    def mass(self) -> float:
+        """In kg."""
+        assert self.ask.settings.mass is not None
+        return self.ask.settings.mass
+
+    @property
+    def load(self) -> float:
+        """In N: the mean pressure on the base."""
+        return self.solved.result.mean_pressure * self.area
+
+    @cached_property
+    def law(self) -> NormalCompliance:
+        """Law with friction, and with the damping that is asked for."""
+        settings = self.ask.settings
+        law = self.fit.law.with_friction(self.friction)
+        return law.damped(settings.damping_ratio, self.mass / self.area, self.load / self.area)
+
+    @cached_property
+    def normal(self) -> NormalOscillator:
+        """The mass on the interface."""
+        settings = self.ask.settings
+        free = NormalOscillator(self.law, self.mass, self.area, self.load)
+        rate = (
+            free.natural_frequency if settings.forcing_frequency is None else 2.0 * math.pi * settings.forcing_frequency
+        )
+        return NormalOscillator(self.law, self.mass, self.area, self.load, settings.forcing, rate)
+
+    @cached_property
+    def block(self) -> SlidingBlock:
+        """The sliding block."""
+        settings = self.ask.settings
+        length, width = self.base
+        assert settings.height is not None
+        assert settings.stiffness is not None
+        return SlidingBlock(
+            self.law,
+            self.mass,
+            length,
+            width,
+            settings.height,
+            self.load,
+            settings.stiffness,
+            self.ask.speed,
+            settings.dashpot,
+            settings.spring_height,
+        )
+
+    @cached_property
+    def belt(self) -> BeltOscillator:
+        """The block on a belt."""
+        settings = self.ask.settings
+        assert settings.stiffness is not None
+        law: StaticKinetic | RateState
+        if settings.slip_distance is not None:
+            law = RateState(
+                self.friction,
+                settings.direct_effect,
+                settings.evolution_effect,
+                settings.slip_distance,
+                self.ask.speed,
+                "ageing" if settings.ageing else "slip",
+            )
+        else:
+            static = self.friction if settings.static_friction is None else settings.static_friction
+            law = StaticKinetic(static, min(self.ask.friction, static))
+        return BeltOscillator(law, self.mass, settings.stiffness, self.load, self.ask.speed, settings.dashpot)
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of the model."""
+        model = self.ask.settings.model
+        chosen = self.block if model == "block" else self.belt if model == "belt" else self.normal
+        return chosen.citation_keys
+
+    @cached_property
+    def duration(self) -> float:
+        """Of the motion in s: as asked, or until the spring is loaded and flutter has grown."""
+        settings, period = self.ask.settings, 2.0 * math.pi / self.normal.natural_frequency
+        if settings.duration is not None:
+            return float(settings.duration)
+        if settings.model == "mass":
+            return 30.0 * period
+        loaded = self.friction * self.load / (settings.stiffness or 1.0) / self.ask.speed
+        if settings.model == "belt":
+            return 6.0 * loaded + 6.0 * 2.0 * math.pi / self.belt.natural_frequency
+        return (0.0 if self.begins_sliding else 1.5 * loaded) + USUAL_PERIODS * period
+
+    @cached_property
+    def begins_sliding(self) -> bool:
+        """Whether a block starts just below sliding."""
+        settings = self.ask.settings
+        if settings.start is not None:
+            return settings.start == "sliding"
+        loading = self.friction * self.load / (settings.stiffness or 1.0) / self.ask.speed
+        return loading * self.normal.natural_frequency > 2.0 * math.pi * MOST_PERIODS
+
+    @cached_property
+    def slides(self) -> bool:
+        """Whether the block has begun to slide."""
+        return float(self.motion["spring_force"].max()) > SLID * self.friction * self.load
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion."""
+        settings = self.ask.settings
+        if settings.model == "mass":
+            start = (settings.amplitude * self.normal.rest, 0.0)
+            return self.normal.move(self.duration, start=start, samples=4000)
+        if settings.model == "belt":
+            return self.belt.move(self.duration, samples=4000)
+        return self.run.motion
+
+    @cached_property
+    def run(self) -> BlockRun:
+        """The motion of a block."""
+        settings, block = self.ask.settings, self.block
+        start = None
+        if self.begins_sliding:
+            start = (SLIDES_FROM * block.steady.displacement, block.rest, 0.0, 0.0, 0.0, 0.0)
+        smoothing = None if settings.smoothing is None else settings.smoothing * self.ask.speed
+        return move_block(block, self.duration, start=start, smoothing_speed=smoothing)
+
+    def values(self) -> dict[str, Any]:
+        """Values of the quantities."""
+        fit, rest = self.fit, float(self.law.approach(self.load / self.area))
+        found: dict[str, Any] = {
+            "interface_exponent": fit.law.normal_exponent,
+            "interface_exponent_error": fit.exponent_error,
+            "interface_penetration": rest,
+            "interface_stiffness": float(fit.law.stiffness(rest)),
+            "interface_fit_error": fit.largest_error,
+            "normal_frequency": self.normal.natural_frequency / (2.0 * math.pi),
+            "curve_approach": fit.approach - fit.offset,
+            "curve_pressure": fit.pressure,
+            "motion_energy_error": self.motion.energy_error,
+            **self._of_model(),
+        }
+        stride = -(-self.motion.time.size // MOST_SAMPLES)
+        found["motion_time"] = self.motion.time[::stride]
+        found |= {f"motion_{name}": self.motion[name][::stride] for name in TRACES if name in self.motion.values}
+        return found
+
+    def _of_model(self) -> dict[str, Any]:
+        model = self.ask.settings.model
+        if model == "belt":
+            spring = self.motion["spring_force"] / self.load
+            return {
+                "growth_rate": self.belt.growth_rate,
+                "peak_friction": float(spring.max()),
+                "apparent_friction": float(np.trapezoid(spring, self.motion.time) / np.ptp(self.motion.time)),
+                **_cycles(self.motion),
+            }
+        if model == "mass":
+            late = self.motion.after(0.5 * self.duration)
+            return {
+                "smallest_normal_force": float(late["normal_force"].min()) / self.load,
+                "largest_normal_force": float(late["normal_force"].max()) / self.load,
+                "vibration_frequency": late.dominant_frequency("penetration"),
+            }
+        window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
+        block = self.block
+        found = {
+            "growth_rate": block.stability.margin,
+            "critical_friction": block.critical_friction(),
+            **self._map(),
+        }
+        if self.slides:
+            found |= self.run.numbers(min(window, 0.75 * self.duration))
+        return found | self._sweep()
+
+    def _map(self) -> dict[str, Any]:
+        """Growth rates over friction and damping, both from nothing to twice what is asked, or what flutters at all."""
+        damping = max(2.0 * self.ask.settings.damping_ratio, 0.05)
+        axes = {
+            "friction": list(np.linspace(0.0, 2.0 * self.friction, MAP_POINTS)[1:]),
+            "damping_ratio": list(np.linspace(0.0, damping, MAP_POINTS)),
+        }
+        made = stability_map(self.block, axes)
+        return {
+            "map_friction": made.axis_values[0],
+            "map_damping": made.axis_values[1],
+            "map_growth_rate": made.growth_rate,
+        }
+
+    def _sweep(self) -> dict[str, Any]:
+        if self.ask.settings.speeds is None:
+            return {}
+        speeds = np.geomspace(0.1, 10.0, self.ask.settings.speeds) * self.ask.speed
+        period = 2.0 * math.pi / self.normal.natural_frequency
+        made = sweep_block(self.block, "speed", list(speeds), duration=USUAL_PERIODS * period)
+        return {
+            "sweep_speed": made.axis_values,
+            "sweep_mean_friction": made.numbers["apparent_friction"],
+            "sweep_largest_friction": made.numbers["peak_friction"],
+        }
+
+    def findings(self) -> tuple[Advice, ...]:
+        """A poor law, vibration beyond its range, instability that the run is too short to show."""
+        fit, made = self.fit, []
+        if fit.largest_error > POOR_FIT:
+            text = (
+                f"The power law of the interface differs from the contact by up to {percent(fit.largest_error)}. A rough contact follows a power of the approach "
+                "only over part of the range: the law holds near the load."
+            )
+            made.append(Advice("note", "law of the interface", text))
+        low, high = fit.span
+        if "normal_force" in self.motion.values:
+            largest = float(self.motion["normal_force"].max()) / self.area
+            if largest > 1.05 * high:
+                text = (
+                    f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} "
+                    "and is extrapolated. Take a smaller disturbance, or more damping."
+                )
+                made.append(Advice("note", "range of the law", text))
+        if self.ask.settings.model == "block" and not self.slides:
+            text = (
+                f"The block has not begun to slide within {show(self.duration, 's', 3)}: there is no apparent friction. Take a longer duration "
+                "(dynamics.duration, --duration), or start about to slide (dynamics.start, --start sliding)."
+            )
+            made.append(Advice("warning", "duration of the motion", text))
+        elif self.ask.settings.model == "block":
+            growth = self.block.stability.margin
+            if growth > 0.0 and growth * self.duration < 10.0:
+                text = (
+                    f"Steady sliding is unstable, but at {growth:.3g} 1/s the vibration has not grown within {show(self.duration, 's', 3)}. Take a longer duration "
+                    "(dynamics.duration, --duration)."
+                )
+                made.append(Advice("note", "duration of the motion", text))
+        return tuple(made)
+
+
+def _cycles(motion: Motion) -> dict[str, float]:
+    """Mean period of stick-slip, from the times at which slip begins; NaN without at least two."""
+    starts = [event.time for event in motion.events if event.kind == "slip"]
+    return {"stick_slip_period": float(np.diff(starts).mean()) if len(starts) > 1 else math.nan}
