@@ -212,7 +212,7 @@ def test_polymer_coating():
 
 def test_rubber_on_rough_ground():
     """Friction rises and falls with speed, the area falls, and theory and solution peak within a decade of each other."""
-    left = run("intermediate/plot_8_rubber_on_rough_ground")
+    left = run("advanced/plot_8_rubber_on_rough_ground")
     peak = int(left.friction.argmax())
     assert 0 < peak < 6
     assert np.all(np.diff(left.friction[: peak + 1]) > 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -28,6 +29,7 @@ class LineShakedown:
 
     radius: RealArray
     residual: RealArray
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1962",)
 
     @property
     def limit(self) -> float:
@@ -94,6 +96,7 @@ class CylinderShakedown:
     peak_over_k: float
     depth: float
     residual: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1962",)
 
 
 PLACES = 4001
