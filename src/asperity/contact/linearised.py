@@ -82,7 +82,7 @@ def tangential_stiffness(result: ContactResult) -> TangentialStiffness:
 
 
 def contraction_factor(result: ContactResult) -> float:
-    """Factor by which a round between pressure and shear reduces what they are off: of the alternation linearised at ``result``.
+    """Factor by which a round between pressure and shear multiplies their error: of the alternation linearised at ``result``.
 
     Below one the plain alternation contracts there, to the one solution nearby; above one it does not, whatever method found the solution. Zero
     where shear does not change the pressure.

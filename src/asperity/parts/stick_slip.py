@@ -335,18 +335,14 @@ def _contraction(result: ContactResult, factor: float) -> tuple[Advice, ...]:
     if not factor > 0.0:
         return ()
     check = next((item for item in result.certificate.couplings if item.name == "stick_slip"), None)
-    met = (
-        ""
-        if check is None
-        else f" They were off by {check.residual:.1e} at the end, after {result.certificate.rounds} rounds."
-    )
+    met = "" if check is None else f" After {result.certificate.rounds} rounds it was {check.residual:.1e}."
     if factor >= 1.0:
         text = (
-            f"A round between pressure and shear enlarges what they are off by a factor of {factor:.2g}: the alternation does not contract, and the "
+            f"A round between pressure and shear multiplies their error by {factor:.2g}: the alternation does not contract, and the "
             f"solution found may be one of several.{met} Lower the friction coefficient, or follow the path in smaller steps."
         )
         return (Advice("warning", "contraction of pressure and shear", text),)
-    text = f"A round between pressure and shear reduces what they are off to {factor:.2g} of it.{met}"
+    text = f"A round between pressure and shear multiplies their error by {factor:.2g}.{met}"
     return (Advice("note", "contraction of pressure and shear", text),)
 
 
