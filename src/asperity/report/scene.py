@@ -50,8 +50,8 @@ from ..run.execute import Outcome
 MOST_POINTS = 1024 * 1024
 """Points of an array; larger grids are shown coarser."""
 
-BUDGET = 6_000_000
-"""Characters that all arrays of a page take at most, beside some 2 MB of pictures."""
+BUDGET = 5_000_000
+"""Characters that all arrays of a page take at most: with 3 to 4.5 MB of pictures and script a page stays below 10 MB."""
 
 LAST_STEP = 16
 """Points along a side for which one value of a map of earlier steps stands, up to which the last step is shown finely."""

@@ -246,6 +246,8 @@ class Place:
         session = Session(own, self.limits, self.threads, kept=folder is not None)
         if (own / STATE).is_file():
             session.reopen()
+        elif folder is not None:
+            session.save()  # from now on the folder holds a session, whatever comes of it
         self.sessions[key] = session
         return key, session
 

@@ -96,3 +96,9 @@ document.addEventListener("keydown", (event) => { if (event.key === "Enter" && e
 const look = () => document.querySelectorAll("[data-scene]:not([data-mounted])").forEach(mount);
 new MutationObserver(look).observe(document.documentElement, { childList: true, subtree: true });
 })();
+
+// A picture that is taken away while the window changes has no size to be drawn in again; that is no error.
+window.addEventListener("unhandledrejection", (event) => {
+  const text = String((event.reason && event.reason.message) || event.reason);
+  if (text.startsWith("Resize must be passed a displayed plot div")) event.preventDefault();
+});
