@@ -116,13 +116,16 @@ def test_first_milliseconds_of_a_block(case: float) -> None:
 SLIDING = {row["set"]: row for row in reference("block_sliding_features")}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("case", [2.0, 6.0, 9.0, 16.0])
-def test_long_runs_of_a_block(case: float) -> None:
-    """Peak, mean, forces and vibration within 2e-3, twenty times what halving the step of the reference changes them by.
+BEATS = {7.0: 0.01, 8.0: 0.03, 12.0: 0.35, 15.0: 0.02}
+"""Sets with a slow beat, whose phase in the window follows from the rounding that flutter grows from, and how far vibration may then be off.
 
-    The other sets of the table have a slow beat, whose phase in the window follows from the rounding that flutter grows from.
-    """
+In set 12 the vibration goes between 0.085 and 0.128 of the penetration at rest over a beat of 0.29 s, of which the window sees a third."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", sorted(SLIDING))
+def test_long_runs_of_a_block(case: float) -> None:
+    """Forces and vibration within 2e-3, some twenty times what halving the step of the reference changes most of them by; peak and mean also in beats."""
     row = SLIDING[case]
     block = block_of(row)
     numbers = dyn.move_block(block, row["t_end_s"], smoothing_speed=row["eps_m_per_s"]).numbers(row["t_window_s"])
@@ -143,14 +146,16 @@ def test_long_runs_of_a_block(case: float) -> None:
         "y_rms_over_y0",
         "phi_rms_b_over_2y0",
     )
-    np.testing.assert_allclose(found, [row[name] for name in (*names, "freq_Hz")], rtol=2e-3, atol=1e-6)
+    wanted = [row[name] for name in (*names, "freq_Hz")]
+    np.testing.assert_allclose(found[:2], wanted[:2], rtol=3e-3)
+    np.testing.assert_allclose(found, wanted, rtol=BEATS.get(case, 2e-3), atol=1e-6)
 
 
 STICK_SLIP = {row["set"]: row for row in reference("block_stick_slip_features")}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [0.0, 3.0, 7.0])
+@pytest.mark.parametrize("case", sorted(STICK_SLIP))
 def test_stick_slip_of_a_block(case: float) -> None:
     """Peak and valley within 1 %, as reproducible as the table says.
 
