@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import json
 from pathlib import Path
 from typing import Any
 
@@ -109,16 +111,35 @@ def test_static_friction_of_a_wet_contact() -> None:
     assert values["peak_friction"] == pytest.approx(values["static_friction"], rel=0.05)
 
 
-def test_speed_is_an_axis_of_studies(tmp_path: Path) -> None:
-    """A curve of friction against speed comes from a study of documents as from the part itself."""
-    values = [
-        moved(friction={"coefficient": 0.3, "speed": speed}, dynamics={"start": "sliding", "duration": "1 ms"})
-        for speed in ("1 mm/s", "5 mm/s")
-    ]
-    assert values[0]["interface_exponent"] == values[1]["interface_exponent"]
-    outcome = asp.run(
-        PROBLEM | {"dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms", "speeds": 3}}
-    )
+def test_speed_and_spring_are_axes_of_studies(run: Runner, tmp_path: Path) -> None:
+    """Each case of a study is the document of its values; the stiffness is a quantity with a unit of its own."""
+    motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}
+    study = {
+        "version": 1,
+        "quantities": ["apparent_friction"],
+        "axes": [
+            {"name": "speed", "path": "friction.speed", "values": ["1 mm/s", "5 mm/s"]},
+            {"name": "spring", "path": "dynamics.stiffness", "values": ["400 N/mm"]},
+        ],
+        "problem": PROBLEM | {"dynamics": motion},
+    }
+    (tmp_path / "study.json").write_text(json.dumps(study), encoding="utf-8")
+    done = run("run", tmp_path / "study.json", "--out", tmp_path / "out", "--workers", "1")
+    assert done.exit_code == 0, done.output
+    with (tmp_path / "out" / "cases.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for row, speed in zip(rows, ("1 mm/s", "5 mm/s"), strict=True):
+        alone = moved(
+            friction={"coefficient": 0.3, "speed": speed},
+            dynamics={"start": "sliding", "duration": "1 ms", "stiffness": "400 N/mm"},
+        )
+        assert float(row["spring"]) == 4e5
+        assert float(row["apparent_friction"]) == pytest.approx(alone["apparent_friction"], rel=1e-6)
+
+
+def test_a_curve_over_the_speed() -> None:
+    motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms", "speeds": 3}
+    outcome = asp.run(PROBLEM | {"dynamics": motion})
     assert outcome.found["dynamics"].values["sweep_mean_friction"].shape == (3,)
 
 

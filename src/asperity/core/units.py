@@ -84,7 +84,7 @@ def parse(text: str | float, kind: str, what: str) -> float:
     text
         Number followed by a unit. A unit is never guessed. What has been read already stays as it is.
     kind
-        One of ``DIMENSIONS``.
+        One of ``DIMENSIONS``, or an SI unit such as ``"N/m"`` for a quantity that is none of them.
     what
         Name of the input, for the error message.
 
@@ -95,6 +95,8 @@ def parse(text: str | float, kind: str, what: str) -> float:
     """
     if isinstance(text, float) and hasattr(text, "text"):
         return float(text)
+    if kind not in DIMENSIONS:
+        return parse_in(str(text), kind, what)
     unit = DIMENSIONS[kind]
     number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
     return number * unit_factor(name, kind, what)

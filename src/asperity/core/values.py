@@ -158,10 +158,7 @@ class Number(Values):
                     f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare number {value!r}."
                 )
             return self._checked(value, what, repr(value))
-        if self.quantity in units.DIMENSIONS:
-            number = units.parse(value, self.quantity, what)
-        else:
-            number = units.parse_in(value, self.unit, what)
+        number = units.parse(value, self.quantity if self.quantity in units.DIMENSIONS else self.unit, what)
         self._checked(number, what, repr(value))
         return Written(number, value)
 

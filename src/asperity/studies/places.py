@@ -44,7 +44,7 @@ class Place:
         """SI unit of the scalar; "1" for plain numbers and words."""
         if self.quantity in (None, "number"):
             return "1"
-        return "m" if self.quantity == "size" else units.DIMENSIONS[str(self.quantity)]
+        return "m" if self.quantity == "size" else units.DIMENSIONS.get(str(self.quantity), str(self.quantity))
 
     @property
     def is_load(self) -> bool:
