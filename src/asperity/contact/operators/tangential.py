@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
-from ...core.engine.vectors import CoupledConvolution, TensorConvolution
+from ...core.engine.vectors import VectorConvolution
 from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
 from ...solids.compliance.tensor import (
@@ -139,8 +139,8 @@ class TangentialOperator:
         self.padded = grid.shape if isinstance(boundary, Periodic) else padded_shape(grid)
         self.octaves = octaves or Octaves(ShearCompliance(bodies))  # type: ignore[arg-type]
         self._entries = self._made() if entries is None else entries
-        self._convolutions: dict[str, TensorConvolution] = {}
-        self._coupled_convolutions: dict[str, CoupledConvolution] = {}
+        self._convolutions: dict[str, VectorConvolution] = {}
+        self._coupled_convolutions: dict[str, VectorConvolution] = {}
         pruned = 1.0 if self.padded == grid.shape else 0.75 * self.padded[0] * self.padded[1] / grid.n_points
         self.pairs_per_application = 2.0 * pruned
 
@@ -181,19 +181,19 @@ class TangentialOperator:
         """Largest displacement by a wave of unit traction, m/Pa."""
         return float(max(entry.max() for entry in self._entries[:2]))
 
-    def convolution(self, dtype: str) -> TensorConvolution:
+    def convolution(self, dtype: str) -> VectorConvolution:
         """Prepared product in the precision ``dtype``."""
         if dtype not in self._convolutions:
-            self._convolutions[dtype] = TensorConvolution(
+            self._convolutions[dtype] = VectorConvolution(
                 self.engine, self._entries, self.grid.shape, self.padded, dtype
             )
         return self._convolutions[dtype]
 
-    def coupled_convolution(self, dtype: str, normal: Operator) -> CoupledConvolution:
+    def coupled_convolution(self, dtype: str, normal: Operator) -> VectorConvolution:
         """Prepared product with all three components of traction, ``normal`` being the operator of the pressure on the same grid."""
         if dtype not in self._coupled_convolutions:
             entries = (*self._entries, normal.kernel, self.coupling.zx, self.coupling.zy)
-            made = CoupledConvolution(self.engine, entries, self.grid.shape, self.padded, dtype)
+            made = VectorConvolution(self.engine, entries, self.grid.shape, self.padded, dtype)
             self._coupled_convolutions[dtype] = made
         return self._coupled_convolutions[dtype]
 

@@ -13,44 +13,11 @@ from .cpu import SERIAL_BELOW, CpuEngine, layout
 from .protocol import Hierarchy
 
 
-class TensorConvolution:
-    """Product of fields with two components with a symmetric 2 x 2 tensor in Fourier space; owns its buffers.
+class VectorConvolution:
+    """Product of fields with two or three components with a tensor in Fourier space; owns its buffers.
 
-    The entries ``xx``, ``yy`` and ``xy`` are real half spectra of the grid ``padded``; ``shape`` is that of the fields, which are zero
-    beyond it.
-    """
-
-    def __init__(
-        self,
-        engine: CpuEngine,
-        entries: tuple[RealArray, RealArray, RealArray],
-        shape: tuple[int, int],
-        padded: tuple[int, int],
-        dtype: str,
-    ) -> None:
-        self._blocks = engine.blocks
-        threads = engine.threads_for(padded)
-        self._transform: RealTransform | PaddedTransform
-        if padded == shape:
-            self._transform = RealTransform(shape, threads)
-        else:
-            self._transform = PaddedTransform(shape, padded, threads)
-        self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
-        kind = np.complex128 if dtype == "float64" else np.complex64
-        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(2)]
-
-    def apply(self, fields: tuple[RealArray, RealArray], out: tuple[RealArray, RealArray]) -> None:
-        """Convolve the two components ``fields`` into ``out``."""
-        x, y = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
-        self._blocks.run(self._blocks.kernels.tensor_product, x.size, x.ravel(), y.ravel(), *self._entries)
-        for spectrum, component in zip((x, y), out, strict=True):
-            self._transform.backward(spectrum, component)
-
-
-class CoupledConvolution:
-    """Product of fields with three components, along x, y and the normal, with the compliance of two bodies in Fourier space.
-
-    The ``entries`` are real half spectra of the grid ``padded``: xx, yy, xy, zz, and zx, zy of the coupling i zx, i zy. Owns its buffers.
+    The ``entries`` are real half spectra of the grid ``padded``: xx, yy and xy of a symmetric tensor of the two components in the plane; with the
+    normal direction also zz, and zx, zy of the coupling i zx, i zy. ``shape`` is that of the fields, which are zero beyond it.
     """
 
     def __init__(
@@ -70,14 +37,16 @@ class CoupledConvolution:
             self._transform = PaddedTransform(shape, padded, threads)
         self._entries = [np.ascontiguousarray(entry, dtype=dtype).ravel() for entry in entries]
         kind = np.complex128 if dtype == "float64" else np.complex64
-        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(3)]
+        in_plane = len(entries) == 3
+        self._product = self._blocks.kernels.tensor_product if in_plane else self._blocks.kernels.coupled_product
+        self._spectra = [np.empty(self._transform.spectrum_shape, kind) for _ in range(2 if in_plane else 3)]
 
     def apply(self, fields: tuple[RealArray, ...], out: tuple[RealArray, ...]) -> None:
-        """Convolve the three components ``fields`` into ``out``."""
-        x, y, z = (self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True))
-        flat = x.ravel(), y.ravel(), z.ravel()
-        self._blocks.run(self._blocks.kernels.coupled_product, x.size, *flat, *self._entries)
-        for spectrum, component in zip((x, y, z), out, strict=True):
+        """Convolve the components ``fields`` into ``out``."""
+        spectra = [self._transform.forward(field, to) for field, to in zip(fields, self._spectra, strict=True)]
+        flat = [spectrum.ravel() for spectrum in spectra]
+        self._blocks.run(self._product, flat[0].size, *flat, *self._entries)
+        for spectrum, component in zip(spectra, out, strict=True):
             self._transform.backward(spectrum, component)
 
 
