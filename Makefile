@@ -104,7 +104,7 @@ PICTURES ?= validation-pictures
 validate: $(DEV_OK)
 	@status=0; for page in $(PAGES:.md=.py); do $(ONE_THREAD) $(BIN)/python $$page || status=1; done; \
 	$(BIN)/python validation/summary.py || status=1; \
-	$(ONE_THREAD) $(BIN)/python validation/peng_pictures.py $(PICTURES) || status=1; exit $$status
+	$(ONE_THREAD) $(BIN)/python validation/pictures.py $(PICTURES) || status=1; exit $$status
 
 docs: $(DOCS_OK)
 	$(BIN)/python docs/site/build.py

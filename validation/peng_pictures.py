@@ -1,15 +1,11 @@
-"""Pictures after figs 3.1 to 3.22 of Peng (2001), drawn from the cases of the other pages.
-
-Usage: python validation/peng_pictures.py FOLDER [NAME …]
+"""Pictures after figs 3.1 to 3.22 of Peng (2001), drawn from the cases of the other pages; ``pictures.py`` writes them.
 
 The numbers and trends are on the pages peng_scaling, peng_stress, rough_cylinder and rough_sphere.
 """
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,14 +16,13 @@ import rough_cylinder
 import rough_sphere
 
 import asperity as asp
-from asperity.plots import plot_heights, plot_stress_section, style
+from asperity.plots import plot_heights, plot_stress_section
 from asperity.plots.picture import BLACK, BLUE, VERMILLION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-DPI = 75
 REACH = 4.0
 """Half of the width in µm that pictures of the rough surface show."""
 
@@ -200,38 +195,11 @@ def _middle(result: asp.ContactResult) -> tuple[float, float]:
 
 
 FIGURES: dict[str, tuple[Callable[[Figure], None], tuple[float, float]]] = {
-    "cylinder": (cylinder, (8.0, 7.0)),
-    "sphere": (sphere, (11.0, 6.0)),
-    "scaling": (scaling, (8.0, 3.6)),
-    "layers": (layers, (11.0, 6.0)),
-    "stresses_stiff": (lambda figure: stresses(figure, 2.0), (16.0, 10.0)),
-    "stresses_compliant": (lambda figure: stresses(figure, 0.5), (16.0, 10.0)),
+    "peng_cylinder": (cylinder, (8.0, 7.0)),
+    "peng_sphere": (sphere, (11.0, 6.0)),
+    "peng_scaling": (scaling, (8.0, 3.6)),
+    "peng_layers": (layers, (11.0, 6.0)),
+    "peng_stresses_stiff": (lambda figure: stresses(figure, 2.0), (16.0, 10.0)),
+    "peng_stresses_compliant": (lambda figure: stresses(figure, 0.5), (16.0, 10.0)),
 }
 """Name of the file -> how to draw it, width and height in inches."""
-
-
-def draw(name: str, folder: Path) -> Path:
-    """Write the picture ``name`` into ``folder``."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    path = folder / f"peng_{name}.png"
-    fill, size = FIGURES[name]
-    with style():
-        figure = Figure(figsize=size)
-        FigureCanvasAgg(figure)
-        fill(figure)
-        figure.savefig(path, dpi=DPI, bbox_inches="tight", pad_inches=0.06)
-    return path
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description="Pictures after chapter 3 of Peng (2001).")
-    parser.add_argument("folder", type=Path, help="where the PNG files go; made if missing")
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
-    given = parser.parse_args()
-    if unknown := [name for name in given.names if name not in FIGURES]:
-        parser.error(f"no picture {', '.join(unknown)}; choose from {', '.join(FIGURES)}")
-    given.folder.mkdir(parents=True, exist_ok=True)
-    for chosen in given.names or FIGURES:
-        print(draw(chosen, given.folder))

@@ -31,7 +31,7 @@ ABOUT = (
     "Ours: `asp.dynamics`. No parameter is chosen: block and interface are the same in all rows but for what the row names."
 )
 
-WORDS = """* The coefficient between the surfaces is the same at rest and in motion. What is lower in motion is the mean force on the spring: the base moves faster than the belt for part of each period of the vibration, and friction then pulls the other way.
+WORDS = """* The coefficient between the surfaces is the same at rest and in motion. What is lower in motion is the mean force on the spring: the base catches up with the belt and moves with it for a sixth of each period of the vibration, and friction is then less than μ times the normal force.
 * How long the block waits on the plateau before it flutters hangs on the logarithm of the disturbance, here the error of the integration; peaks, valleys and means do not."""
 
 
@@ -47,11 +47,11 @@ def slides(friction: float, damping: float, speed: float) -> dict[str, float]:
     return dyn.move_block(block, 0.25, start=start).numbers(0.15)
 
 
-def sticks(friction: float, damping: float, speed: float) -> dict[str, float]:
-    """Numbers of the block on a stiffer spring without a dashpot, from rest over three loadings of the spring."""
+def slow(friction: float, damping: float, speed: float) -> dyn.BlockRun:
+    """The block on a stiffer spring without a dashpot, from rest over three loadings of the spring."""
     block = replace(BLOCK, law=law(friction, damping), speed=speed, stiffness=1e6, damping=0.0)
     duration = 3.0 * block.reference_displacement / speed
-    return dyn.move_block(block, duration, smoothing_speed=2e-5).numbers()
+    return dyn.move_block(block, duration, smoothing_speed=2e-5)
 
 
 def page() -> Page:
@@ -64,11 +64,11 @@ def page() -> Page:
         (f"{mu:g}", f"{b:.1e}", f"{1e3 * U:g}", f"{run['friction_reduction']:.2f}", f"{run['smallest_normal_force']:.1f} to {run['largest_normal_force']:.1f}")
         for (mu, b, U), run in zip(cases, runs, strict=True)
     )  # fmt: skip
-    slow = [(0.5, 3e19, 4e-4), (0.5, 1.6e20, 4e-4), (0.2, 3e19, 4e-4)]
-    traces = [sticks(*case) for case in slow]
+    slowly = [(0.5, 3e19, 4e-4), (0.5, 1.6e20, 4e-4), (0.2, 3e19, 4e-4)]
+    traces = [slow(*case).numbers() for case in slowly]
     cycles = tuple(
         (f"{mu:g}", f"{b:.1e}", *(("none", "") if np.isnan(run["stick_slip_valley"]) else (f"{run['stick_slip_peak']:.2f}", f"{run['stick_slip_valley']:.2f}")))
-        for (mu, b, _), run in zip(slow, traces, strict=True)
+        for (mu, b, _), run in zip(slowly, traces, strict=True)
     )  # fmt: skip
     peak = max(run["peak_friction"] / case[0] for run, case in zip(runs[:3], cases[:3], strict=True))
     return Page(

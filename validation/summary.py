@@ -40,8 +40,8 @@ reference is an independent solution of our own, the page says "independent solu
 """
 
 TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validation/gold_film_grid.py 4096 FOLDER` write their pages from the whole studies and keep the results in
-the folder; stored results are not computed again. `python validation/peng_pictures.py FOLDER` draws rough cylinder, rough sphere, scaling laws, layers and stresses as in
-chapter 3 of Peng (2001). `python validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its output is not part
+the folder; stored results are not computed again. `python validation/pictures.py FOLDER` draws rough cylinder, rough sphere, scaling laws, layers and stresses as in
+chapter 3 of Peng (2001), and the motions of the sliding block. `python validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its output is not part
 of the repository.
 
 To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see `side_by_side.py`) or a `Page` of tables and

@@ -44,7 +44,7 @@ print(f"it squeals at {numbers['vibration_frequency'] / 1e3:.1f} kHz")
 print(f"at 2 mm/s apparent friction {numbers['apparent_friction']:.3f} instead of {pad.friction:.3f}")
 
 # %%
-# Faster than the vibration, nothing of this is felt: friction reverses no more.
+# On a belt that is faster than the vibration of the base nothing of this is felt: the base never catches up with it.
 swift = dyn.move_block(replace(pad, speed=0.02), 40e-3, start=start).numbers(20e-3)
 print(f"at 20 mm/s {swift['apparent_friction']:.3f}")
 figure, axes = plt.subplots(1, 3, figsize=(14, 3.8), layout="constrained")

@@ -359,3 +359,19 @@ def test_stiction_of_a_disk_drive():
         held = 0.02 * left.speed  # of the dashpot, while the slider moves with the disk
         first = (mu * left.load - held) / (left.stiffness * left.speed)
         assert motion.events[0].time == pytest.approx(first, rel=1e-9)
+
+
+def test_law_of_an_interface():
+    """Frequencies are those of the tangent stiffness; after plastic flow the joint is stiffer than its loading curve, as the fit says."""
+    left = run("advanced/plot_9_law_of_an_interface")
+    top, curve = left.up[-1], left.curves["plastic"]
+    loading, unloading = ((top - left.up[-2]) / (curve[7] - curve[place]) for place in (6, 8))
+    assert unloading > 1.3 * loading
+    law = left.fits["plastic, unloading"].law
+    chord = (top - left.down[0]) / float(law.approach(top) - law.approach(left.down[0]))
+    assert chord == pytest.approx(unloading, rel=0.15)
+    step = 1e-6 * top
+    tangent = 2.0 * step / float(law.approach(top + step) - law.approach(top - step))
+    expected = math.sqrt(tangent * 20e-4 / 20.0) / (2.0 * math.pi)
+    assert left.frequencies["plastic, unloading"] == pytest.approx(expected, rel=1e-6)
+    assert left.frequencies["plastic, unloading"] > 1.2 * left.frequencies["plastic, loading"]

@@ -4,10 +4,10 @@ import contextlib
 from functools import cache
 
 import peng_layer_effect
-import peng_pictures
 import peng_scaling
 import peng_stress
 import peng_table_3_1
+import pictures
 import pytest
 import rough_cylinder
 import rough_sphere
@@ -45,12 +45,12 @@ def test_page_belongs_to_the_script(name):
 @pytest.mark.parametrize(
     "name",
     [
-        "layers",
-        *(pytest.param(name, marks=pytest.mark.slow) for name in peng_pictures.FIGURES if name != "layers"),
+        "peng_layers",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in pictures.FIGURES if name != "peng_layers"),
     ],
 )
 def test_picture_is_drawn(name, tmp_path):
-    written = peng_pictures.draw(name, tmp_path)
+    written = pictures.draw(name, tmp_path)
     assert written.read_bytes().startswith(b"\x89PNG")
     assert written.stat().st_size > 20_000
 
