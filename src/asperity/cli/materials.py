@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any
@@ -95,7 +95,16 @@ def _print(
 
 def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
     values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
-    return {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values}
+    return {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values, **_relaxing(record)}
+
+
+def _relaxing(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
+    """What makes a record viscoelastic: relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift."""
+    if not isinstance(record, MaterialRecord) or record.relaxation is None:
+        return {}
+    shift = None if record.shift is None else {"kind": record.shift.name, **asdict(record.shift)}
+    series = {"relaxed": record.relaxation.relaxed, "terms": [list(term) for term in record.relaxation.terms]}
+    return {"relaxation": {**series, "elastic_bulk": record.elastic_bulk, "shift": shift}}
 
 
 def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord]) -> None:
@@ -118,6 +127,12 @@ def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecor
 def _print_one(listing: _Listing, record: MaterialRecord | LiquidRecord) -> None:
 
     rows = [(key.replace("_", " "), listing.text(record, key), item.source) for key, item in record.values.items()]
+    if isinstance(record, MaterialRecord) and record.relaxation is not None:
+        series, source = record.relaxation, record.youngs_modulus.source
+        bulk = "; the bulk modulus does not relax" if record.elastic_bulk else ""
+        rows.append(("relaxed modulus", f"{show(series.relaxed, 'Pa', 5)}{bulk}", source))
+        rows += [("relaxes", f"{show(part, 'Pa', 5)} in {show(time, 's', 5)}", source) for part, time in series.terms]
+        rows += [("shift", record.shift.name, record.shift_source)] if record.shift is not None else []
     console().print(table(record.name, rows, ("quantity", "value", "source")))
     if record.aliases:
         say(f"also called {', '.join(record.aliases)}")

@@ -228,7 +228,7 @@ def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dic
     file = given.get("bodies", "materials_file")
     for key, option in (("body", "--body"), ("counter_body", "--counter")):
         if key in chosen:
-            result[key] = body_table(chosen[key], option, None if file is None else base / file)
+            result[key] = _from(base, body_table(chosen[key], option, None if file is None else base / file))
     if "boundary" in chosen:
         result["boundary"] = chosen["boundary"]
     if "law" in chosen:
@@ -287,6 +287,15 @@ def body_table(text: str, option: str, materials_file: Path | None) -> dict[str,
     return {**table, "materials_file": str(materials_file)} if named and materials_file is not None else table
 
 
+def _from(base: Path, table: Any) -> Any:
+    """``table`` of a body whose files of moduli start at ``base``."""
+    if isinstance(table, list):
+        return [_from(base, item) for item in table]
+    if not isinstance(table, dict):
+        return table
+    return {key: str(base / value) if key == "moduli_file" else _from(base, value) for key, value in table.items()}
+
+
 def names_in(table: Mapping[str, Any], given: Given) -> dict[str, str]:
     """What the user calls the keys of the document ``table`` that was composed of what is ``given``."""
     names = {**given.names, "control.path.steps": "--path-steps", "counter_surface.path": "--counter-surface"}
@@ -309,7 +318,7 @@ def _path_names(table: Mapping[str, Any]) -> dict[str, str]:
 def _body_names(table: Mapping[str, Any]) -> dict[str, str]:
     """What the user calls the keys of the bodies in ``table``: the symbol, the part and the option."""
     names: dict[str, str] = {}
-    words = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"))
+    words = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"), ("relaxation", "relaxation"))
     for key, option in (("body", "--body"), ("counter_body", "--counter")):
         body = table.get(key)
         layers = body.get("layers", ()) if isinstance(body, dict) else ()

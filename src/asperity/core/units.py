@@ -42,6 +42,7 @@ EXAMPLES = {
     "molar volume": "18 cm**3/mol",
     "viscosity": "1 mPa*s",
     "temperature": "293 K",
+    "time": "1 s",
     "speed": "1 mm/s",
 }
 """Text of a usual value of each kind, for messages and forms."""

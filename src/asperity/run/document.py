@@ -251,12 +251,14 @@ def tidy(table: dict[str, Any]) -> dict[str, Any]:
 
 def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
     """``table`` with the file names in it and in the tables within it replaced."""
+    if type(table) is tuple and any(isinstance(item, Settings) for item in table):
+        return tuple(_with_paths(item, moved) for item in table)
     if not isinstance(table, Settings):
         return table
     changed: dict[str, Any] = {}
     for key in type(table).model_fields:
         value = getattr(table, key)
-        if isinstance(value, Settings):
+        if isinstance(value, Settings | tuple):
             changed[key] = _with_paths(value, moved)
         elif value is not None and (key == "path" or key.endswith("_file")):
             changed[key] = moved(value)

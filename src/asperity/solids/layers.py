@@ -11,6 +11,7 @@ from ..core import require
 from ..core.errors import InputError
 from ..core.late import Shown
 from .elastic import Elastic, Rigid, Strength
+from .viscoelastic import Viscoelastic
 
 
 @dataclass(frozen=True)
@@ -282,6 +283,11 @@ def graded(
     """
     require.instance(top, Elastic, "material at the top of a graded layer")
     require.instance(bottom, Elastic, "material at the bottom of a graded layer")
+    for end in (top, bottom):
+        if isinstance(end, Viscoelastic) and end.spectrum:
+            raise InputError(
+                f"materials of a graded layer must be elastic, but {end.name or 'one'} relaxes. Give homogeneous layers instead."
+            )
     require.positive(thickness, "thickness of a graded layer (m)")
     count = require.integer(sublayers, 1, "number of sublayers of a graded layer")
     if not isinstance(grading, Grading):

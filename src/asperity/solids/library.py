@@ -14,6 +14,9 @@ from ..core import require, units
 from ..core.errors import FileFormatError, InputError
 from ..core.text import read_text
 from .elastic import INCOMPRESSIBLE, Elastic, Strength
+from .relaxation import Relaxation
+from .relaxation_text import AT, series_of, shift_of
+from .viscoelastic import TemperatureShift, Viscoelastic
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,8 @@ class Record:
     aliases: tuple[str, ...] = ()
     note: str = ""
     noun: ClassVar[str]
+    more: ClassVar[tuple[str, ...]] = ()
+    """Further keys that a kind of substance reads by itself."""
 
     @classmethod
     def kinds(cls) -> dict[str, str]:
@@ -139,7 +144,7 @@ class Record:
         required = [key for key in kinds if defaults[key] is MISSING]
         if not isinstance(table, dict):
             raise InputError(f"entry {where} must be a table with {' and '.join(required)}, but is {table!r}.")
-        known = (*kinds, "aliases", "note")
+        known = (*kinds, *cls.more, "aliases", "note")
         unknown = sorted(set(table) - set(known))
         if unknown:
             raise InputError(f"key {where} must be one of {', '.join(known)}, but is {unknown[0]!r}.")
@@ -180,13 +185,22 @@ def _sourced(entry: Any, kind: str, what: str) -> Sourced:
 
 @dataclass(frozen=True, kw_only=True)
 class MaterialRecord(Record):
-    """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material."""
+    """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material.
+
+    A viscoelastic one has a ``relaxation`` of Young's modulus, whose value is then that of the first instant; ``elastic_bulk`` and
+    ``shift`` (with ``shift_source``) as of ``Viscoelastic``.
+    """
 
     youngs_modulus: Annotated[Sourced, "pressure"]
     poisson_ratio: Annotated[Sourced, "ratio"]
     hardness: Annotated[Sourced | None, "pressure"] = None
     yield_stress: Annotated[Sourced | None, "pressure"] = None
+    relaxation: Relaxation | None = None
+    elastic_bulk: bool = False
+    shift: TemperatureShift | None = None
+    shift_source: str = ""
     noun: ClassVar[str] = "material"
+    more: ClassVar[tuple[str, ...]] = ("elastic_bulk", "shift")
 
     @property
     def body(self) -> Elastic:
@@ -195,8 +209,47 @@ class MaterialRecord(Record):
             hardness=self.hardness.value if self.hardness else math.nan,
             yield_stress=self.yield_stress.value if self.yield_stress else math.nan,
         )
-        constants = self.youngs_modulus.value, self.poisson_ratio.value
-        return Elastic(*constants, strength, name=self.name, sources=self.sources)
+        if self.relaxation is None:
+            constants = self.youngs_modulus.value, self.poisson_ratio.value
+            return Elastic(*constants, strength, name=self.name, sources=self.sources)
+        sources = (*self.sources, *([f"shift: {self.shift_source}"] if self.shift_source else []))
+        return Viscoelastic.prony(
+            self.relaxation.relaxed,
+            self.relaxation.terms,
+            self.poisson_ratio.value,
+            strength=strength,
+            name=self.name,
+            sources=sources,
+            elastic_bulk=self.elastic_bulk,
+            shift=self.shift,
+        )
+
+    @classmethod
+    def _of(cls, table: Any, name: str, where: str) -> Self:
+        """The record ``name`` of a table, with what makes it viscoelastic."""
+        if not isinstance(table, dict):
+            return super()._of(table, name, where)
+        plain, more = dict(table), dict[str, Any]()
+        modulus = table.get("youngs_modulus")
+        text = modulus.get("value") if isinstance(modulus, dict) else modulus
+        if isinstance(text, str) and AT in text:
+            series = more["relaxation"] = series_of(text, f"youngs_modulus {where}")
+            first = f"{series.instantaneous!r} Pa"
+            plain["youngs_modulus"] = {**modulus, "value": first} if isinstance(modulus, dict) else first
+        bulk = plain.pop("elastic_bulk", False)
+        if not isinstance(bulk, bool):
+            raise InputError(f"elastic_bulk {where} must be true or false, but is {bulk!r}.")
+        entry = plain.pop("shift", None)
+        if entry is not None:
+            entry = entry if isinstance(entry, dict) else {"value": entry}
+            more["shift"] = shift_of(str(entry.get("value", "")), f"shift {where}")
+            more["shift_source"] = str(entry.get("source", "user"))
+        if "relaxation" not in more and (bulk or entry is not None):
+            key = "elastic_bulk" if bulk else "shift"
+            raise InputError(
+                f"{key} {where} must be given with a youngs_modulus that relaxes, such as 3MPa+10MPa@10ms, but it does not."
+            )
+        return replace(super()._of(plain, name, where), elastic_bulk=bulk, **more)
 
 
 def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
@@ -204,7 +257,8 @@ def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
 
     Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, ``aliases``
     and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
-    "user" by default.
+    "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes; ``elastic_bulk = true`` and ``shift``, such as
+    ``"WLF 298 K; 8.86; 101.6 K"`` or ``"Arrhenius 298 K; 80 kJ/mol"``, may stand beside it.
 
     InputError if the file is missing or not TOML, or a key or value in it cannot be used.
     """

@@ -22,9 +22,6 @@ from ..run.document import RENAMED, tidy
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
 
-FILES = ("path", "materials_file", "liquids_file")
-"""Keys that hold a path; the content of the file counts and not its name."""
-
 
 @dataclass(frozen=True)
 class Place:
@@ -197,8 +194,8 @@ def _content(value: Any, folder: Path) -> Any:
 
 
 def _file_content(key: Key, value: Any, folder: Path) -> Any:
-    """The digest of the file that ``value`` names; the name where there is none, which the case will report."""
-    if key not in FILES or not isinstance(value, str):
+    """The digest of the file that ``value`` names at a key ``path`` or ``…_file``; the name where there is none, which the case will report."""
+    if not (key == "path" or str(key).endswith("_file")) or not isinstance(value, str):
         return value
     file = Path(os.path.normpath(folder / value))  # ".." leads nowhere from a folder that is made later
     return file_digest(file) if file.is_file() else value

@@ -59,7 +59,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     assert item.tables is not None
     table = item.tables[""]
     entries = {entry.name: entry for entry in asked_of(table)}
-    own = frozenset(entries) - {"youngs_modulus", "poisson_ratio", "hardness", "yield_stress", "name"}
+    own = frozenset(entries) - {"youngs_modulus", "relaxation", "poisson_ratio", "hardness", "yield_stress", "name"}
 
     def kind() -> str:
         value = context.get((name,))
@@ -71,7 +71,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
             context.session.draft.set((name,), value)
         if not isinstance(value, dict):
             return "rigid" if name == "counter_body" else ""
-        found = (("rigid", "rigid"), ("layers", "layers"), ("youngs_modulus", "constants"))
+        found = (("rigid", "rigid"), ("layers", "layers"), ("youngs_modulus", "constants"), ("relaxation", "constants"))
         return next((word for entry, word in found if value.get(entry)), "constants" if "name" in value else "material")
 
     def choose(word: str) -> None:
@@ -201,6 +201,8 @@ def _name(part: Any) -> str:
     if part.get("rigid"):
         return "rigid"
     named = part.get("name") or part.get("material")
+    if part.get("relaxation"):
+        return str(named or "viscoelastic")
     return str(named or (f"E {part['youngs_modulus']}" if part.get("youngs_modulus") else "material missing"))
 
 

@@ -4,6 +4,7 @@ DLC                               a material of the library
 E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H, yield stress Y, name
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
+E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in ``relaxation``
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 from ...core.errors import InputError
 from ...core.settings import Settings, setting
 from ...core.values import Count, Length, NonEmpty, NonNegativeLength, PoissonRatio, Positive, Pressure
+from .relaxation import SYMBOLS as RELAXING
+from .relaxation import RelaxationTable, relaxation_from_symbols, relaxes
 
 CONSTANTS = ("youngs_modulus", "poisson_ratio")
 """Keys of the elastic constants, which go together."""
@@ -32,9 +35,9 @@ def _text_too(schema: dict[str, Any]) -> None:
 
 
 class MaterialTable(Settings):
-    """One material: a name of the library, or elastic constants with what is known of the strength.
+    """One material: a name of the library, or elastic constants with what is known of the strength; ``relaxation`` instead of Young's modulus.
 
-    It may be text, such as ``"steel"`` or ``"E=140GPa,nu=0.25"``.
+    It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"`` or ``"E=3MPa+10MPa@10ms,nu=0.5"``.
     """
 
     model_config = ConfigDict(json_schema_extra=_text_too)
@@ -42,6 +45,7 @@ class MaterialTable(Settings):
     material: NonEmpty | None = None
     youngs_modulus: Pressure | None = None
     poisson_ratio: PoissonRatio | None = None
+    relaxation: RelaxationTable | None = setting(None, help="how a viscoelastic material relaxes")
     hardness: Pressure | None = None
     yield_stress: Pressure | None = None
     name: NonEmpty | None = None
@@ -58,14 +62,16 @@ class MaterialTable(Settings):
 
     def _one_of(self, others: dict[str, bool]) -> None:
         """Refuse all but one way to describe it: a material, constants, or one of the ``others`` that are given."""
-        constants = [key for key in CONSTANTS if getattr(self, key) is not None]
+        pair = CONSTANTS if self.relaxation is None else ("relaxation", "poisson_ratio")
+        constants = [key for key in pair if getattr(self, key) is not None]
         ways = [*(way for way, given in others.items() if given), *(["material"] if self.material else [])]
         ways += constants[:1]
+        ways += ["youngs_modulus"] if self.relaxation is not None and self.youngs_modulus is not None else []
         if len(ways) != 1:
-            choices = ", or ".join(["a material", "youngs_modulus and poisson_ratio", *others])
+            choices = ", or ".join(["a material", "youngs_modulus (or relaxation) and poisson_ratio", *others])
             raise InputError(f" must give {choices}, but gives {' and '.join(ways) or 'none of these'}.")
         if len(constants) == 1:
-            raise InputError(f" must give youngs_modulus and poisson_ratio together, but gives only {constants[0]}.")
+            raise InputError(f" must give {pair[0]} and poisson_ratio together, but gives only {constants[0]}.")
         allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else ()
         beside = [key for key in (*BESIDE, "name") if getattr(self, key) is not None and key not in allowed]
         if beside:
@@ -231,17 +237,20 @@ def material_from_text(text: str) -> dict[str, Any]:
     """Table of a material by its name or its constants; errors as above."""
     if "=" not in text:
         return {"material": text.strip()}
-    return dict(_constant(part) for part in text.split(","))
+    given = dict(_constant(part) for part in text.split(","))
+    relaxing = {"relaxation": relaxation_from_symbols(given)} if relaxes(given) else {}
+    plain = {SYMBOLS[symbol]: _number(value) if symbol == "nu" else value for symbol, value in given.items()}
+    return {**plain, **relaxing}
 
 
-def _constant(part: str) -> tuple[str, Any]:
+def _constant(part: str) -> tuple[str, str]:
     symbol, _, value = (piece.strip() for piece in part.partition("="))
-    if symbol not in SYMBOLS:
+    if symbol not in SYMBOLS and symbol not in RELAXING:
         raise InputError(
-            f' must be a material, constants such as "E=140GPa,nu=0.25,H=15GPa" ({", ".join(SYMBOLS)}), or layers such '
-            f"as {EXAMPLE}, but holds {part.strip()!r}."
+            f' must be a material, constants such as "E=140GPa,nu=0.25,H=15GPa" ({", ".join(SYMBOLS)}), viscoelastic ones such as '
+            f'"E=3MPa+10MPa@10ms,nu=0.5" ({", ".join(RELAXING)}), or layers such as {EXAMPLE}, but holds {part.strip()!r}.'
         )
-    return SYMBOLS[symbol], _number(value) if symbol == "nu" else value
+    return symbol, value
 
 
 def _number(text: str) -> float | str:
