@@ -74,6 +74,19 @@ def test_an_unresolved_zone_is_a_finding() -> None:
     assert not outcome.result.adhesion.resolved
 
 
+def test_short_range_needs_the_work_alone(run: Runner, tmp_path: Path) -> None:
+    document, out = tmp_path / "case.toml", tmp_path / "out"
+    document.write_text(dumps(checked(PROBLEM | {"adhesion": None, "control": {"force": "10 uN"}})), encoding="utf-8")
+    done = run("contact", "--from", document, "--adhesion", "50mJ/m**2", "--adhesion-law", "jkr", "--out", out)
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(out / "result.nc")
+    assert outcome.result.adhesion.law == asp.JKRAdhesion(0.05)
+    assert outcome.result.external_force == pytest.approx(10e-6, rel=1e-9)
+    assert outcome.values["cohesive_length"] == 0.0
+    assert outcome.values["pixels_per_cohesive_length"] == outcome.result.adhesion.pixels_per_length < 20.0
+    assert [item.criterion for item in outcome.findings if item.level == "warning"].count("adhesive zone") == 1
+
+
 def test_criteria_stand_beside_a_rough_contact() -> None:
     document = PROBLEM | {
         "surface": ROUGH,
@@ -96,6 +109,7 @@ def test_criteria_stand_beside_a_rough_contact() -> None:
         {"work": "50 mJ/m**2", "range": "1 nm", "strength": "60 kPa"},
         {"work": "50 mJ/m**2", "range": "1 nm", "steps": 5},
         {"work": "50 nm", "range": "1 nm"},
+        {"work": "50 mJ/m**2", "law": "jkr", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
     ],
 )

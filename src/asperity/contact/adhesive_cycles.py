@@ -24,7 +24,7 @@ ADHESION_SCALARS = (
         "stability_margin", "1", "1 less the largest eigenvalue of the response to the attraction: positive if stable"
     ),
     Quantity("cohesive_length", "m", "cohesive length"),
-    Quantity("pixels_per_cohesive_length", "1", "cohesive length / pixel"),
+    Quantity("pixels_per_cohesive_length", "1", "cohesive length / pixel; without range radius of a spot / pixel"),
     Quantity("needed_pixel", "m", "largest pixel that resolves the attracting zone"),
     Quantity("jumps", "1", "jumps since the first contact"),
 )

@@ -25,8 +25,11 @@ if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..plots.picture import Figure
 
-LAWS = ("exponential", "dugdale", "linear", "van der waals")
+LAWS = ("exponential", "dugdale", "linear", "van der waals", "jkr")
 """Laws of adhesion in documents."""
+
+WITHOUT_RANGE, OWN_RANGE = "jkr", "van der waals"
+"""The law that has no range, and the one that knows its own."""
 
 Law = Annotated[str, Choice({name: name for name in LAWS})]
 
@@ -43,6 +46,7 @@ class AdhesionSettings(Settings):
     """Attraction of the surfaces, by its work of adhesion and either its range or its strength, the largest stress: range = work/strength.
 
     The law "van der waals" needs neither; ``range`` is then half the distance of the atomic planes in contact, by default 0.165 nm.
+    The law "jkr" has none: its range is infinitely short.
     With ``retract`` the bodies approach from that distance to the approach of the table [control] and part again.
     """
 
@@ -64,7 +68,12 @@ class AdhesionSettings(Settings):
         if self.work is None:
             raise InputError(' must give the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), but does not.')
         given = (self.range is not None) + (self.strength is not None)
-        if given > 1 or (given == 0 and self.law != "van der waals"):
+        if given and self.law == WITHOUT_RANGE:
+            raise InputError(
+                f" must give neither a range (--adhesion-range) nor a strength (--adhesion-strength) for the law {WITHOUT_RANGE}, "
+                "whose range is infinitely short, but does. Leave it out, or choose the law exponential."
+            )
+        if given > 1 or (given == 0 and self.law not in (WITHOUT_RANGE, OWN_RANGE)):
             raise InputError(
                 f" must give either a range (--adhesion-range) or a strength (--adhesion-strength) for the law {self.law}, but gives "
                 f'{"both" if given else "neither"}. Write for example range = "1 nm".'
@@ -80,13 +89,21 @@ class AdhesionSettings(Settings):
 
     def adhesion(self) -> AdhesionLaw:
         """The law."""
-        from ..contact.laws import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+        from ..contact.laws import (
+            DugdaleAdhesion,
+            ExponentialAdhesion,
+            JKRAdhesion,
+            LinearAdhesion,
+            VanDerWaalsAdhesion,
+        )
 
         work = float(self.work or math.nan)
-        if self.law == "van der waals" and self.range is None and self.strength is None:
+        if self.law == WITHOUT_RANGE:
+            return JKRAdhesion(work)
+        if self.law == OWN_RANGE and self.range is None and self.strength is None:
             return VanDerWaalsAdhesion(work)
         reach = float(self.range) if self.range is not None else work / float(self.strength or math.nan)
-        if self.law == "van der waals":
+        if self.law == OWN_RANGE:
             return VanDerWaalsAdhesion(work, 2.0 * reach)
         if self.law == "dugdale":
             return DugdaleAdhesion(work, reach, USUAL_SMOOTHING)
@@ -172,9 +189,9 @@ class Adhesion(Part):
 
     def citations(self, ask: Asked, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
-        from ..contact.solvers.adhesion.solver import MajoriseMinimise
+        from ..contact.couplings.adhesion import method_of
 
-        return (*ask.law.citation_keys, *MajoriseMinimise.citation_keys)
+        return (*ask.law.citation_keys, *method_of(ask.law).citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Loop of force and approach; zone and tractions, of a loop those at the pull-off."""
@@ -213,10 +230,17 @@ def _criteria(problem: ContactProblem) -> dict[str, float]:
 
 def _findings(solved: Solved) -> tuple[Advice, ...]:
     """A zone that the grid does not resolve, an unstable end, steps that failed."""
-    from ..contact.couplings.adhesion import PINNED, RESOLVED
+    from ..contact.couplings.adhesion import PINNED, RESOLVED, RESOLVED_RADIUS
 
     found, made = solved.result.require_adhesion(), []
-    if not found.resolved:
+    if not found.resolved and found.short_range:
+        text = (
+            f"The contact spots are not resolved for adhesion of infinitely short range: their mean radius is {show(found.spot_radius, 'm', 3)}, "
+            f"{found.pixels_per_length:.2g} pixels, and should be at least {RESOLVED_RADIUS:g}; pull-off is too large, by an error in "
+            f"proportion to the pixel. Take a pixel of at most {show(found.needed_pixel, 'm', 3)}."
+        )
+        made.append(Advice("warning", "adhesive zone", text))
+    elif not found.resolved:
         pinned = found.pixels_per_length < PINNED
         effect = (
             "single pixels snap, and hysteresis and pull-off are those of the grid" if pinned else "pull-off may be off"
@@ -260,7 +284,8 @@ def adhesion_sentence(result: ContactResult) -> str:
     """One sentence on the attraction."""
     found = result.require_adhesion()
     branch = "at a minimum of the energy" if found.stable else "NOT at a minimum of the energy"
-    resolved = "" if found.resolved else " The attracting zone is NOT resolved by the grid."
+    what = "edge of the contact" if found.short_range else "attracting zone"
+    resolved = "" if found.resolved else f" The {what} is NOT resolved by the grid."
     return (
         f"The surfaces attract each other with {show(found.attractive_force, 'N')} against an external force of "
         f"{show(found.external_force, 'N')}, {branch}.{resolved}"
@@ -280,17 +305,30 @@ def loop_sentence(loop: AdhesionLoop) -> str:
 def law_rows(result: ContactResult) -> Rows:
     """Law, resolution and branch."""
     found = result.require_adhesion()
+    if found.short_range:
+        reach = [
+            ("range", "infinitely short"),
+            (
+                "mean radius of the contact spots",
+                f"{show(found.spot_radius, 'm', 3)}, {found.pixels_per_length:.3g} pixels",
+            ),
+        ]
+    else:
+        reach = [
+            ("largest attraction", show(found.law.strength, "Pa")),
+            ("range, work / largest attraction", show(found.law.work / found.law.strength, "m")),
+            ("area that attracts without touching", percent(found.adhesive_area_fraction)),
+            ("cohesive length", f"{show(found.cohesive_length, 'm', 3)}, {found.pixels_per_length:.3g} pixels"),
+        ]
+    needed = "" if math.isnan(found.needed_pixel) else f"{show(found.needed_pixel, 'm', 3)} at most"
     return [
         ("law", found.law.name),
         ("work of adhesion", show(found.law.work, "J/m**2")),
-        ("largest attraction", show(found.law.strength, "Pa")),
-        ("range, work / largest attraction", show(found.law.work / found.law.strength, "m")),
+        *reach,
         ("attractive force", show(found.attractive_force, "N")),
         ("external force", show(found.external_force, "N")),
-        ("area that attracts without touching", percent(found.adhesive_area_fraction)),
         ("margin of stability", f"{found.margin:.3g} ({'stable' if found.stable else 'not stable'})"),
-        ("cohesive length", f"{show(found.cohesive_length, 'm', 3)}, {found.pixels_per_length:.3g} pixels"),
-        ("pixel that resolves it", f"{show(found.needed_pixel, 'm', 3)} at most"),
+        ("pixel that resolves it", needed or "none"),
         ("residual of the attraction", f"{found.residual:.1e}"),
     ]
 

@@ -43,6 +43,11 @@ def test_one_wave_in_closed_form():
     assert found.number == pytest.approx(expected.number, rel=1e-12)
     assert found.effective_work == pytest.approx(expected.effective_work, rel=1e-12)
 
+    # without range any roughness is sticky, and full contact costs the same
+    short = stickiness(asp.ContactProblem(asp.Surface(heights, length / n), body, adhesion=asp.JKRAdhesion(work)))
+    assert short.number == 0.0
+    assert short.effective_work == found.effective_work
+
 
 def test_what_has_no_criterion_is_refused():
     body, law = asp.Elastic(1e9, 0.3), asp.ExponentialAdhesion(0.05, 1e-9)

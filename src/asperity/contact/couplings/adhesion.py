@@ -19,11 +19,13 @@ from ...core.grid import Grid
 from ...core.late import Shown
 from ...core.status import Status
 from ...solids.compliance.halfspace import Compliance
-from ..laws import Adhesion, cohesive_length
+from .. import measure
+from ..laws import Adhesion, JKRAdhesion, cohesive_length
 from ..operators import Operator, prepare_operator
 from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
-from ..solvers.adhesion.problem import Adhered, AdhesiveProblem, Linearised
-from ..solvers.adhesion.solver import AdhesiveSolution, MajoriseMinimise
+from ..solvers.adhesion.front import MovingFront, step_compliance
+from ..solvers.adhesion.problem import Adhered, AdhesiveProblem
+from ..solvers.adhesion.solver import AdhesiveSolution, AdhesiveSolver, MajoriseMinimise
 from ..solvers.protocol import FixedMean, FixedOffset
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
@@ -36,6 +38,9 @@ _FINAL = 1e-13
 RESOLVED = 5.0
 """Pixels that the cohesive length must span for the pull-off to be right to 1e-3 (an error of second order)."""
 
+RESOLVED_RADIUS = 20.0
+"""Pixels in the radius of a contact spot from which on the pull-off without a range is right to 8 %; its error is of first order."""
+
 PINNED = 1.0
 """Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the hysteresis is one of the grid."""
 
@@ -44,6 +49,9 @@ _JUMP = 0.25
 
 _FAR = 2.0
 """Change of the gap over that of the approach above which it is no smooth response."""
+
+_JUMPED_SHARE = 0.2
+"""Share of the contact that has to open or close in a step to count as a jump where the attraction has no range."""
 
 _POSITIONS = 40
 _POSITION_ERROR = 1e-9
@@ -74,6 +82,7 @@ class AdhesiveContact(Shown):
     margin
         1 - ρ, ρ being the largest eigenvalue of |σ'|^½ (K/C) |σ'|^½ on the free points: its sign is that of the smallest
         eigenvalue of the Hessian of the energy there. Positive: the contact is a minimum at what is prescribed.
+        Of an attraction without range 1 less the energy that the most strained point would release over w.
     cohesive_length
         ℓ = E* w/σ0² in m.
     pixel
@@ -89,11 +98,13 @@ class AdhesiveContact(Shown):
     residual
         Largest difference of attraction and σ(gap) over σ0.
     energies
-        Energy in J after every step of the solver; none is larger than the one before.
+        Energy in J after every step of the solver; none is larger than the one before, but without range.
     steps, newton_steps, fft_pairs
         Work of the adhesive solver in this step.
     status
         How it ended.
+    spot_radius
+        Radius in m of a disc as large as the mean contact spot, of a line half the mean width; zero without contact.
     """
 
     law: Adhesion
@@ -117,11 +128,17 @@ class AdhesiveContact(Shown):
     newton_steps: int
     fft_pairs: float
     status: Status
+    spot_radius: float = math.nan
+
+    @property
+    def short_range(self) -> bool:
+        """Whether the attraction has no range at all, JKR's limit."""
+        return math.isinf(self.law.strength)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of law and method."""
-        return (*self.law.citation_keys, *MajoriseMinimise.citation_keys)
+        return (*self.law.citation_keys, *method_of(self.law).citation_keys)
 
     def memory(self, gap: RealArray, approach: float) -> Memory:
         """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m of this one."""
@@ -135,24 +152,39 @@ class AdhesiveContact(Shown):
         return {"attraction": self.attraction, "gap": gap} | {key: np.asarray(value) for key, value in numbers.items()}
 
     @property
+    def resolving_length(self) -> float:
+        """Length in m that the grid must resolve: ℓ, or of an attraction without range the radius of a contact spot."""
+        return self.spot_radius if self.short_range else self.cohesive_length
+
+    @property
+    def _pixels_needed(self) -> float:
+        return RESOLVED_RADIUS if self.short_range else RESOLVED
+
+    @property
     def pixels_per_length(self) -> float:
-        """ℓ over the pixel."""
-        return self.cohesive_length / self.pixel
+        """That length over the pixel."""
+        return self.resolving_length / self.pixel
 
     @property
     def resolved(self) -> bool:
-        """Whether the grid resolves the attracting zone, ``RESOLVED`` pixels in ℓ."""
-        return self.pixels_per_length >= RESOLVED
+        """Whether the grid resolves it: ``RESOLVED`` pixels in ℓ, ``RESOLVED_RADIUS`` in the radius of a spot; also where nothing touches."""
+        apart = self.short_range and self.spot_radius == 0.0
+        return apart or self.pixels_per_length >= self._pixels_needed
 
     @property
     def needed_pixel(self) -> float:
-        """Largest pixel in m that resolves the attracting zone."""
-        return self.cohesive_length / RESOLVED
+        """Largest pixel in m that resolves it; NaN where there is nothing to resolve."""
+        return self.resolving_length / self._pixels_needed if self.resolving_length > 0.0 else math.nan
 
     @property
     def stable(self) -> bool:
         """Whether the energy is at a minimum."""
         return self.margin > 0.0
+
+
+def method_of(law: Adhesion) -> type[MajoriseMinimise] | type[MovingFront]:
+    """Method that solves contacts with this ``law``."""
+    return MovingFront if isinstance(law, JKRAdhesion) else MajoriseMinimise
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,7 +246,7 @@ class AdhesionCoupling(Coupling):
     law: Adhesion
     operator: Operator = field(repr=False)
     E_star: float
-    solver: MajoriseMinimise = MajoriseMinimise()
+    solver: AdhesiveSolver = MajoriseMinimise()
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "adhesion"
     feedback: ClassVar[bool] = True
@@ -225,7 +257,9 @@ class AdhesionCoupling(Coupling):
     def prepared(cls, problem: ContactProblem, operator: Operator, tolerance: float) -> Self:
         """Coupling of the bodies of ``problem``."""
         assert problem.adhesion is not None
-        solver = MajoriseMinimise(tolerance=0.1 * tolerance)
+        solver: AdhesiveSolver = MajoriseMinimise(tolerance=0.1 * tolerance)
+        if isinstance(problem.adhesion, JKRAdhesion):
+            solver = MovingFront(step_compliance(operator))
         return cls(problem.adhesion, operator, problem.contact_modulus, solver, tolerance)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
@@ -244,7 +278,9 @@ class AdhesionCoupling(Coupling):
         solution = self._solved(posed, posed.dented, np.inf, self._mean(posed), pull, posed.start)
         note = _Note(posed, before, posed.dented, solution)
         x = solution.state.pull
-        return Exchange(x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=self.law.strength, note=note)
+        return Exchange(
+            x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=min(self.law.strength, 1e300), note=note
+        )
 
     def _touching(self, posed: Posed) -> RealArray:
         """Attraction (nx, ny) in Pa of the contact without load that surfaces find which were brought to touch."""
@@ -320,8 +356,8 @@ class AdhesionCoupling(Coupling):
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The attraction of the gap of ``contact``; solved anew where other couplings have moved it."""
         note: _Note = exchange.note
-        attraction = self.law.attraction(contact.gap)
-        residual = float(np.abs(attraction - exchange.x).max()) / self.law.strength
+        pressure = np.asarray(contact.pressure, dtype=float)
+        residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap)
         base = contact.qp.profile - self.operator.apply(exchange.x)
         if residual <= self.tolerance or (self._same(note, base, contact) and note.solution.status.converged):
             return replace(exchange, target=exchange.x, residual=residual)
@@ -349,21 +385,25 @@ class AdhesionCoupling(Coupling):
         """Memory of attraction and energies; what adhesion did."""
         found = self._outcome(exchange, contact)
         posed: Posed = exchange.note.posed
-        return found.memory(contact.gap, posed.top + contact.level), found
+        gap = np.where(np.asarray(contact.pressure) > 0.0, 0.0, contact.gap)
+        return found.memory(gap, posed.top + contact.level), found
 
     def _outcome(self, exchange: Exchange, contact: Contact) -> AdhesiveContact:
         note: _Note = exchange.note
         grid, solution = self.operator.grid, note.solution
-        pressure, gap = np.asarray(contact.pressure, dtype=float), contact.gap
+        pressure = np.asarray(contact.pressure, dtype=float)
+        gap = np.where(
+            pressure > 0.0, 0.0, np.maximum(contact.gap, np.finfo(float).tiny)
+        )  # touch without pressure gains nothing
         traction = pressure - exchange.x
         elastic = 0.5 * float((traction * self.operator.apply(traction)).sum()) * grid.pixel_area
         interface = float(self.law.energy(gap).sum()) * grid.pixel_area
         force = float(traction.sum()) * grid.pixel_area
         approach = note.posed.top + contact.level
-        lost, jumped = _lost(note.before, force, approach, elastic + interface, gap)
+        lost, jumped = self._lost(note.before, force, approach, elastic + interface, gap)
         held = _held(note, self.operator, self.law, contact)
         state = Adhered(pressure, exchange.x, contact.solution.state.deflection, gap, exchange.x, -contact.level)
-        margin = 1.0 - Linearised(held, state).largest()
+        margin = self.solver.margin(held, state)
         return AdhesiveContact(
             law=self.law,
             attraction=exchange.x,
@@ -386,7 +426,25 @@ class AdhesionCoupling(Coupling):
             newton_steps=solution.newton_steps,
             fft_pairs=solution.fft_pairs,
             status=solution.status,
+            spot_radius=self._spot_radius(pressure > 0.0),
         )
+
+    def _lost(
+        self, before: _Before, force: float, approach: float, energy: float, gap: RealArray
+    ) -> tuple[float, bool]:
+        """Energy (J) lost since the step before, and whether in a jump, which without range is more than points of the edge."""
+        lost, jumped = _lost(before, force, approach, energy, gap)
+        return lost, jumped and not (math.isinf(self.law.strength) and _creeps(before, gap))
+
+    def _spot_radius(self, touching: BoolArray) -> float:
+        grid = self.operator.grid
+        spots = measure.contact_spots(touching, wraps=self.operator.boundary.wraps)
+        if not spots.size:
+            return 0.0
+        area = float(spots.mean()) * grid.pixel_area
+        if 1 in grid.shape:
+            return 0.5 * area / grid.size[grid.shape.index(1)]
+        return math.sqrt(area / math.pi)
 
     def _zone(self, pressure: RealArray, gap: RealArray) -> BoolArray:
         return (pressure <= 0.0) & (gap < self.law.range)
@@ -436,6 +494,13 @@ def _lost(before: _Before, force: float, approach: float, energy: float, gap: Re
     farthest = float(np.abs(gap - before.gap).max())
     jumped = lost > _JUMP * abs((force - before.force) * step) and farthest > _FAR * abs(step)
     return lost, jumped
+
+
+def _creeps(before: _Before, gap: RealArray) -> bool:
+    """Whether points at the edge alone have moved, each of which loses a little energy: less than a share of the contact."""
+    earlier, later = before.gap == 0.0, gap == 0.0
+    most = max(np.count_nonzero(earlier), np.count_nonzero(later))
+    return bool(np.count_nonzero(earlier != later) <= _JUMPED_SHARE * most)
 
 
 def require_adhesion(problem: ContactProblem, control: Control) -> None:

@@ -13,6 +13,7 @@ from .adhesion import (
 from .friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from .layered_hardness import LayeredHardness
 from .protocol import Hardness, HardWall, InterfaceLaw, LimitByDepth, work_density
+from .short_range import JKRAdhesion
 
 __all__ = [
     "Adhesion",
@@ -25,6 +26,7 @@ __all__ = [
     "HardWall",
     "Hardness",
     "InterfaceLaw",
+    "JKRAdhesion",
     "LayeredHardness",
     "LennardJonesAdhesion",
     "LimitByDepth",

@@ -49,7 +49,7 @@ def stickiness_of(
     full_contact_energy
         U_el/A in J/m², >= 0, elastic energy of full contact over nominal area: (E*/4) ∫ q C d²q of a half-space.
     E_star, work, reach
-        Contact modulus in Pa, work of adhesion in J/m², range Δr of the attraction in m, > 0.
+        Contact modulus in Pa, work of adhesion in J/m², range Δr of the attraction in m, >= 0, without which the number is zero.
 
     Raises
     ------
@@ -59,8 +59,9 @@ def stickiness_of(
     require.positive(slope, "rms slope")
     require.positive(laplacian, "rms Laplacian (1/m)")
     require.not_negative(full_contact_energy, "elastic energy of full contact (J/m^2)")
-    for value, what in ((E_star, "contact modulus (Pa)"), (work, "work of adhesion (J/m^2)"), (reach, "range (m)")):
+    for value, what in ((E_star, "contact modulus (Pa)"), (work, "work of adhesion (J/m^2)")):
         require.positive(value, what)
+    require.not_negative(reach, "range (m)")
     diameter = 4.0 * slope / laplacian
-    number = slope * reach * E_star / (2.0 * work) * math.pow(slope * diameter / (4.0 * reach), 2.0 / 3.0)
+    number = slope * E_star / (2.0 * work) * math.pow(slope * diameter / 4.0, 2.0 / 3.0) * math.cbrt(reach)
     return Stickiness(diameter, number, work - full_contact_energy)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ....core import require
 from ....core.arrays import RealArray
 from ....core.errors import NoSolutionError
 from ....core.status import Outcome, Status
+from ...laws.adhesion import Adhesion
 from ..active_set.solver import ActiveSet
 from ..protocol import ContactQP, FixedMean, FixedOffset, level, run
 from .problem import Adhered, AdhesiveProblem, Linearised
@@ -43,6 +44,23 @@ class AdhesiveSolution:
     newton_steps: int
     fft_pairs: float
     status: Status
+
+
+class AdhesiveSolver(Protocol):
+    """Method for adhesive contacts; a frozen value holding only its settings. Fields are (nx, ny) arrays."""
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers of the method."""
+
+    def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
+        """Equilibrium that is reached from the attraction ``pull`` in Pa, started from this wall ``pressure``."""
+
+    def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
+        """How far a contact of this wall ``pressure`` (Pa) and ``gap`` (m) is from asking for the ``pull`` (Pa) it was posed with."""
+
+    def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
+        """Margin of stability of ``state``, positive where it is stable."""
 
 
 _SLOW = 0.6
@@ -91,7 +109,7 @@ class MajoriseMinimise:
             If the load prescribed pulls the surfaces apart.
         """
         strength, pixel = problem.law.strength, problem.operator.grid.pixel_area
-        work = _Work()
+        work = Work()
         state = minimised(problem, pull, pressure, work)
         energies, miss, newton_steps, rate = [problem.energy(state)], state.miss(strength), 0, 0.0
         count = 1
@@ -116,7 +134,15 @@ class MajoriseMinimise:
         scaled = tuple(value * pixel for value in energies)
         return AdhesiveSolution(state, scaled[-1], scaled, count, newton_steps, work.pairs, status)
 
-    def _newton(self, problem: AdhesiveProblem, state: Adhered, work: _Work) -> Adhered | None:
+    def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
+        """Largest difference of ``pull`` and the attraction at the ``gap`` over the largest attraction; fields (nx, ny)."""
+        return float(np.abs(law.attraction(gap) - pull).max()) / law.strength
+
+    def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
+        """1 less the largest eigenvalue of the response of the free points."""
+        return 1.0 - Linearised(problem, state).largest()
+
+    def _newton(self, problem: AdhesiveProblem, state: Adhered, work: Work) -> Adhered | None:
         """Step of Newton's method from ``state`` followed by one of majorise-minimise; None where there is nothing to gain."""
         system = Linearised(problem, state)
         if not system.free.any():
@@ -133,18 +159,23 @@ class MajoriseMinimise:
             return None
 
 
-class _Work:
+class Work:
     """FFT pairs spent so far."""
 
     def __init__(self) -> None:
         self.pairs = 0.0
 
 
-_WALL_TOLERANCE = 1e-13
+FINEST = 1e-13
+"""Error of the normal solves at the end."""
 
 
 def minimised(
-    problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None, work: _Work | None = None
+    problem: AdhesiveProblem,
+    pull: RealArray,
+    pressure: RealArray | None,
+    work: Work | None = None,
+    tolerance: float = FINEST,
 ) -> Adhered:
     """Hard-wall contact under the fixed attraction ``pull`` (nx, ny) in Pa, started from this wall ``pressure``.
 
@@ -174,7 +205,7 @@ def minimised(
     scale = float(profile.std()) or 1.0
     qp = ContactQP(problem.operator, profile, problem.cap, wanted, scale)
     start = pressure if pressure is not None and pressure.any() else None
-    solution = run(ActiveSet(tolerance=_WALL_TOLERANCE), qp, start)
+    solution = run(ActiveSet(tolerance=tolerance), qp, start)
     if work is not None:
         work.pairs += solution.state.applications * problem.operator.pairs_per_application + solution.state.extra_pairs
     p, u = solution.state.pressure, solution.state.deflection
