@@ -15,7 +15,7 @@ from ...core.status import NoProgress, Outcome, Progress, Status
 from ..problem import Approach
 from ..solvers.protocol import Constraint, ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run
 from .position import Position
-from .protocol import Contact, Coupling, Exchange, Memory, Posed
+from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
 
 REMEMBERED = 3
 """Rounds before the last that an extrapolation uses. Three take as few rounds as six (sliding, layered hardness)."""
@@ -220,10 +220,11 @@ class _Iteration:
         self.last: Contact | None = None
         self.memories, self.nested = memories, False
         self.indentation: RealArray | float = 0.0
+        self.spent = 0, 0.0
 
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
-        tolerance = self._next_tolerance(np.inf, self.active)
+        tolerance = self.finest if self._goes_ahead() else self._next_tolerance(np.inf, self.active)
         lowest, progressed = np.inf, 0
         for count in range(1, self.rounds.most + 1):
             tolerance = self.finest if count == self.rounds.most else tolerance
@@ -273,6 +274,19 @@ class _Iteration:
             if exchange.smooth or not exchange.settled or (found and found[-1] > exchange.tolerance):
                 found.append(exchange.residual)
         return moves
+
+    def _goes_ahead(self) -> bool:
+        """Whether the only coupling with feedback has found the contact by a method of its own, from which rounds then start."""
+        name = self.active[0] if len(self.active) == 1 else ""
+        coupling = self.couplings.get(name)
+        if not isinstance(coupling, Foreseeing):
+            return False
+        qp = self._posed()
+        found = coupling.ahead(self.exchanges[name], qp, self._start(qp), self.solver, self.watched)
+        if found is None:
+            return False
+        self.exchanges[name], self.spent = found.exchange, (found.iterations, found.pairs)
+        return True
 
     def _need(self) -> None:
         """The largest and the smallest error of the normal solves that the couplings allow."""
@@ -375,6 +389,8 @@ class _Iteration:
         else:
             solution = run(_to(self.solver, tolerance), qp, self._start(qp), self.watched)
         contact = Contact(self.posed, qp, solution, self.indentation).with_work_of(self.last)
+        if self.last is None:
+            contact = contact.after(*self.spent)
         if contact.pressure.any():
             self.pressures = [*self.pressures[-1:], contact.pressure]
         self.last = contact

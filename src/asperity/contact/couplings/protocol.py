@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Totals
 from ...core.errors import NoSolutionError
+from ...core.status import Progress
 from ..operators.convolution import Operator
 from ..problem import Control, Force, MeanPressure, Pull, Unloaded, mean_pressure
-from ..solvers.protocol import Constraint, ContactQP, Solution, level_of
+from ..solvers.protocol import Constraint, ContactQP, Solution, Solver, level_of
 from ..tangential import Tangential
 
 Memory: TypeAlias = Mapping[str, RealArray]
@@ -130,12 +131,17 @@ class Contact:
         """The same with the work of the rounds before it added."""
         if earlier is None:
             return self
-        own, before = self.solution.state, earlier.solution.state
+        before = earlier.solution.state
+        return self.after(before.iterations, before.extra_pairs, before.applications)
+
+    def after(self, iterations: int, pairs: float, applications: int = 0) -> Contact:
+        """The same with work done before it added: iterations, FFT pairs, products with the compliance."""
+        own = self.solution.state
         state = replace(
             own,
-            iterations=own.iterations + before.iterations,
-            applications=own.applications + before.applications,
-            extra_pairs=own.extra_pairs + before.extra_pairs,
+            iterations=own.iterations + iterations,
+            applications=own.applications + applications,
+            extra_pairs=own.extra_pairs + pairs,
         )
         return replace(self, solution=replace(self.solution, state=state))
 
@@ -215,6 +221,14 @@ class Exchange:
         return self.residual <= self.tolerance
 
 
+class Ahead(NamedTuple):
+    """Exchange of a coupling that has found the contact with its own unknown, and the FFT ``pairs`` and ``iterations`` that took."""
+
+    exchange: Exchange
+    pairs: float
+    iterations: int
+
+
 class Coupling(Protocol):
     """A physics that joins the normal contact: frozen settings, prepared once for a problem.
 
@@ -268,3 +282,16 @@ class Coupling(Protocol):
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, object]:
         """Memory for the next step, and what it found (None if that is all in the contact)."""
+
+
+@runtime_checkable
+class Foreseeing(Protocol):
+    """Coupling that may have a method of its own for the contact with its feedback."""
+
+    def ahead(
+        self, exchange: Exchange, qp: ContactQP, start: RealArray | None, solver: Solver, progress: Progress
+    ) -> Ahead | None:
+        """Unknown and pressure that nearly agree, where the coupling has a method for ``qp``, in which its share is; asked if no other feeds back. None if it is not found.
+
+        ``start`` is a pressure (nx, ny) in Pa to start from, if one is known.
+        """

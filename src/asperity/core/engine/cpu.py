@@ -251,6 +251,17 @@ class CpuCells:
         self._sweep(free, r, self.g, self._cycle)
         return self.at_points(free, r, other, out)
 
+    def factorise_with(self, free: FreeSet, conductance: RealArray) -> None:
+        """g of all cells for the points of ``free``, which yield by the ``conductance`` (of any sign) times their own load, instead of by it."""
+        last = len(self.weights) - 1
+        self._sweep(free, conductance, self.g, (1, last, last + 1, 1))
+
+    def solve_with(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
+        """Inverse times ``r`` after ``factorise_with`` the same."""
+        self._sweep(free, conductance * r, self.g, self._cycle)
+        vector: RealArray = self.at_points(free, r, r, np.empty_like(r)).vector
+        return conductance * vector
+
     def predicted_residual(
         self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
     ) -> RealArray:

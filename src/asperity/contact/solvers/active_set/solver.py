@@ -46,19 +46,19 @@ _ROUNDING = 4.0 * np.finfo(float).eps
 """Rounding of the sums in the error, relative to their terms: an error below it is reported as this large."""
 
 
-def _plane_level(qp: ContactQP, totals: Totals) -> float:
+def plane_level(qp: ContactQP, totals: Totals) -> float:
     """Plane level (the multiplier) in the heights of the workspace, as ``protocol.level``."""
     return 0.0 if isinstance(qp.constraint, FixedOffset) else multiplier(totals)
 
 
-def _relative_error(work: Workspace, totals: Totals) -> float:
+def relative_error(work: Workspace, totals: Totals) -> float:
     """``protocol.relative_error`` from the sums over the iterate."""
     qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
     if work.load_prescribed and work.cap is None:
         lifted = totals.lowest * total
         rounding = _ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
         return scaled_error(qp, max(totals.work - lifted, rounding) / total, total, energy)
-    iterate, level = (work.pressure, work.deflection, work.heights, work.cap), _plane_level(qp, totals)
+    iterate, level = (work.pressure, work.deflection, work.heights, work.cap), plane_level(qp, totals)
     found = work.engine.violation(*iterate, level)
     if work.load_prescribed:
         lowest = work.engine.violation(*iterate, totals.lowest)
@@ -373,7 +373,7 @@ class ActiveSet:
         work = Workspace.of(qp, self.precision, begin)
         survey = work.survey()
         unsuccessful = None if self.monotone or work.cap is not None else 0
-        error = _relative_error(work, survey.totals)
+        error = relative_error(work, survey.totals)
         memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful)
         return self._state(memory, SolverState(begin, begin, np.inf, applications=applications, extra_pairs=pairs))
 
@@ -395,7 +395,7 @@ class ActiveSet:
         _require_latest(given)
         memory = replace(given)
         given.superseded, given.tensile = True, None  # its vectors are long: they must go as soon as they are used
-        level = _plane_level(qp, memory.survey.totals)
+        level = plane_level(qp, memory.survey.totals)
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype)
         step = self._clipped_step if memory.unsuccessful is None else self._unclipped_step
         following, spent = step(memory, replace(state, iterations=state.iterations + 1), free)
@@ -463,7 +463,7 @@ class ActiveSet:
         are clipped from now on, tensile points are cleared and the deflection is computed from scratch.
         """
         work = memory.work
-        error = _relative_error(work, memory.survey.totals)
+        error = relative_error(work, memory.survey.totals)
         if memory.tension:
             error += memory.tension / memory.survey.totals.pressure
         failed = memory.unsuccessful
@@ -479,7 +479,7 @@ class ActiveSet:
         elif spent.iterations and due:
             _compute_from_scratch(memory)
             memory.survey, memory.tension = work.survey(), 0.0
-            error = memory.computed_at = _relative_error(work, memory.survey.totals)
+            error = memory.computed_at = relative_error(work, memory.survey.totals)
             applications += 1
         totals = memory.survey.totals
         energy = None if memory.unsuccessful is not None else totals.work - 0.5 * totals.deflected
@@ -558,6 +558,12 @@ def coarsened(qp: ContactQP) -> ContactQP:
     return replace(qp, operator=qp.operator.coarsened, profile=profile, cap=cap, height_scale=scale)
 
 
+def coarse_tolerance(qp: ContactQP, coarse: ContactQP, solver: Adjustable) -> float:
+    """Tolerance of the ``coarse`` problem: a fraction of the roughness of ``qp`` that its grid cannot show."""
+    hidden = np.sqrt(max(0.0, 1.0 - (coarse.height_scale / qp.height_scale) ** 2))
+    return max(min(_HIDDEN_SHARE * float(hidden), _LOOSEST), solver.tolerance)
+
+
 def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
     """Feasible pressure (Pa) prolonged from the solution of ``solver`` on the coarser grid, and its FFT pairs.
 
@@ -568,9 +574,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
     if min(qp.profile.shape) <= COARSEST:
         return feasible_start(qp, None), 0.0
     coarse = coarsened(qp)
-    hidden = np.sqrt(max(0.0, 1.0 - (coarse.height_scale / qp.height_scale) ** 2))
-    tolerance = max(min(_HIDDEN_SHARE * float(hidden), _LOOSEST), solver.tolerance)
-    state = run(solver.loosened(tolerance), coarse).state
+    state = run(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
     share = coarse.profile.size / qp.profile.size
     stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid) if qp.elastic else 0.0
