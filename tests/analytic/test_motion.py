@@ -116,39 +116,52 @@ def test_first_milliseconds_of_a_block(case: float) -> None:
 SLIDING = {row["set"]: row for row in reference("block_sliding_features")}
 
 
-BEATS = {7.0: 0.01, 8.0: 0.03, 12.0: 0.35, 15.0: 0.02}
-"""Sets with a slow beat, whose phase in the window follows from the rounding that flutter grows from, and how far vibration may then be off.
+BEATS = {7.0: 2e-3, 8.0: 1e-2, 12.0: 5e-3, 15.0: 2e-3}
+"""Sets with a slow beat, and how well their vibration is found in some window of the length of the reference's.
 
-In set 12 the vibration goes between 0.085 and 0.128 of the penetration at rest over a beat of 0.29 s, of which the window sees a third."""
+The phase of the beat in the window of the reference follows from the rounding that its flutter grows from. In set 12 the vibration goes between
+0.085 and 0.128 of the penetration at rest over a beat of 0.29 s."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", sorted(SLIDING))
 def test_long_runs_of_a_block(case: float) -> None:
-    """Forces and vibration within 2e-3, some twenty times what halving the step of the reference changes most of them by; peak and mean also in beats."""
+    """Forces and vibration within 2e-3, some twenty times what halving the step of the reference changes most of them by; peak and mean also in beats.
+
+    An impulse of 1e-3 begins the flutter, which else waits for rounding, and on some processors until it is too late. An earlier begin
+    takes up to 5e-3 from the peak.
+    """
     row = SLIDING[case]
-    block = block_of(row)
-    numbers = dyn.move_block(block, row["t_end_s"], smoothing_speed=row["eps_m_per_s"]).numbers(row["t_window_s"])
-    found = [
-        numbers["peak_friction"] / block.friction,
-        numbers["friction_reduction"],
-        numbers["smallest_normal_force"],
-        numbers["largest_normal_force"],
-        numbers["penetration_vibration"],
-        numbers["tilt_vibration"],
-        numbers["vibration_frequency"],
-    ]
-    names = (
-        "x_peak_over_ref",
-        "x_mean_over_ref",
-        "N_min_over_W",
-        "N_max_over_W",
-        "y_rms_over_y0",
-        "phi_rms_b_over_2y0",
-    )
-    wanted = [row[name] for name in (*names, "freq_Hz")]
-    np.testing.assert_allclose(found[:2], wanted[:2], rtol=3e-3)
-    np.testing.assert_allclose(found, wanted, rtol=BEATS.get(case, 2e-3), atol=1e-6)
+    block, beats = block_of(row), case in BEATS
+    length = row["t_end_s"] - row["t_window_s"]
+    duration = row["t_end_s"] + (0.3 if beats else 0.0)
+    run = dyn.move_block(block, duration, smoothing_speed=row["eps_m_per_s"], disturbance=1e-3)
+    numbers = run.numbers(row["t_window_s"])
+    assert numbers["peak_friction"] / block.friction == pytest.approx(row["x_peak_over_ref"], rel=6e-3)
+    assert numbers["friction_reduction"] == pytest.approx(row["x_mean_over_ref"], rel=6e-3)
+    names = ("N_min_over_W", "N_max_over_W", "y_rms_over_y0", "phi_rms_b_over_2y0")
+    wanted = np.array([row[name] for name in names])
+    starts = np.arange(row["t_window_s"] - 0.25, duration - length, 5e-3) if beats else [row["t_window_s"]]
+    found = [vibration(run, start, start + length) for start in starts]
+    misses = [np.max(np.abs(each - wanted) / (np.abs(wanted) + 5e-4)) for each in found]
+    assert min(misses) < BEATS.get(case, 2e-3)
+    if row["freq_Hz"] > 0.0:
+        heard = [part(run.motion, start, start + length).dominant_frequency("penetration") for start in starts[::10]]
+        assert (1.0 - 2e-3) * min(heard) < row["freq_Hz"] < (1.0 + 2e-3) * max(heard), "in a beat between two lines"
+
+
+def part(motion: dyn.Motion, start: float, end: float) -> dyn.Motion:
+    """The ``motion`` from ``start`` to ``end``."""
+    kept = (motion.time >= start) & (motion.time <= end)
+    return dyn.Motion(motion.time[kept], {name: values[kept] for name, values in motion.values.items()})
+
+
+def vibration(run: dyn.BlockRun, start: float, end: float) -> np.ndarray:
+    """Smallest and largest normal force over the load, standard deviations of penetration and tilt, from ``start`` to ``end``."""
+    motion, block = part(run.motion, start, end), run.block
+    normal = motion["normal_force"] / block.load
+    penetration, tilt = motion["penetration"].std(), motion["tilt"].std()
+    return np.array([normal.min(), normal.max(), penetration / block.rest, tilt * block.length / (2.0 * block.rest)])
 
 
 STICK_SLIP = {row["set"]: row for row in reference("block_stick_slip_features")}
@@ -294,3 +307,24 @@ def test_smoothed_friction_tends_to_exact_friction() -> None:
         for share in (0.1, 0.02, 0.0)
     ]
     assert abs(means[1] - means[2]) < 0.4 * abs(means[0] - means[2])
+
+
+def test_flutter_after_a_long_rest_begins_with_a_disturbance():
+    """Loading the spring takes 12 000 periods of the normal vibration, so that nothing is left of it when the block begins to slide.
+
+    What the impulse leads to does not depend on its size, and its work is in the balance of energy.
+    """
+    law = dyn.NormalCompliance.amontons(1e17, 1.37, friction=0.4).damped(0.03, 500.0, 50e3)
+    block = dyn.SlidingBlock(law, mass=1.0, length=0.1, width=0.02, height=0.05, load=100.0, stiffness=2e5, speed=1e-3)
+    moment = 0.2 + math.pi / math.sqrt(2e5)
+    growth = 6e-3 * block.stability.margin
+    assert growth > 20.0
+    runs = [dyn.move_block(block, moment + 6e-3, disturbance=size) for size in (0.0, 1e-3, 1e-2)]
+    quiet, small, large = (run.numbers(moment + 5e-3)["penetration_vibration"] for run in runs)
+    assert quiet < 1e-4
+    assert small > 0.1
+    assert large == pytest.approx(small, rel=0.02), "a limit cycle"
+    assert max(run.motion.energy_error for run in runs) < 1e-6
+    (event,) = runs[1].motion.events
+    assert event.kind == "disturbance"
+    assert event.time == pytest.approx(moment, abs=1e-5)

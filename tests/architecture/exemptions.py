@@ -39,6 +39,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "creep_curve": "independent keyword-only choices of the user, each with a default",
         "interface_forces": "a compiled pass takes its arrays and numbers one by one",
         "integrated": "phases, start and times of a motion, and three choices of the method, each a keyword",
+        "move_block": "independent keyword-only choices of the user, all with a default",
         "sweep_block": "independent keyword-only choices of the user, most with a default",
         "bifurcation": "independent keyword-only choices of the user, most with a default",
         "stress": "independent keyword-only choices of the user, each with a default",

@@ -16,7 +16,7 @@ from ..core.errors import ConvergenceError
 from ..core.quantity import Quantity
 from . import block_kernel as kernel
 from .block import SlidingBlock
-from .motion import Guard, Motion, Phase, integrated, sample_times
+from .motion import Event, Guard, Motion, Phase, integrated, sample_times
 
 TOLERANCE = 1e-8
 """Local error of the integration unless said otherwise. At 1e-6 LSODA damps weak flutter away (growth below 30 1/s at 5 kHz was lost)."""
@@ -112,6 +112,7 @@ def move_block(
     smoothing_speed: float | None = None,
     samples: int | None = None,
     tolerance: float = TOLERANCE,
+    disturbance: float = 0.0,
 ) -> BlockRun:
     """Motion of ``block`` over ``duration`` (s).
 
@@ -131,6 +132,10 @@ def move_block(
         Number of intervals in which the motion is given; ten a period of the normal vibration if not given.
     tolerance
         Local error of the integration, relative to the penetration at rest, the displacement under friction and the speed of the belt.
+    disturbance
+        Amplitude over the penetration at rest, >= 0, of a normal impulse that the block gets, as from roughness, half a period of its spring
+        after it begins to slide; only with smoothed friction. Without it a block that was long at rest is as quiet as rounding
+        lets it, and the integration, which takes long steps then, damps flutter before it begins.
 
     Returns
     -------
@@ -163,7 +168,9 @@ def move_block(
     state = np.zeros(8)
     first = (0.0, block.rest, 0.0, 0.0, 0.0, 0.0) if start is None else tuple(start)
     state[:6] = [require.finite(value, "start") for value in first[:6]] / solving.scales[:6]
-    return BlockRun(block, solving.smoothed(times, state) if smoothing > 0.0 else solving.sticking(times, state))
+    if smoothing == 0.0:
+        return BlockRun(block, solving.sticking(times, state))
+    return BlockRun(block, solving.smoothed(times, state, require.not_negative(disturbance, "disturbance")))
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,8 +210,31 @@ class _Solving:
         found: RealArray = kernel.block_rates(state, self.scales, self.numbers, *self.block.base, sign)
         return found
 
-    def smoothed(self, times: RealArray, state: RealArray) -> Motion:
-        """Motion with smoothed friction."""
+    def smoothed(self, times: RealArray, state: RealArray, disturbance: float) -> Motion:
+        """Motion with smoothed friction, disturbed once after the block has begun to slide."""
+        block = self.block
+        to_load = max(block.reference_displacement - float(state[0] * self.scales[0]), 0.0) / block.speed
+        moment = to_load + math.pi * math.sqrt(block.mass / block.stiffness)
+        place = int(np.searchsorted(times, moment))
+        if disturbance == 0.0 or place >= times.size - 1:
+            states, count = self._integrated(times, state)
+            return self._motion(times, states, np.full(times.size, 2.0), (), count)
+        before, first = self._integrated(times[: place + 1], state)
+        after, second = self._integrated(times[place:], self._struck(before[-1], disturbance))
+        events = (Event(float(times[place]), "disturbance"),)
+        states = np.vstack([before[:-1], after])
+        return self._motion(times, states, np.full(times.size, 2.0), events, first + second)
+
+    def _struck(self, state: RealArray, disturbance: float) -> RealArray:
+        """The state after an impulse on the block, whose work is supplied from outside."""
+        block, struck = self.block, state.copy()
+        kick, rate = disturbance * block.rest * block.normal_frequency, float(state[4] * self.scales[4])
+        struck[4] += kick / self.scales[4]
+        struck[6] += block.mass * kick * (rate + 0.5 * kick) / self.scales[6]
+        return struck
+
+    def _integrated(self, times: RealArray, state: RealArray) -> tuple[RealArray, int]:
+        """States at the ``times`` with smoothed friction, and the number of evaluations of the rates."""
         from scipy.integrate import odeint
 
         scales, numbers, (xi, area), rates = self.scales, self.numbers, self.block.base, kernel.block_rates
@@ -228,7 +258,7 @@ class _Solving:
         )
         if info["message"] != "Integration successful." or not np.isfinite(states).all():
             raise ConvergenceError(f"The motion of the block could not be integrated: {info['message']}")
-        return self._motion(times, states, np.full(times.size, 2.0), (), count)
+        return states, count
 
     def sticking(self, times: RealArray, state: RealArray) -> Motion:
         """Motion with stick and slip as events."""

@@ -41,7 +41,7 @@ ENERGIES = (
 
 @dataclass(frozen=True)
 class Event:
-    """What happened at a ``time`` in s: ``kind`` is "stick", "slip", "loss of contact" or "contact"."""
+    """What happened at a ``time`` in s: ``kind`` is "stick", "slip", "loss of contact", "contact" or "disturbance"."""
 
     time: float
     kind: str

@@ -99,6 +99,11 @@ class DynamicsSettings(Settings):
         option="--smoothing",
         help="Sliding speed about which friction turns over that of the belt; 0.05 by default",
     )
+    disturbance: NonNegative = setting(
+        1e-3,
+        option="--disturbance",
+        help="Vibration over the penetration at rest that an impulse gives to a block when it slides, as roughness does",
+    )
     points: Annotated[int, Whole(4, 64)] = setting(8, option="--law-points", help="Loads to which the law is fitted")
     law_begins: Begin = setting(
         "first touch", option="--law-begins", help="Approach from which the power of the law counts"

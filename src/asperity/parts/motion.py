@@ -33,6 +33,9 @@ USUAL_PERIODS = 300
 SLID = 0.9
 """Largest spring force over the friction at rest above which the block has begun to slide."""
 
+QUIET = 1e-4
+"""Standard deviation of the penetration over that at rest below which a motion does not vibrate."""
+
 MOST_SAMPLES = 20_000
 """Samples of a run that files and figures hold."""
 
@@ -220,7 +223,8 @@ class Made:
         if self.begins_sliding:
             start = (SLIDES_FROM * block.steady.displacement, block.rest, 0.0, 0.0, 0.0, 0.0)
         smoothing = None if settings.smoothing is None else settings.smoothing * self.ask.speed
-        return move_block(block, self.duration, start=start, smoothing_speed=smoothing)
+        shock = settings.disturbance
+        return move_block(block, self.duration, start=start, smoothing_speed=smoothing, disturbance=shock)
 
     def values(self) -> dict[str, Any]:
         """Values of the quantities."""
@@ -259,7 +263,6 @@ class Made:
                 "largest_normal_force": float(late["normal_force"].max()) / self.load,
                 "vibration_frequency": late.dominant_frequency("penetration"),
             }
-        window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
         block = self.block
         found = {
             "growth_rate": block.stability.margin,
@@ -267,8 +270,14 @@ class Made:
             **self._map(),
         }
         if self.slides:
-            found |= self.run.numbers(min(window, 0.75 * self.duration))
+            found |= self._late_numbers
         return found | self._sweep()
+
+    @cached_property
+    def _late_numbers(self) -> dict[str, float]:
+        """What the end of the motion of a block comes to."""
+        window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
+        return self.run.numbers(min(window, 0.75 * self.duration))
 
     def _map(self) -> dict[str, Any]:
         """Growth rates over friction and damping, both from nothing to twice what is asked, or what flutters at all."""
@@ -328,6 +337,12 @@ class Made:
                     "(dynamics.duration, --duration)."
                 )
                 made.append(Advice("note", "duration of the motion", text))
+            elif growth > 0.0 and self._late_numbers["penetration_vibration"] < QUIET:
+                text = (
+                    f"Steady sliding is unstable, with a growth of {growth:.3g} 1/s, but the motion does not vibrate: friction that turns over smoothly, or errors of the "
+                    "integration, damp it. Start about to slide (dynamics.start, --start sliding), or smooth friction less (dynamics.smoothing, --smoothing)."
+                )
+                made.append(Advice("warning", "vibration of the motion", text))
         return tuple(made)
 
 
