@@ -89,6 +89,8 @@ from .solids.layers import (
     graded,
 )
 from .solids.library import Liquid, liquid, liquids, material, materials
+from .solids.plasticity import J2, LinearHardening, PlasticState, Swift, Voce
+from .solids.strength import plastic_parts, plastic_solid
 from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
@@ -115,6 +117,7 @@ from .theories.statistics.roughness import Roughness
 __version__: str
 
 __all__ = [
+    "J2",
     "AdhesionLoop",
     "AdhesiveContact",
     "Advice",
@@ -170,6 +173,7 @@ __all__ = [
     "LineLoad",
     "LinearAdhesion",
     "LinearGrading",
+    "LinearHardening",
     "Liquid",
     "LiquidFilm",
     "LoadAtYield",
@@ -185,6 +189,7 @@ __all__ = [
     "PatchLoad",
     "Periodic",
     "PlasticLoad",
+    "PlasticState",
     "PointLoad",
     "PowerGrading",
     "Pull",
@@ -205,6 +210,7 @@ __all__ = [
     "StressField",
     "Surface",
     "SurfacePair",
+    "Swift",
     "TangentialForce",
     "TangentialStiffness",
     "TimeSteps",
@@ -215,6 +221,7 @@ __all__ = [
     "Unloaded",
     "VanDerWaalsAdhesion",
     "Viscoelastic",
+    "Voce",
     "VonMises",
     "WetTheory",
     "WilliamsLandelFerry",
@@ -262,6 +269,8 @@ __all__ = [
     "peak_to_valley",
     "periodised",
     "plastic_load",
+    "plastic_parts",
+    "plastic_solid",
     "prepare_operator",
     "ramps",
     "read",

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..core.units import show
+from ..core.units import DIMENSIONS, show
 from ..solids import library
 from ..solids.library import LiquidRecord, MaterialRecord
 from .show import console, say, table
@@ -29,7 +29,10 @@ class _Listing:
         """Value of ``key`` with its unit; a star behind an assumed one, a dash where it is not known."""
         if key not in record.values:
             return "–"
-        item, unit = record.values[key], {name: unit for name, _, unit in self.columns}[key]
+        item = record.values[key]
+        unit = {name: unit for name, _, unit in self.columns}.get(key) or DIMENSIONS[record.kinds()[key]]
+        if unit == "dimensionless":
+            return f"{item.value:.5g}{' *' if item.assumed else ''}"
         # prefixes of m³/mol are hard to read
         text = f"{1e6 * item.value:.4g} cm³/mol" if unit == "m**3/mol" else show(item.value, unit, 5)
         return f"{text} *" if item.assumed else text

@@ -37,6 +37,7 @@ from ..core.errors import FileFormatError, InputError
 from ..core.spectral import fft_library
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
+from ..solids.plasticity import LinearHardening, Swift, Voce
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..stress.regions import Region
 from ..surfaces.surface import Surface
@@ -60,13 +61,16 @@ TYPES: tuple[type, ...] = (
     LayeredHardness,
     Layer,
     LinearAdhesion,
+    LinearHardening,
     LiquidFilm,
     Region,
     RigidBase,
     Strength,
+    Swift,
     TrescaFriction,
     Viscoelastic,
     VanDerWaalsAdhesion,
+    Voce,
 )
 """Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 

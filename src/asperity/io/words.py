@@ -20,7 +20,7 @@ from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
-from ..solids.elastic import Elastic
+from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
 from ..stress.field import DERIVED, StressField
@@ -126,6 +126,14 @@ TERMS = {
         Quantity("poisson_ratio", "1", "Poisson's ratio ν"),
         Quantity("hardness", "Pa", "hardness H"),
         Quantity("yield_stress", "Pa", "yield stress"),
+        Quantity("kinematic", "Pa", "kinematic hardening"),
+        Quantity("recall", "1", "recall of the back stress"),
+        Quantity("initial", "Pa", "yield stress"),
+        Quantity("modulus", "Pa", "hardening modulus"),
+        Quantity("gain", "Pa", "largest growth of the yield stress"),
+        Quantity("rate", "1", "rate of its growth"),
+        Quantity("reference_strain", "1", "reference strain"),
+        Quantity("exponent", "1", "hardening exponent"),
         Quantity("thickness", "m", "thickness"),
     )
 }
@@ -200,6 +208,10 @@ def _material_text(material: Elastic) -> str:
     values = [("E", material.youngs_modulus), ("H", strength.hardness), ("Y", strength.yield_stress)]
     texts = [f"{symbol} = {show(value, 'Pa')}" for symbol, value in values if not math.isnan(value)]
     texts.insert(1, f"ν = {material.poisson_ratio:g}")
+    if strength.hardening is not None:
+        texts.append(str(getattr(strength.hardening, "name", "hardening")))
+    if strength.kinematic:
+        texts.append(f"kinematic hardening {show(strength.kinematic, 'Pa')}")
     if isinstance(material, Viscoelastic):
         texts.append(_relaxation_text(material))
     constants = ", ".join(texts)
@@ -231,10 +243,24 @@ def _rows(body: object) -> Rows:
             for number, part in enumerate(value, start=1):
                 rows += _prefixed(f"{field.name} {number}", part)
         elif is_dataclass(value):
-            rows += _rows(value)[1:] if field.name == "strength" else _prefixed(field.name, value)
+            rows += _strength_rows(value) if isinstance(value, Strength) else _prefixed(field.name, value)
         else:
             rows += _value_row(field.name, value)
     return rows + sources
+
+
+def _strength_rows(strength: Strength) -> Rows:
+    """What is known of a strength; hardening in one row a value."""
+    rows = _value_row("hardness", strength.hardness) + _value_row("yield_stress", strength.yield_stress)
+    if strength.hardening is not None:
+        rows.append(("hardening", str(getattr(strength.hardening, "name", type(strength.hardening).__name__))))
+        rows += [row for row in _rows(strength.hardening)[1:] if row[0] != TERMS["initial"].label]
+    return rows + [
+        row
+        for key in ("kinematic", "recall")
+        if getattr(strength, key)
+        for row in _value_row(key, getattr(strength, key))
+    ]
 
 
 def _prefixed(prefix: str, part: object) -> Rows:

@@ -395,7 +395,7 @@ def interface_table(survey: StressSurvey) -> Table:
 
 def yield_table(survey: StressSurvey) -> Table:
     """Strength and load factor to first yield of each region."""
-    from ..stress.criteria import TABOR
+    from ..solids.elastic import TABOR
 
     cells = []
     for regions, parts in _together(survey.yielding.regions):

@@ -2,23 +2,69 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
 
 from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
 from ..core.late import Shown
+
+TABOR = 2.8
+"""Hardness over tensile yield stress of metals (Tabor 1951), used where only the hardness is known."""
+
+
+@runtime_checkable
+class Hardening(Protocol):
+    """Yield stress in tension against the accumulated plastic strain q."""
+
+    def yield_stress(self, plastic_strain: RealArray) -> RealArray:
+        """Y(q) in Pa."""
+
+    def slope(self, plastic_strain: RealArray) -> RealArray:
+        """dY/dq in Pa."""
 
 
 @dataclass(frozen=True)
 class Strength:
-    """Hardness and tensile yield stress in Pa; ``nan`` where not known. InputError if a given value is not positive."""
+    """What a material bears: hardness and tensile yield stress in Pa, ``nan`` where not known, and how it hardens in plastic flow.
 
-    hardness: float = float("nan")
-    yield_stress: float = float("nan")
+    InputError if a given value is not positive, or yield stress and hardening contradict each other.
+
+    Parameters
+    ----------
+    hardness, yield_stress
+        In Pa, > 0; the yield stress is that of the ``hardening`` where only this is given.
+    hardening
+        ``LinearHardening``, ``Swift`` or ``Voce``; None for perfect plasticity.
+    kinematic, recall
+        H_k in Pa and γ of a back stress (Prager, Armstrong and Frederick), >= 0.
+    """
+
+    hardness: float = math.nan
+    yield_stress: float = math.nan
+    hardening: Hardening | None = None
+    kinematic: float = 0.0
+    recall: float = 0.0
 
     def __post_init__(self) -> None:
+        if self.hardening is not None:
+            require.instance(self.hardening, Hardening, "hardening", "Give LinearHardening(Y, H), Swift(…) or Voce(…).")
+            first = float(self.hardening.yield_stress(np.zeros(())))
+            if math.isnan(self.yield_stress):
+                object.__setattr__(self, "yield_stress", first)
+            elif not math.isclose(first, self.yield_stress, rel_tol=1e-9):
+                raise InputError(
+                    f"yield stress (Pa) must be that of the hardening, {first:g}, but is {self.yield_stress:g}. Give it with the hardening only."
+                )
         for value, what in ((self.hardness, "hardness (Pa)"), (self.yield_stress, "yield stress (Pa)")):
             if value == value:
                 require.positive(value, what)
+        require.not_negative(self.kinematic, "kinematic hardening (Pa)")
+        require.not_negative(self.recall, "recall of the back stress")
 
 
 INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
@@ -38,7 +84,7 @@ class Elastic(Shown):
     poisson_ratio
         nu, -1 < nu <= 0.5; 0.5 is incompressible.
     strength
-        Hardness and yield stress, where known.
+        Hardness, yield stress and hardening, where known.
     name, sources
         Name of the material and where its values come from.
     """

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import ClassVar, TypeAlias
 
 from ..core import require
 from ..core.errors import InputError
 from ..core.late import Shown
-from .elastic import Elastic, Rigid, Strength
+from .elastic import Elastic, Hardening, Rigid, Strength
 from .viscoelastic import Viscoelastic
 
 
@@ -275,7 +275,7 @@ def graded(
     sublayers: 1e-6 relative at 64 for a fourfold modulus and a contact as wide as the coating is thick.
 
     ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where both are known,
-    hardness and yield stress change in proportion to depth; ``thickness``: of the whole coating in m, > 0;
+    hardness, yield stress and hardening change in proportion to depth; ``thickness``: of the whole coating in m, > 0;
     ``grading``: ``LinearGrading()``, ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of
     equal layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
 
@@ -304,12 +304,35 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
     def mixed(first: float, last: float) -> float:
         return first + (last - first) * depth
 
+    first, last = top.strength, bottom.strength
     return Elastic(
         grading.modulus(top.youngs_modulus, bottom.youngs_modulus, depth),
         mixed(top.poisson_ratio, bottom.poisson_ratio),
         Strength(
-            mixed(top.strength.hardness, bottom.strength.hardness),
-            mixed(top.strength.yield_stress, bottom.strength.yield_stress),
+            mixed(first.hardness, last.hardness),
+            mixed(first.yield_stress, last.yield_stress) if first.hardening is None else math.nan,
+            _hardening_between(first.hardening, last.hardening, depth),
+            mixed(first.kinematic, last.kinematic),
+            mixed(first.recall, last.recall),
         ),
         name=f"graded {top.name} - {bottom.name}".strip(" -") if top.name or bottom.name else "",
     )
+
+
+def _hardening_between(top: Hardening | None, bottom: Hardening | None, depth: float) -> Hardening | None:
+    """Hardening whose values change in proportion to ``depth``.
+
+    Raises
+    ------
+    InputError
+        If the two are of different kinds.
+    """
+    if top is None and bottom is None:
+        return None
+    if type(top) is not type(bottom) or not is_dataclass(top) or not is_dataclass(bottom):
+        names = [getattr(item, "name", "perfectly plastic") for item in (top, bottom)]
+        raise InputError(
+            f"hardening of a graded layer must be of one kind at top and bottom, but is {names[0]} and {names[1]}. Give both alike."
+        )
+    values = {f.name: getattr(top, f.name) for f in fields(top)}
+    return replace(top, **{name: value + (getattr(bottom, name) - value) * depth for name, value in values.items()})

@@ -13,7 +13,8 @@ from typing import Annotated, Any, ClassVar, Self, get_type_hints
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
 from ..core.text import read_text
-from .elastic import INCOMPRESSIBLE, Elastic, Strength
+from .elastic import INCOMPRESSIBLE, Elastic, Hardening, Strength
+from .plasticity import LinearHardening, Swift, Voce
 from .relaxation import Relaxation
 from .relaxation_text import AT, series_of, shift_of
 from .viscoelastic import TemperatureShift, Viscoelastic
@@ -188,7 +189,9 @@ class MaterialRecord(Record):
     """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material.
 
     A viscoelastic one has a ``relaxation`` of Young's modulus, whose value is then that of the first instant; ``elastic_bulk`` and
-    ``shift`` (with ``shift_source``) as of ``Viscoelastic``.
+    ``shift`` (with ``shift_source``) as of ``Viscoelastic``. Hardening is linear with ``hardening_modulus`` in Pa, of Swift with
+    ``swift_exponent`` and ``swift_strain``, or of Voce with ``voce_gain`` in Pa and ``voce_rate``; ``kinematic`` in Pa and ``recall``
+    are those of the back stress.
     """
 
     youngs_modulus: Annotated[Sourced, "pressure"]
@@ -199,8 +202,44 @@ class MaterialRecord(Record):
     elastic_bulk: bool = False
     shift: TemperatureShift | None = None
     shift_source: str = ""
+    hardening_modulus: Annotated[Sourced | None, "pressure"] = None
+    swift_exponent: Annotated[Sourced | None, "number"] = None
+    swift_strain: Annotated[Sourced | None, "number"] = None
+    voce_gain: Annotated[Sourced | None, "pressure"] = None
+    voce_rate: Annotated[Sourced | None, "number"] = None
+    kinematic: Annotated[Sourced | None, "pressure"] = None
+    recall: Annotated[Sourced | None, "number"] = None
     noun: ClassVar[str] = "material"
     more: ClassVar[tuple[str, ...]] = ("elastic_bulk", "shift")
+
+    @property
+    def hardening(self) -> Hardening | None:
+        """Law of hardening that is given, from the yield stress.
+
+        InputError if it lacks a value, more than one law is given, or the yield stress is not known.
+        """
+        laws: dict[str, tuple[str, ...]] = {
+            "linear": ("hardening_modulus",),
+            "Swift": ("swift_exponent", "swift_strain"),
+            "Voce": ("voce_gain", "voce_rate"),
+        }
+        given = {law: [key for key in keys if getattr(self, key) is not None] for law, keys in laws.items()}
+        named = [law for law, keys in given.items() if keys]
+        if not named:
+            return None
+        missing = [key for key in laws[named[0]] if key not in given[named[0]]] + (
+            ["yield_stress"] if self.yield_stress is None else []
+        )
+        if len(named) > 1 or missing:
+            received = f"{' and '.join(named)}" if len(named) > 1 else f"{named[0]} without {' and '.join(missing)}"
+            raise InputError(
+                f"hardening of material {self.name!r} must be one law with all its values and a yield stress, but is {received}."
+            )
+        first = self.values["yield_stress"].value
+        numbers = [self.values[key].value for key in laws[named[0]]]
+        if named[0] == "linear":
+            return LinearHardening(first, numbers[0])
+        return Swift(first, numbers[1], numbers[0]) if named[0] == "Swift" else Voce(first, *numbers)
 
     @property
     def body(self) -> Elastic:
@@ -208,6 +247,9 @@ class MaterialRecord(Record):
         strength = Strength(
             hardness=self.hardness.value if self.hardness else math.nan,
             yield_stress=self.yield_stress.value if self.yield_stress else math.nan,
+            hardening=self.hardening,
+            kinematic=self.kinematic.value if self.kinematic else 0.0,
+            recall=self.recall.value if self.recall else 0.0,
         )
         if self.relaxation is None:
             constants = self.youngs_modulus.value, self.poisson_ratio.value
@@ -255,9 +297,9 @@ class MaterialRecord(Record):
 def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
     """All materials: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
 
-    Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, ``aliases``
-    and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
-    "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes; ``elastic_bulk = true`` and ``shift``, such as
+    Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, those of hardening
+    (``MaterialRecord``), ``aliases`` and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``,
+    the source being "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes; ``elastic_bulk = true`` and ``shift``, such as
     ``"WLF 298 K; 8.86; 101.6 K"`` or ``"Arrhenius 298 K; 80 kJ/mol"``, may stand beside it.
 
     InputError if the file is missing or not TOML, or a key or value in it cannot be used.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Annotated, ClassVar, Protocol, runtime_checkable
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,7 @@ from ..core.arrays import RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.parameters import Declared
 from ..core.values import NonNegative, Positive, Pressure
-from .elastic import Elastic
+from .elastic import Elastic, Hardening
 
 WEIGHTS = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 """How often each of the components xx, yy, zz, xy, xz, yz of a symmetric tensor stands in it: a : b = sum of WEIGHTS a b."""
@@ -24,17 +24,6 @@ UNIT = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 
 
 # Hardening.
-
-
-@runtime_checkable
-class Hardening(Protocol):
-    """Yield stress in tension against the accumulated plastic strain q."""
-
-    def yield_stress(self, plastic_strain: RealArray) -> RealArray:
-        """Y(q) in Pa."""
-
-    def slope(self, plastic_strain: RealArray) -> RealArray:
-        """dY/dq in Pa."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.tensor import StressTensor, second_invariant
-from ..solids.elastic import Elastic
+from ..solids.elastic import TABOR, Elastic
 
 _BLOCK = 1 << 14  # points whose temporaries stay in the cache
 
@@ -160,10 +160,6 @@ def _form(u: RealArray, v: RealArray, m: tuple[RealArray, ...]) -> RealArray:
     y = d * v[0] + b * v[1] + f * v[2]
     z = e * v[0] + f * v[1] + c * v[2]
     return np.asarray(u[0] * x + u[1] * y + u[2] * z)
-
-
-TABOR = 2.8
-"""Hardness over tensile yield stress of metals (Tabor 1951), used where only the hardness is known."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from nicegui import events, ui
 
 from ..core.errors import AsperityError
 from ..core.units import parse, show
-from ..io.schemas.bodies import body_from_text
+from ..io.schemas.bodies import FLOW, body_from_text
 from ..run.document import document_model
 from ..solids.library import MaterialRecord, materials
 from .draft import Keys
@@ -59,7 +59,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     assert item.tables is not None
     table = item.tables[""]
     entries = {entry.name: entry for entry in asked_of(table)}
-    own = frozenset(entries) - {"youngs_modulus", "relaxation", "poisson_ratio", "hardness", "yield_stress", "name"}
+    own = frozenset(entries) - {"youngs_modulus", "relaxation", "poisson_ratio", "hardness", *FLOW, "name"}
 
     def kind() -> str:
         value = context.get((name,))
@@ -88,7 +88,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     def inside() -> None:
         word = kind()
         if word == "material":
-            form(context, table, (name,), frozenset(entries) - {"material"})
+            form(context, table, (name,), frozenset(entries) - {"material", *FLOW})
         elif word == "constants":
             form(context, table, (name,), own)
         elif word == "layers":

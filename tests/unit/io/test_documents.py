@@ -173,9 +173,20 @@ SURFACES = st.one_of(
     generated("particles", seed=SEEDS, matrix=SPECTRA, density=quantities("um**-2", "m**-2"), radius=LENGTHS),
 )
 CONSTANTS = {"youngs_modulus": PRESSURES, "poisson_ratio": st.floats(-0.99, 0.49)}
-STRENGTHS = {"hardness": PRESSURES, "yield_stress": PRESSURES, "name": TEXTS}
+HARDENING = st.one_of(
+    st.sampled_from(["linear(2GPa)", "swift(0.2,0.01)", "voce(100MPa,20)"]),
+    st.fixed_dictionaries({"kind": st.just("linear"), "modulus": PRESSURES}),
+    st.fixed_dictionaries(
+        {"kind": st.just("swift"), "exponent": st.floats(0.0, 1.0)}, optional={"reference_strain": POSITIVE}
+    ),
+    st.fixed_dictionaries({"kind": st.just("voce"), "gain": PRESSURES, "rate": POSITIVE}),
+)
+FLOW = {"yield_stress": PRESSURES, "hardening": HARDENING, "kinematic": PRESSURES}
+STRENGTHS = {"hardness": PRESSURES, **FLOW, "name": TEXTS}
 INTERFACES = st.sampled_from(["bonded", "frictionless"])
-MATERIALS = st.fixed_dictionaries({"material": TEXTS}) | st.fixed_dictionaries(CONSTANTS, optional=STRENGTHS)
+MATERIALS = st.fixed_dictionaries({"material": TEXTS}, optional=FLOW) | st.fixed_dictionaries(
+    CONSTANTS, optional=STRENGTHS
+)
 LAYERS = st.one_of(
     st.fixed_dictionaries({"material": TEXTS, "thickness": LENGTHS}, optional={"interface": INTERFACES}),
     st.fixed_dictionaries(
@@ -200,7 +211,15 @@ LAYERS = st.one_of(
         },
     ),
 )
-LINES_OF_TEXT = st.sampled_from(["DLC", "E=1GPa,nu=0.3,name=x", "DLC:5nm/Cr:2nm~/steel", "E=1GPa,nu=0.3:1um/rigid"])
+LINES_OF_TEXT = st.sampled_from(
+    [
+        "DLC",
+        "DLC{Y=5GPa}:5nm/steel{Y=1GPa,hardening=voce(1GPa,9)}",
+        "E=1GPa,nu=0.3,name=x",
+        "DLC:5nm/Cr:2nm~/steel",
+        "E=1GPa,nu=0.3:1um/rigid",
+    ]
+)
 BODIES = st.one_of(
     st.fixed_dictionaries({"material": TEXTS}, optional={"materials_file": TEXTS}),
     st.fixed_dictionaries(CONSTANTS, optional=STRENGTHS),

@@ -1,7 +1,8 @@
 """Bodies of a problem document: rigid, one material, or layers on a base; as tables or in one line of text.
 
 DLC                               a material of the library
-E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H, yield stress Y, name
+E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H, yield stress Y, hardening, name
+steel{Y=400MPa,hardening=linear(2GPa)}   a material of the library with what plastic flow needs; also swift(0.2) and voce(100MPa,20)
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
 E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in ``relaxation``
@@ -9,6 +10,7 @@ E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; furt
 
 from __future__ import annotations
 
+import re
 from types import MappingProxyType
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -16,15 +18,31 @@ from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
 from ...core.errors import InputError
 from ...core.settings import Settings, setting
-from ...core.values import Count, Length, NonEmpty, NonNegativeLength, PoissonRatio, Positive, Pressure
+from ...core.values import (
+    Count,
+    Length,
+    NonEmpty,
+    NonNegative,
+    NonNegativeLength,
+    Number,
+    PoissonRatio,
+    Positive,
+    Pressure,
+)
 from .relaxation import SYMBOLS as RELAXING
 from .relaxation import RelaxationTable, relaxation_from_symbols, relaxes
+
+NonNegativePressure = Annotated[float, Number("pressure", least=0.0)]
+Share = Annotated[float, Number(least=0.0, most=1.0)]
 
 CONSTANTS = ("youngs_modulus", "poisson_ratio")
 """Keys of the elastic constants, which go together."""
 
-BESIDE = ("hardness", "yield_stress")
-"""Keys that elastic constants may bring along; a named material has its own."""
+FLOW = ("yield_stress", "hardening", "kinematic", "recall")
+"""Keys of plastic flow, which a named material may bring along too: they replace those of the library."""
+
+BESIDE = ("hardness", *FLOW)
+"""Keys that elastic constants may bring along."""
 
 
 def _text_too(schema: dict[str, Any]) -> None:
@@ -34,10 +52,59 @@ def _text_too(schema: dict[str, Any]) -> None:
     schema.update({"title": table["title"], "anyOf": [{"type": "string"}, table]})
 
 
+class LinearHardeningTable(Settings):
+    """The yield stress grows by ``modulus`` with the accumulated plastic strain."""
+
+    kind: Literal["linear"]
+    modulus: NonNegativePressure = setting(help="Slope H: 2GPa; E E_t/(E - E_t) for a tangent modulus E_t")
+
+
+class SwiftTable(Settings):
+    """Yield stress that grows as (1 + q/reference_strain)^exponent; the strain is that at yield, Y/E, by default."""
+
+    kind: Literal["swift"]
+    exponent: Share = setting(help="Exponent, 0 to 1")
+    reference_strain: Positive | None = setting(None, help="Strain ε_0")
+
+
+class VoceTable(Settings):
+    """Yield stress that grows by at most ``gain``, the sooner the larger the ``rate``."""
+
+    kind: Literal["voce"]
+    gain: NonNegativePressure = setting(help="Largest growth Q: 100MPa")
+    rate: Positive = setting(help="Rate b of its growth with the plastic strain")
+
+
+HARDENING = MappingProxyType(
+    {"linear": ("modulus",), "swift": ("exponent", "reference_strain"), "voce": ("gain", "rate")}
+)
+"""Values of each kind of hardening in the order in which its text has them."""
+
+_CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
+
+
+def _hardening_from_text(value: Any) -> Any:
+    """Table for text such as ``"swift(0.2)"``, anything else as it is."""
+    if not isinstance(value, str):
+        return value
+    match = _CALL.fullmatch(value)
+    given = [part.strip() for part in match[2].split(",") if part.strip()] if match else []
+    if match is None or match[1] not in HARDENING or len(given) > len(HARDENING[match[1]]):
+        raise InputError(
+            f" must be such as linear(2GPa), swift(0.2), swift(0.2,0.002) or voce(100MPa,20), but is {value!r}."
+        )
+    return {"kind": match[1], **dict(zip(HARDENING[match[1]], given, strict=False))}
+
+
+AnyHardening: TypeAlias = Annotated[LinearHardeningTable | SwiftTable | VoceTable, Field(discriminator="kind")]
+"""A law of hardening, identified by the key ``kind``; or its text."""
+
+
 class MaterialTable(Settings):
     """One material: a name of the library, or elastic constants with what is known of the strength; ``relaxation`` instead of Young's modulus.
 
-    It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"`` or ``"E=3MPa+10MPa@10ms,nu=0.5"``.
+    It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"``, ``"E=3MPa+10MPa@10ms,nu=0.5"`` or ``"steel{Y=400MPa}"``. Yield stress,
+    ``hardening`` and the back stress of a ``kinematic`` modulus with its ``recall`` are those of plastic flow.
     """
 
     model_config = ConfigDict(json_schema_extra=_text_too)
@@ -48,6 +115,9 @@ class MaterialTable(Settings):
     relaxation: RelaxationTable | None = setting(None, help="how a viscoelastic material relaxes")
     hardness: Pressure | None = None
     yield_stress: Pressure | None = None
+    hardening: Annotated[AnyHardening | None, BeforeValidator(_hardening_from_text)] = None
+    kinematic: NonNegativePressure | None = None
+    recall: NonNegative | None = None
     name: NonEmpty | None = None
 
     @model_validator(mode="before")
@@ -72,10 +142,14 @@ class MaterialTable(Settings):
             raise InputError(f" must give {choices}, but gives {' and '.join(ways) or 'none of these'}.")
         if len(constants) == 1:
             raise InputError(f" must give {pair[0]} and poisson_ratio together, but gives only {constants[0]}.")
-        allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else ()
+        allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else FLOW if self.material else ()
         beside = [key for key in (*BESIDE, "name") if getattr(self, key) is not None and key not in allowed]
         if beside:
             raise InputError(f" may give {beside[0]} only together with youngs_modulus, but gives it with {ways[0]}.")
+        if self.recall and not self.kinematic:
+            raise InputError(
+                ' must give a kinematic modulus together with its recall, such as kinematic = "2 GPa", but does not.'
+            )
 
 
 class LayerTable(MaterialTable):
@@ -169,7 +243,16 @@ class BodyTable(BaseTable):
 
 
 SYMBOLS = MappingProxyType(
-    {"E": "youngs_modulus", "nu": "poisson_ratio", "H": "hardness", "Y": "yield_stress", "name": "name"}
+    {
+        "E": "youngs_modulus",
+        "nu": "poisson_ratio",
+        "H": "hardness",
+        "Y": "yield_stress",
+        "hardening": "hardening",
+        "kinematic": "kinematic",
+        "recall": "recall",
+        "name": "name",
+    }
 )
 """Key of the document for each symbol in the text of a material."""
 
@@ -187,9 +270,10 @@ def body_from_text(text: str) -> dict[str, Any]:
     InputError
         If the text is no body; the message lacks the name of the option or key at its beginning.
     """
-    if ":" not in text and ("=" in text or "/" not in text):  # a unit such as N/mm**2 may hold a slash
+    bare_text = _BRACES.sub("", text)
+    if ":" not in bare_text and ("=" in bare_text or "/" not in bare_text):  # a unit such as N/mm**2 may hold a slash
         return base_from_text(text)
-    *layers, base = (part.strip() for part in text.split("/"))
+    *layers, base = (part.strip() for part in _parts(text))
     bare = [part for part in layers if part and ":" not in part]
     if ":" in base and bare:
         raise InputError(
@@ -206,8 +290,17 @@ def body_from_text(text: str) -> dict[str, Any]:
     return {"layers": found, "base": base_from_text(base)}
 
 
+_BRACES = re.compile(r"\{([^{}]*)\}")
+
+
+def _parts(text: str) -> list[str]:
+    """``text`` at its slashes, but for those within braces."""
+    return re.split(r"/(?![^{}]*\})", text)
+
+
 def _layer(part: str, number: int) -> dict[str, Any]:
-    name, _, thickness = (piece.strip() for piece in part.partition(":"))
+    braces = "".join(match[0] for match in _BRACES.finditer(part))
+    name, _, thickness = (piece.strip() for piece in _BRACES.sub("", part).partition(":"))
     if not name:
         found = repr(part) if part else "empty"
         raise InputError(f" must name a material in each part, such as {EXAMPLE}, but layer {number} is {found}.")
@@ -225,7 +318,7 @@ def _layer(part: str, number: int) -> dict[str, Any]:
             f"but layer {number} is {part!r}."
         )
     joined = {"interface": "frictionless"} if slips else {}
-    return {**material_from_text(name), "thickness": thickness.rstrip(SLIP).strip(), **joined}
+    return {**material_from_text(name + braces), "thickness": thickness.rstrip(SLIP).strip(), **joined}
 
 
 def base_from_text(text: str) -> dict[str, Any]:
@@ -235,12 +328,23 @@ def base_from_text(text: str) -> dict[str, Any]:
 
 def material_from_text(text: str) -> dict[str, Any]:
     """Table of a material by its name or its constants; errors as above."""
-    if "=" not in text:
-        return {"material": text.strip()}
-    given = dict(_constant(part) for part in text.split(","))
+    found = _BRACES.search(text)
+    bare = _BRACES.sub("", text)
+    if bare.strip().casefold() == "rigid" and found:
+        raise InputError(f" must give no values of a rigid body, but gives {found[0]}.")
+    given = dict(map(_constant, _constants(bare))) if "=" in bare else {}
+    for within in _BRACES.finditer(text):
+        given |= dict(map(_constant, _constants(within[1])))
     relaxing = {"relaxation": relaxation_from_symbols(given)} if relaxes(given) else {}
-    plain = {SYMBOLS[symbol]: _number(value) if symbol == "nu" else value for symbol, value in given.items()}
-    return {**plain, **relaxing}
+    plain = {
+        SYMBOLS[symbol]: _number(value) if symbol in ("nu", "recall") else value for symbol, value in given.items()
+    }
+    return {**({} if "=" in bare else {"material": bare.strip()}), **plain, **relaxing}
+
+
+def _constants(text: str) -> list[str]:
+    """``text`` at its commas, but for those within parentheses."""
+    return [part for part in re.split(r",(?![^()]*\))", text) if part.strip()]
 
 
 def _constant(part: str) -> tuple[str, str]:
