@@ -15,13 +15,13 @@ from surfaces import BODY, self_affine
 
 import asperity as asp
 from asperity.contact.couplings import position
-from asperity.contact.solvers.active_set import linear_system, solver
+from asperity.contact.solvers.active_set import entering, linear_system, solver
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
 
 VALUES: dict[tuple[Any, str], list[Any]] = {
-    (solver, "_PRIOR"): [1.0, 2.0, 8.0, 16.0],
-    (solver, "_SCATTER_SHARE"): [0.0, 0.3, 0.7, 1.0],
+    (entering, "_PRIOR"): [1.0, 2.0, 8.0, 16.0],
+    (entering, "_SCATTER_SHARE"): [0.0, 0.3, 0.7, 1.0],
     (solver, "_SETTLED"): [0.0, 0.001, 0.01, 0.03],
     (solver, "_REDUCTION"): [0.1, 0.2, 0.5],
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
@@ -33,8 +33,8 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_REFRESH"): [1e-3, 1e-4, 1e-7],
     (solver, "COARSEST"): [32, 128],
     (solver, "_COARSE_ITERATIONS"): [3, 10, 100],
-    (solver, "_HIDDEN_SHARE"): [0.02, 0.05, 0.2, 0.5],
-    (solver, "_LOOSEST"): [0.003, 0.01, 0.1],
+    (solver, "_HIDDEN_SHARE"): [0.05, 0.1, 0.2, 1.0],
+    (solver, "_LOOSEST"): [0.01, 0.03, 0.3],
     (solver, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
     (linear_system, "_STEP_LENGTH"): [0.4, 0.55, 0.85, 1.0],
     (linear_system, "PIXEL_SHARE"): [0.4, 0.5, 0.7, 0.8, 1.0],

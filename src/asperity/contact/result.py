@@ -20,7 +20,7 @@ from ..surfaces.surface import Surface
 from . import measure
 from .couplings.driver import CouplingCheck
 from .couplings.menisci import Menisci
-from .couplings.protocol import Contact, Memory
+from .couplings.protocol import Contact, Deflections, Memory
 from .couplings.sliding import GrossSliding
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Control
@@ -241,6 +241,8 @@ class ContactResult(Stored):
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
         Pressure (nx, ny) in Pa of the load before, from which the next one is extrapolated; None for a first load.
+    deflections
+        Displacements by ``pressure`` and by ``earlier`` for the next load (see ``InterfaceState``); not saved.
     """
 
     problem: ContactProblem
@@ -278,6 +280,7 @@ class ContactResult(Stored):
     couplings: Mapping[str, Any] = field(default_factory=dict)
     memory: Mapping[str, Memory] = field(default_factory=dict)
     earlier: RealArray | None = None
+    deflections: Deflections | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
@@ -399,7 +402,7 @@ class ContactResult(Stored):
                 "the file does not hold. Solve the history up to it again."
             )
         indentation = {"indentation": self.permanent_indentation, "work": np.asarray(self.total_plastic_work)}
-        return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier)
+        return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier, self.deflections)
 
     def residual_surface(self, part: Literal["composite", "body", "counter_body"] = "composite") -> Surface:
         """Surface that is left when the load is taken away: the one before less the permanent indentation.
@@ -497,8 +500,18 @@ def assemble(
         couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
+        deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
         **_indentation(problem, before, memories["hardness"]),
     )
+
+
+def _deflections(found: Contact, before: InterfaceState | None) -> Deflections:
+    """Displacements by the pressures from which the next one is extrapolated."""
+    operator, pairs = found.qp.operator, [(found.pressure, found.solution.state.deflection)]
+    if before is not None and before.deflections is not None:
+        known = before.deflections.by(before.pressure, operator)
+        pairs += [] if known is None else [(before.pressure, known)]
+    return Deflections(operator, tuple(pairs))
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:

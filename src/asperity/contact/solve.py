@@ -239,7 +239,8 @@ class Prepared:
         lift: RealArray | float = 0.0
         if retarded is not None:
             dented, lift = dented - retarded, retarded
-        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift)
+        known = None if state is None else state.deflections
+        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift, known)
         memories = {} if state is None else state.memory
         return settle(posed, self.couplings, memories, self.solver, rounds=self.rounds, progress=self.progress)
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from .couplings.protocol import Memory
+from .couplings.protocol import Deflections, Memory
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +28,8 @@ class InterfaceState:
         left out of its solve and forgotten.
     earlier
         (nx, ny), Pa: pressure of the load before the last, from which the next guess is extrapolated; None if there is none.
+    deflections
+        Displacements by ``pressure`` and by ``earlier``, which spare the next solve their products; not saved, and the answer is the same without.
 
     Raises
     ------
@@ -38,6 +40,7 @@ class InterfaceState:
     pressure: RealArray
     memory: Mapping[str, Memory] = field(default_factory=dict)
     earlier: RealArray | None = None
+    deflections: Deflections | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         fields = [(self.pressure, "pressure (Pa)"), (self.permanent_indentation, "permanent indentation (m)")]

@@ -135,7 +135,10 @@ class Warm:
 
     def state(self) -> InterfaceState | None:
         """A virgin interface with the pressures that the last contacts suggest."""
-        return None if self.last is None else InterfaceState(self.last.pressure, earlier=self.last.earlier)
+        last = self.last
+        return (
+            None if last is None else InterfaceState(last.pressure, earlier=last.earlier, deflections=last.deflections)
+        )
 
 
 def run(

@@ -195,7 +195,7 @@ class _Reading:
         for count, (first, rows) in enumerate(blocks):
             self.first = self.first if count else first
             beyond, root, mean = self._kernels.overview(rows, self._least, interface)
-            for number in np.flatnonzero(beyond).tolist():
+            for number in [number for number, larger in enumerate(beyond.tolist()) if larger]:
                 found = self._kernels.candidates(number, rows, self._least[number])
                 if len(found[0]):
                     self._add(number, first, rows, *found)

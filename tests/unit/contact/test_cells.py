@@ -7,6 +7,7 @@ import pytest
 
 import asperity as asp
 from asperity.contact.solvers.active_set import linear_system
+from asperity.contact.solvers.active_set.entering import free_set
 from asperity.contact.solvers.active_set.linear_system import (
     CoarseCorrection,
     LinearSystem,
@@ -20,7 +21,6 @@ from asperity.contact.solvers.active_set.linear_system import (
     pixel_compliance,
     preconditioner,
 )
-from asperity.contact.solvers.active_set.solver import free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import Engine, FreeSet, Hierarchy
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace

@@ -46,7 +46,7 @@ def test_digest_follows_the_content(elastic: asp.ContactResult) -> None:
 def test_tables_of_labels_are_complete() -> None:
     """A field added to result or certificate must get a label, or it would be missing in files and reports."""
     other = {"problem", "control", "plastic", "spot_areas", "certificate", "status", "citation_keys"}
-    other |= {"couplings", "memory", "earlier"}
+    other |= {"couplings", "memory", "earlier", "deflections"}
     labelled = {item.name for item in (*FIELDS, *ALL_SCALARS)}
     assert labelled | other == {f.name for f in fields(ContactResult)} | {"area_fraction_error"}  # a property
     assert [item.name for item in CERTIFICATE] == [

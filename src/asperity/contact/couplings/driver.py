@@ -13,6 +13,7 @@ from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
 from ...core.status import NoProgress, Outcome, Progress, Status
 from ..problem import Approach
+from ..solvers.active_set.solver import ActiveSet, Loaded
 from ..solvers.protocol import Constraint, ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run
 from .position import Position
 from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
@@ -387,7 +388,10 @@ class _Iteration:
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))
         else:
-            solution = run(_to(self.solver, tolerance), qp, self._start(qp), self.watched)
+            solver, begun = _to(self.solver, tolerance), None
+            if self.last is None and not self.active and isinstance(solver, ActiveSet):
+                begun = self._extrapolated(solver, qp)
+            solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
         contact = Contact(self.posed, qp, solution, self.indentation).with_work_of(self.last)
         if self.last is None:
             contact = contact.after(*self.spent)
@@ -411,15 +415,32 @@ class _Iteration:
         caps = qp.cap, None if last is None else last.qp.cap
         if last is not None and last.pressure is latest and all(isinstance(cap, np.ndarray) for cap in caps):
             return np.where((latest > 0.0) & (latest >= last.qp.cap), qp.cap, latest)
-        if len(self.pressures) < 2 or not isinstance(qp.constraint, FixedMean):
+        ratio = self._ahead(qp)
+        if ratio is None:
             return latest
-        before = self.pressures[-2]
+        return np.clip(latest + ratio * (latest - self.pressures[-2]), 0.0, qp.cap)
+
+    def _ahead(self, qp: ContactQP) -> float | None:
+        """Step to the load of ``qp`` over that between the last two, where it goes on in one direction."""
+        if len(self.pressures) < 2 or not isinstance(qp.constraint, FixedMean):
+            return None
+        before, latest = self.pressures[-2:]
         mean = float(latest.mean(dtype=np.float64))
         step = mean - float(before.mean(dtype=np.float64))
         ratio = (qp.constraint.mean_pressure - mean) / step if abs(step) > 1e-12 * mean else 0.0
-        if not 0.0 < ratio <= _FARTHEST:
-            return latest
-        return np.clip(latest + ratio * (latest - before), 0.0, qp.cap)
+        return ratio if 0.0 < ratio <= _FARTHEST else None
+
+    def _extrapolated(self, solver: ActiveSet, qp: ContactQP) -> SolverState | None:
+        """State extrapolated from the loads before, with its deflection."""
+        posed, ratio = self.posed, self._ahead(qp)
+        if ratio is None or posed.start is None or posed.earlier is None or isinstance(posed.retarded, np.ndarray):
+            return None
+        known = posed.deflections
+        last, earlier = (
+            Loaded(pressure, None if known is None else known.by(pressure, qp.operator))
+            for pressure in (posed.start, posed.earlier)
+        )
+        return solver.extrapolated(qp, last, earlier, ratio)
 
     def _goes_on(self) -> bool:
         """Whether an unknown that is not smooth still moves and has never turned back: it is bounded, and so comes to rest."""

@@ -23,6 +23,32 @@ Memory: TypeAlias = Mapping[str, RealArray]
 
 
 @dataclass(frozen=True, eq=False)
+class Deflections:
+    """Displacements (m) by pressures (Pa), both (nx, ny), as a solver left them: what the next one need not compute again.
+
+    They hold for the very arrays of pressure in ``pairs``, and for an ``operator`` of equal bodies, boundary and grid.
+    """
+
+    operator: Operator
+    pairs: tuple[tuple[RealArray, RealArray], ...]
+
+    def by(self, pressure: RealArray, operator: Operator) -> RealArray | None:
+        """Displacement by ``pressure`` under ``operator``; None if it is not known."""
+        own = self.operator
+        if operator is not own and (operator.compliance, operator.boundary, operator.grid) != (
+            own.compliance,
+            own.boundary,
+            own.grid,
+        ):
+            return None
+        return next((found for known, found in self.pairs if known is pressure), None)
+
+    def __reduce__(self) -> tuple[type[None], tuple[()]]:
+        """Copies and pickles are None: their arrays would be others, and the machine of the operator cannot go with them."""
+        return type(None), ()
+
+
+@dataclass(frozen=True, eq=False)
 class Posed:
     """What stays the same through the rounds of one step.
 
@@ -44,6 +70,8 @@ class Posed:
         That of the load before ``start`` on the same leg, beyond which both are extrapolated; None where there is none.
     tangential
         What is prescribed along the surfaces; None where that is as in the step before.
+    deflections
+        Displacements by ``start`` and by ``earlier``, where they are at hand.
     retarded
         Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
     """
@@ -57,6 +85,7 @@ class Posed:
     earlier: RealArray | None = None
     tangential: Tangential | None = None
     retarded: RealArray | float = 0.0
+    deflections: Deflections | None = None
 
     @cached_property
     def top(self) -> float:

@@ -243,10 +243,16 @@ class _Best:
         return self.since >= self.patience
 
 
-def run(solver: Solver, qp: ContactQP, start: RealArray | None = None, progress: Progress | None = None) -> Solution:
-    """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, until it converges, stagnates or gives up."""
+def run(
+    solver: Solver,
+    qp: ContactQP,
+    start: RealArray | None = None,
+    progress: Progress | None = None,
+    begun: SolverState | None = None,
+) -> Solution:
+    """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, or the state ``begun``, until it converges, stagnates or gives up."""
     report = progress or NoProgress()
-    state = solver.init(qp, start)
+    state = solver.init(qp, start) if begun is None else begun
     errors = [state.error]
     best = _Best(state, solver.max_iterations)
     while True:

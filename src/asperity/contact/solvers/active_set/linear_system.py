@@ -264,16 +264,19 @@ class Workspace:
     deflection: Any
 
     @classmethod
-    def of(cls, qp: ContactQP, precision: str, start: RealArray) -> Workspace:
-        """Workspace of ``qp`` with the pressure ``start`` (Pa), which it may take over.
+    def of(cls, qp: ContactQP, precision: str, start: RealArray, deflection: RealArray | None = None) -> Workspace:
+        """Workspace of ``qp`` with the pressure ``start`` (Pa) and its ``deflection`` (m), if it is known, both of which it may take over.
 
         ``precision`` is ``"double"``, ``"single"``, or ``"mixed"`` for corrections in single and the rest in double.
         """
         operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
         dtype = "float32" if precision == "single" else "float64"
-        pressure, deflection = engine.array(start, dtype), engine.zeros(shape, dtype)
-        exact = operator.convolution(dtype)
-        exact.apply(pressure, deflection)
+        pressure, exact = engine.array(start, dtype), operator.convolution(dtype)
+        if deflection is None:
+            begun = engine.zeros(shape, dtype)
+            exact.apply(pressure, begun)
+        else:
+            begun = engine.array(deflection, dtype)
         scale = float(operator.kernel.max()) or 1.0
         return cls(
             qp=qp,
@@ -283,7 +286,7 @@ class Workspace:
             cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), dtype),
             exact=exact,
             pressure=pressure,
-            deflection=deflection,
+            deflection=begun,
         )
 
     @property

@@ -30,8 +30,9 @@ from ....core.engine.cpu import CpuCells
 from ....core.status import NoProgress, Progress
 from ...operators.convolution import restricted
 from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
+from .entering import free_set
 from .linear_system import PIXEL_SHARE, Workspace, hierarchies, pixel_compliance
-from .solver import COARSEST, ActiveSet, coarse_tolerance, coarsened, free_set, plane_level, relative_error
+from .solver import COARSEST, ActiveSet, coarse_tolerance, coarsened, plane_level, relative_error
 
 _REDUCTION = 0.2
 """Reduction of the residual while the set changes."""
