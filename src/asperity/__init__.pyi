@@ -97,6 +97,7 @@ from .stress.criteria import MaxPrincipal, Tresca, VonMises
 from .stress.field import StressField
 from .stress.loads import LineLoad, PatchLoad, PointLoad
 from .stress.regions import DepthProfile, Everywhere, Section, depths_through
+from .stress.shakedown import ShakedownCurve, ShakedownMap, shakedown, shakedown_map
 from .stress.tractions import LoadedBody, ShearTraction, Sliding, Tractions
 from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
@@ -200,6 +201,8 @@ __all__ = [
     "Roughness",
     "Rounds",
     "Section",
+    "ShakedownCurve",
+    "ShakedownMap",
     "ShearTraction",
     "Shift",
     "Sliding",
@@ -295,6 +298,8 @@ __all__ = [
     "save_stress",
     "save_surface",
     "save_surface_plot",
+    "shakedown",
+    "shakedown_map",
     "shear_cycles",
     "sliced",
     "slide",

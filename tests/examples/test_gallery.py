@@ -330,6 +330,16 @@ def test_yield_map_under_friction():
 
 
 @pytest.mark.slow
+def test_shakedown_map():
+    """Bare steel in closed form within the pixels; the coating that is twice as strong helps at the surface, where friction sets the limit."""
+    left = run("expert/plot_7_shakedown_map")
+    k = 1e9 / np.sqrt(3.0)
+    assert left.curves[0].limit * 1e9 / k == pytest.approx([found.peak_over_k for found in left.closed_form], rel=0.02)
+    assert left.curves[0].bound * 1e9 / k == pytest.approx([found.bound_over_k for found in left.closed_form], rel=0.02)
+    assert np.all(left.found.limit[1:, -1] > left.found.limit[0, -1])
+
+
+@pytest.mark.slow
 def test_ensemble_with_error_bars():
     """Between two theories at light load; both kinds of amplitudes have one mean, within their error bars."""
     left = run("expert/plot_6_ensemble_with_error_bars")

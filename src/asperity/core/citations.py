@@ -53,6 +53,7 @@ REFERENCES = {
     "Greenwood2006": "Greenwood, J. A. (2006). A simplified elliptic model of rough surface contact. Wear 261, 191-200.",
     "Hamilton1983": "Hamilton, G. M. (1983). Explicit equations for the stresses beneath a sliding spherical contact. Proceedings of the Institution of Mechanical Engineers C 197, 53-59.",
     "Hamilton2000": "Hamilton, A. J. S. (2000). Uncorrelated modes of the non-linear power spectrum. Monthly Notices of the Royal Astronomical Society 312, 257-284.",
+    "Hearle1985": "Hearle, A. D., Ponter, A. R. S., Johnson, K. L. (1985). The application of shakedown to rolling and sliding point contacts. Journal of the Mechanics and Physics of Solids 33, 339-362.",
     "Helson1958": "Helson, H., Lowdenslager, D. (1958). Prediction theory and Fourier series in several variables. Acta Mathematica 99, 165-202.",
     "Hertz1882": "Hertz, H. (1882). Ueber die Beruehrung fester elastischer Koerper. Journal fuer die reine und angewandte Mathematik 92, 156-171.",
     "HuTonder1992": "Hu, Y. Z., Tonder, K. (1992). Simulation of 3-D random rough surface by 2-D digital filter and Fourier analysis. International Journal of Machine Tools and Manufacture 32, 83-90.",

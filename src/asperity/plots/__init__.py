@@ -24,6 +24,7 @@ from .contact import (
 )
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
 from .picture import Plot, render, style
+from .shakedown import plot_shakedown_curve, plot_shakedown_map
 from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import (
     SURFACE_PLOTS,
@@ -64,6 +65,8 @@ __all__ = [
     "plot_scale_dependence",
     "plot_section",
     "plot_sensitivities",
+    "plot_shakedown_curve",
+    "plot_shakedown_map",
     "plot_spectrum",
     "plot_stress_map",
     "plot_stress_profile",

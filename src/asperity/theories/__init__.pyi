@@ -116,6 +116,13 @@ from .subsurface.loads import (
     strip_pressure,
     strip_shear,
 )
+from .subsurface.point_shakedown import (
+    PointShakedown,
+    SphereShakedown,
+    ellipse_shakedown,
+    point_shakedown,
+    sphere_shakedown,
+)
 from .subsurface.shakedown import CylinderShakedown, LineShakedown, cylinder_shakedown, line_shakedown
 from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
 from .wet.meniscus import MeniscusGrowth
@@ -210,6 +217,7 @@ __all__ = [
     "Persson",
     "PinInHole",
     "PlasticityIndex",
+    "PointShakedown",
     "PowerLawIndenter",
     "Prediction",
     "ProfilePlasticityIndex",
@@ -222,6 +230,7 @@ __all__ = [
     "SlipMemory",
     "SlipPath",
     "SphereInCavity",
+    "SphereShakedown",
     "SphereYield",
     "SphericalIndenter",
     "StackHardness",
@@ -254,6 +263,7 @@ __all__ = [
     "critical_stiffness",
     "cylinder_shakedown",
     "cylinder_yield_onset",
+    "ellipse_shakedown",
     "evaluate",
     "expanding_cavity",
     "fit_unloading",
@@ -274,12 +284,14 @@ __all__ = [
     "nominal_interference",
     "paraboloid_area",
     "plastic_area_share",
+    "point_shakedown",
     "profile_plasticity_index",
     "rebound",
     "residual_depth",
     "rubber_friction",
     "separation_at_plastic_onset",
     "sphere_area",
+    "sphere_shakedown",
     "sphere_yield_onset",
     "strip_pressure",
     "strip_shear",
