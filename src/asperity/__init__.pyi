@@ -6,6 +6,7 @@ from .contact.boundary import Free, FreeLine, Periodic
 from .contact.couplings.adhesion import AdhesiveContact
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
+from .contact.couplings.plastic_flow import PlasticBody, PlasticZone
 from .contact.couplings.sliding import GrossSliding
 from .contact.couplings.stick_slip import StickSlip
 from .contact.creep import CreepCurve, creep_curve
@@ -23,6 +24,7 @@ from .contact.laws import (
     LayeredHardness,
     LennardJonesAdhesion,
     LinearAdhesion,
+    PlasticFlow,
     TrescaFriction,
     VanDerWaalsAdhesion,
 )
@@ -189,8 +191,11 @@ __all__ = [
     "OutputError",
     "PatchLoad",
     "Periodic",
+    "PlasticBody",
+    "PlasticFlow",
     "PlasticLoad",
     "PlasticState",
+    "PlasticZone",
     "PointLoad",
     "PowerGrading",
     "Pull",

@@ -6,6 +6,8 @@ LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "assemble": "one line for each field of the result",
         "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
+        "_down": "what a kernel calls is compiled once more in each of its callers",
+        "press": "what a kernel calls is compiled once more in each of its callers",
     },
     "parameters": {
         "app": "one for each option of the command line",
@@ -23,6 +25,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "add_clipped": "a compiled pass takes its arrays and numbers one by one",
         "rescale": "a compiled pass takes its arrays and numbers one by one",
         "sweep": "a compiled pass takes its arrays and numbers one by one",
+        "_down": "a compiled pass takes its arrays and numbers one by one",
+        "press": "a compiled pass takes its arrays and numbers one by one",
         "subtract_deflections": "a compiled pass takes its arrays and numbers one by one",
         "coupled_product": "a compiled pass takes its arrays and numbers one by one",
         "factorise_tensors": "a compiled pass takes its arrays and numbers one by one",

@@ -268,7 +268,7 @@ class EnergyBalance:
         Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start; with
         adhesion the energy of the interface too.
     plastic_work
-        Sum of the plastic works of the steps.
+        Sum of the plastic works of the steps, at the surface and in the volume; of the latter stress at the end of each step times plastic strain.
     shear_work
         ∫ Σ p du of the displacement by shear: what gross sliding takes, or gives, by lifting the surfaces.
     tangential_work
@@ -320,7 +320,12 @@ def _balance(history: HistoryResult) -> EnergyBalance:
     adhesive = [0.0 if step.adhesion is None else step.adhesion.interface_energy for step in history.steps]
     force = force - [0.0 if step.adhesion is None else step.adhesion.attractive_force for step in history.steps]
     elastic = elastic + adhesive
-    plastic, pull = np.cumsum(history.plastic_work), force - history.external_force
+    flowed = [step.plastic_flow for step in history.steps if step.plastic_flow is not None]
+    elastic = elastic + ([each.residual_energy for each in flowed] or 0.0)
+    plastic, pull = (
+        np.cumsum(history.plastic_work + ([each.step_work for each in flowed] or 0.0)),
+        force - history.external_force,
+    )
     shear, along = _shear_works(history), _tangential_works(history)
     elastic = elastic + [
         0.0 if step.stick_slip is None else step.stick_slip.tangential_energy for step in history.steps
@@ -328,7 +333,7 @@ def _balance(history: HistoryResult) -> EnergyBalance:
     start = history.start
     if history.steps[0].adhesion is None and (start is None or not start.pressure.any()):
         virgin = history.steps[0].problem.profile()
-        dented = virgin if start is None else virgin - start.permanent_indentation
+        dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
         work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
         shear, along = np.cumsum(shear), np.cumsum(along, axis=1)

@@ -21,7 +21,8 @@ from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
-from .laws import Adhesion, Coulomb, FrictionLaw, HardWall, InterfaceLaw
+from .laws import Adhesion, Coulomb, FrictionLaw, HardWall, InterfaceLaw, PlasticFlow
+from .laws.plastic_flow import require_bodies
 from .tangential import Tangential
 from .wetting import LiquidFilm
 
@@ -217,6 +218,8 @@ class ContactProblem(Shown):
         step prescribes a ``Shift`` or ``TangentialForce``; under the others the counter body does not shift until then.
     adhesion
         Attraction of the surfaces, such as ``ExponentialAdhesion(0.05, 1e-9)``; None for none.
+    plastic_flow
+        Plastic flow in the volume of ``body``, or where that is rigid of the counter body: ``PlasticFlow(J2(...))``; None for none.
 
     Notes
     -----
@@ -238,6 +241,7 @@ class ContactProblem(Shown):
     film: LiquidFilm | None = None
     friction: FrictionLaw | None = None
     adhesion: Adhesion | None = None
+    plastic_flow: PlasticFlow | None = None
 
     def __post_init__(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
@@ -255,6 +259,7 @@ class ContactProblem(Shown):
         )
         self._check_adhesion()
         self._check_materials()
+        self._check_plastic_flow()
         for spacing in self.grid.spacing:
             require.magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
@@ -283,6 +288,29 @@ class ContactProblem(Shown):
                 f"adhesion of a contact must be a law beside a hard wall, but {self.adhesion.name} has a core that repels at a distance. "
                 "Use VanDerWaalsAdhesion(...), or ExponentialAdhesion(...) of the same work and strength."
             )
+
+    def _check_plastic_flow(self) -> None:
+        flow = self.plastic_flow
+        _require(flow, PlasticFlow | None, "plastic_flow", "PlasticFlow(J2(...)) or None")
+        if flow is None:
+            return
+        friction = None if isinstance(self.friction, Coulomb | None) else self.friction
+        for found, what, remedy in (
+            (
+                self.law if not isinstance(self.law, HardWall) else None,
+                "law",
+                "A hardness is a model of the same flow.",
+            ),
+            (self.film, "film", "Solve the dry contact."),
+            (self.adhesion, "adhesion", "Solve it without adhesion."),
+            (friction, "friction", "Use Coulomb(coefficient), under which all points slide."),
+            (self.boundary if isinstance(self.boundary, FreeLine) else None, "boundary", "Use Periodic() or Free()."),
+        ):
+            if found is not None:
+                raise InputError(
+                    f"{what} of a contact with plastic flow must be another or none, but is {found!r}. {remedy}"
+                )
+        require_bodies(flow, self.body, self.counter_body)
 
     def _check_materials(self) -> None:
         for body in (self.body, self.counter_body):
@@ -326,7 +354,9 @@ class ContactProblem(Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the problem rests on."""
         pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
-        physics = [part for part in (self.law, self.film, self.friction, self.adhesion) if part is not None]
+        physics = [
+            part for part in (self.law, self.film, self.friction, self.adhesion, self.plastic_flow) if part is not None
+        ]
         parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, *physics)
         return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 

@@ -30,6 +30,7 @@ from .state import InterfaceState
 
 if TYPE_CHECKING:
     from .couplings.adhesion import AdhesiveContact
+    from .couplings.plastic_flow import PlasticBody
     from .couplings.stick_slip import StickSlip
     from .time_steps import Creeping
 
@@ -236,7 +237,7 @@ class ContactResult(Stored):
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
-        What each coupling found, by its name: ``adhesion``, ``menisci``, ``sliding``, ``stick_slip``.
+        What each coupling found, by its name: ``adhesion``, ``menisci``, ``plastic_flow``, ``sliding``, ``stick_slip``.
     memory
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
@@ -353,6 +354,25 @@ class ContactResult(Stored):
     def creep(self) -> Creeping | None:
         """What happened in time during the step that the result ends; None if nothing relaxes."""
         return self.couplings.get("creep")
+
+    @property
+    def plastic_flow(self) -> PlasticBody | None:
+        """What has flowed beneath the surface; None without plastic flow in the volume."""
+        return self.couplings.get("plastic_flow")
+
+    def require_plastic_flow(self) -> PlasticBody:
+        """What has flowed beneath the surface.
+
+        Raises
+        ------
+        InputError
+            If the problem has no plastic flow.
+        """
+        if self.plastic_flow is None:
+            raise InputError(
+                "problem of the result must have a plastic flow, but has none. Give it as plastic_flow=PlasticFlow(J2(...))."
+            )
+        return self.plastic_flow
 
     @property
     def external_force(self) -> float:

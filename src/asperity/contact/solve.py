@@ -24,6 +24,7 @@ from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
 from .couplings.menisci import MeniscusCoupling
+from .couplings.plastic_flow import PlasticFlowCoupling
 from .couplings.protocol import Contact, Coupling, Posed
 from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
@@ -500,6 +501,13 @@ def couplings_of(
     if problem.adhesion is not None:
         found.append(AdhesionCoupling.prepared(problem, operator, tolerances.get("adhesion", ADHESION_TOLERANCE)))
     threads = getattr(operator.engine, "threads", None)
+    if problem.plastic_flow is not None:
+        if sticks:
+            raise InputError(
+                "friction of a contact with plastic flow must slide everywhere, but a step prescribes a shift or a tangential force. "
+                "Leave that out: under Coulomb(mu) all points slide."
+            )
+        found.append(PlasticFlowCoupling.prepared(problem, tolerances.get("plastic_flow"), threads))
     if sticks:
         tolerance = tolerances.get("stick_slip", STICK_SLIP_TOLERANCE)
         found.append(StickSlipCoupling.prepared(problem, tolerance, threads))

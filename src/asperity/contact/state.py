@@ -68,6 +68,12 @@ class InterfaceState:
         return np.zeros(np.shape(self.pressure)) if found is None else found
 
     @property
+    def imprint(self) -> RealArray:
+        """(nx, ny), m: displacement of the surface, into the body, by plastic strain in the volume."""
+        found = self.memory.get("plastic_flow", {}).get("lift")
+        return np.zeros(np.shape(self.pressure)) if found is None else found
+
+    @property
     def plastic_work(self) -> float:
         """J, >= 0: energy dissipated by plastic flow so far."""
         return float(self.memory.get("hardness", {}).get("work", 0.0))

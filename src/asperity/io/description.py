@@ -25,6 +25,7 @@ from ..contact.laws import (
     JKRAdhesion,
     LayeredHardness,
     LinearAdhesion,
+    PlasticFlow,
     TrescaFriction,
     VanDerWaalsAdhesion,
 )
@@ -37,7 +38,7 @@ from ..core.errors import FileFormatError, InputError
 from ..core.spectral import fft_library
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
-from ..solids.plasticity import LinearHardening, Swift, Voce
+from ..solids.plasticity import J2, LinearHardening, Swift, Voce
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..stress.regions import Region
 from ..surfaces.surface import Surface
@@ -57,12 +58,14 @@ TYPES: tuple[type, ...] = (
     FullStick,
     Hardness,
     HardWall,
+    J2,
     JKRAdhesion,
     LayeredHardness,
     Layer,
     LinearAdhesion,
     LinearHardening,
     LiquidFilm,
+    PlasticFlow,
     Region,
     RigidBase,
     Strength,

@@ -40,6 +40,7 @@ from .adhesion_files import (
 )
 from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in
 from .description import describe, provenance, rebuild, software, surface_provenance
+from .flow_files import FLOW, flow_columns, flow_found, flow_from
 from .memory_files import memories_of, memory_in, memory_node
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .stress_files import field_from, field_node
@@ -57,7 +58,7 @@ Result: TypeAlias = ContactResult | HistoryResult | StressField
 PARTS = ("body", "counter_body", "boundary", "law", "control")
 """Attributes that describe problem and control, each a JSON text."""
 
-PHYSICS = ("film", "friction", "adhesion")
+PHYSICS = ("film", "friction", "adhesion", "plastic_flow")
 """The same for physics that a problem need not have."""
 
 _CHECKS = ("couplings", "rounds", "complementarity")
@@ -343,6 +344,7 @@ def contact_from(
     numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
     couplings = _couplings(problem, arrays, numbers, attributes.get("adhesion_found")) | creep_in(creep)
     memories = {} if memory is None else {name: memory_in(child) for name, child in memory.children.items()}
+    couplings |= flow_found(problem, memories.get(FLOW, {}))
     if shear is not None and problem.friction is not None:
         couplings[STICK_SLIP] = shear_in(shear, problem.friction)
     return ContactResult(
@@ -432,6 +434,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
     yield from adhesion_columns([step.adhesion for step in steps if step.adhesion is not None])
     yield from shear_columns([step.stick_slip for step in steps if step.stick_slip is not None])
     yield from creep_columns(steps)
+    yield from flow_columns(steps)
     for name in _CHECKS:
         texts = [json.dumps(describe(getattr(step.certificate, name))) for step in steps]
         yield _column(Quantity(f"certificate_{name}", "", f"{name} of the couplings, as JSON"), texts)
@@ -440,7 +443,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
             {
                 key: {name: np.asarray(a).tolist() for name, a in memory.items()}
                 for key, memory in step.memory.items()
-                if key not in (*FOLLOWING, CREEP)
+                if key not in (*FOLLOWING, CREEP, FLOW)
             }
         )
         for step in steps
@@ -466,7 +469,8 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
         couplings, friction = _couplings(last.problem, at, at.get("menisci"), at.get(ADHESION)), last.problem.friction
         if f"{PREFIX}tangential" in at and friction is not None:
             couplings[STICK_SLIP] = shear_from(at, friction, PREFIX)
-        couplings |= creep_from(node, at, step)
+        flow = flow_from(node, at, step)
+        couplings |= creep_from(node, at, step) | flow_found(last.problem, flow.get(FLOW, {}))
         result = replace(
             last,
             control=rebuild(json.loads(at["control"])),
@@ -476,12 +480,13 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             status=status_from(at),
             couplings=couplings,
             memory=memories_of(at["memory"])
+            | flow
             | following(couplings, at["gap"], float(at["approach"]))
             | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == len(ends) - 1 else {}),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )
-        before = result.pressure if result.converged and result.pressure.any() else before
+        before = (result.pressure if result.pressure.any() else None) if result.converged else before
         results.append(result)
     return HistoryResult(tuple(results), start)
 

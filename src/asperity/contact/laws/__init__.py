@@ -12,6 +12,7 @@ from .adhesion import (
 )
 from .friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from .layered_hardness import LayeredHardness
+from .plastic_flow import PlasticFlow
 from .protocol import Hardness, HardWall, InterfaceLaw, LimitByDepth, work_density
 from .short_range import JKRAdhesion
 
@@ -31,6 +32,7 @@ __all__ = [
     "LennardJonesAdhesion",
     "LimitByDepth",
     "LinearAdhesion",
+    "PlasticFlow",
     "TrescaFriction",
     "VanDerWaalsAdhesion",
     "cohesive_length",

@@ -28,10 +28,10 @@ compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
 
 
 @compiled
-def sweep(span, rows, q, odd, top, table, solids, loads, fields, moved, work):  # type: ignore[no-untyped-def]
+def sweep(span, rows, q, top, table, solids, loads, fields, moved, work):  # type: ignore[no-untyped-def]
     """Turn the eigenstrain ``fields`` (cells, 6, rows, columns) of the rows ``span`` into mean stress (Pa); add no stress for no ``loads``.
 
-    ``rows`` gives the row of the ``table`` for each; ``q`` (2, rows, columns) the wavevector, ``odd`` the same for odd functions of it;
+    ``rows`` gives the row of the ``table`` for each; ``q`` (4, rows, columns) the wavevector, and the same for odd functions of it;
     ``loads`` (3, rows, columns) tractions (q_x, q_y, p) in Pa; ``moved`` (3, rows, columns) receives the displacement of the surface in m;
     ``work`` (cells + 2, 3, columns) is room for m of each cell, and for the tractions and the displacement from which the way down goes on.
     """
@@ -48,7 +48,7 @@ def sweep(span, rows, q, odd, top, table, solids, loads, fields, moved, work):  
             k = nu / (1.0 - nu)
             M = 2.0 * G / (1.0 - nu)
             for j in range(columns):
-                x, y, ox, oy = q[0, row, j], q[1, row, j], odd[0, row, j], odd[1, row, j]
+                x, y, ox, oy = q[0, row, j], q[1, row, j], q[2, row, j], q[3, row, j]
                 square = x * x + y * y
                 away = 1.0 / square**0.5
                 cc, ss, cs = x * x / square, y * y / square, ox * oy / square
@@ -90,7 +90,7 @@ def sweep(span, rows, q, odd, top, table, solids, loads, fields, moved, work):  
         for j in range(
             columns
         ):  # the surface; from here work[0] holds the traction, the last one the displacement on top of a cell
-            x, y, ox, oy = q[0, row, j], q[1, row, j], odd[0, row, j], odd[1, row, j]
+            x, y, ox, oy = q[0, row, j], q[1, row, j], q[2, row, j], q[3, row, j]
             away = 1.0 / (x * x + y * y) ** 0.5
             c, s = ox * away, oy * away
             t_L = -1j * (c * loads[0, row, j] + s * loads[1, row, j])
@@ -107,11 +107,11 @@ def sweep(span, rows, q, odd, top, table, solids, loads, fields, moved, work):  
             work[0, 2, j] = t_T
             work[count + 1, 1, j] = W
             work[count + 1, 2, j] = T
-        _down(row, place, q, odd, table, solids, fields, work)
+        _down(row, place, q, table, solids, fields, work)
 
 
 @compiled
-def _down(row, place, q, odd, table, solids, fields, work):  # type: ignore[no-untyped-def]
+def _down(row, place, q, table, solids, fields, work):  # type: ignore[no-untyped-def]
     """Tractions from cell to cell, and the mean stress in each."""
     count, columns = fields.shape[0], fields.shape[3]
     for cell in range(count):
@@ -120,7 +120,7 @@ def _down(row, place, q, odd, table, solids, fields, work):  # type: ignore[no-u
         M = 2.0 * G / (1.0 - nu)
         E = 2.0 * G * (1.0 + nu)
         for j in range(columns):
-            x, y, ox, oy = q[0, row, j], q[1, row, j], odd[0, row, j], odd[1, row, j]
+            x, y, ox, oy = q[0, row, j], q[1, row, j], q[2, row, j], q[3, row, j]
             square = x * x + y * y
             away = 1.0 / square**0.5
             cc, ss, cs = x * x / square, y * y / square, ox * oy / square
@@ -163,7 +163,7 @@ def _down(row, place, q, odd, table, solids, fields, work):  # type: ignore[no-u
 
 
 @compiled
-def press(span, rows, q, odd, top, table, solids, loads, fields, work):  # type: ignore[no-untyped-def]
+def press(span, rows, q, top, table, solids, loads, fields, work):  # type: ignore[no-untyped-def]
     """Add the mean stress (Pa) by ``loads`` to the ``fields`` of the rows ``span``, as ``sweep`` does for no eigenstrain, and take the mean of xx, yy and zz away.
 
     ``work`` (5, columns).
@@ -172,7 +172,7 @@ def press(span, rows, q, odd, top, table, solids, loads, fields, work):  # type:
     for row in range(span[0], span[1]):
         place = rows[row]
         for j in range(columns):
-            x, y, ox, oy = q[0, row, j], q[1, row, j], odd[0, row, j], odd[1, row, j]
+            x, y, ox, oy = q[0, row, j], q[1, row, j], q[2, row, j], q[3, row, j]
             away = 1.0 / (x * x + y * y) ** 0.5
             c, s = ox * away, oy * away
             t_L = -1j * (c * loads[0, row, j] + s * loads[1, row, j])
@@ -188,7 +188,7 @@ def press(span, rows, q, odd, top, table, solids, loads, fields, work):  # type:
             k = nu / (1.0 - nu)
             M = 2.0 * G / (1.0 - nu)
             for j in range(columns):
-                x, y, ox, oy = q[0, row, j], q[1, row, j], odd[0, row, j], odd[1, row, j]
+                x, y, ox, oy = q[0, row, j], q[1, row, j], q[2, row, j], q[3, row, j]
                 square = x * x + y * y
                 away = 1.0 / square**0.5
                 cc, ss, cs = x * x / square, y * y / square, ox * oy / square

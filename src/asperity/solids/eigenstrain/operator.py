@@ -26,32 +26,31 @@ Slot = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class Wavevectors:
-    """Wavevectors (rows, columns) in rad/m; ``odd`` those for odd functions of them, zero where the sign is undefined.
+    """Wavevectors ``q`` (4, rows, columns) in rad/m: x, y, and the same for odd functions of them, zero where the sign is undefined.
 
     ``rows`` (rows,) tells which row of ``alpha``, the wavenumbers > 0 that a table is made for, belongs to each. Where the wavevector
     vanishes any other stands in its place.
     """
 
     q: RealArray
-    odd: RealArray
     alpha: RealArray
     rows: RealArray
 
     @classmethod
     def of_grid(cls, grid: Grid) -> Self:
         """Those of the half spectrum of ``grid``; wavenumbers of its first half of rows."""
-        q, odd = (np.stack(np.broadcast_arrays(*grid.wavevector(odd=flag))) for flag in (False, True))
-        q, odd = np.ascontiguousarray(q), np.ascontiguousarray(odd)
-        q[0, 0, 0] = odd[0, 0, 0] = 2.0 * np.pi / grid.size[0]
+        parts = [part for flag in (False, True) for part in grid.wavevector(odd=flag)]
+        q = np.ascontiguousarray(np.stack(np.broadcast_arrays(*parts)))
+        q[::2, 0, 0] = 2.0 * np.pi / grid.size[0]
         index = np.arange(grid.shape[0])
         half = grid.shape[0] // 2 + 1
-        return cls(q, odd, np.hypot(*q)[:half], np.minimum(index, grid.shape[0] - index))
+        return cls(q, np.hypot(q[0], q[1])[:half], np.minimum(index, grid.shape[0] - index))
 
     @classmethod
     def single(cls, x: RealArray, y: RealArray) -> Self:
         """One row of any wavevectors but zero."""
-        q = np.stack([x, y])[:, None, :]
-        return cls(q, q, np.hypot(*q), np.zeros(1, dtype=np.int64))
+        q = np.stack([x, y, x, y])[:, None, :]
+        return cls(q, np.hypot(q[0], q[1]), np.zeros(1, dtype=np.int64))
 
 
 def swept(
@@ -78,7 +77,7 @@ def swept(
     def part(first: int) -> None:
         work = np.empty((count + 2, 3, columns), dtype=complex)
         span = (first, min(first + _ROWS, fields.shape[2]))
-        sweep(span, waves.rows, waves.q, waves.odd, table.top, table.cells, table.solids, loads, fields, moved, work)
+        sweep(span, waves.rows, waves.q, table.top, table.cells, table.solids, loads, fields, moved, work)
 
     shared(part, range(0, fields.shape[2], _ROWS), threads)
     return moved
@@ -243,7 +242,7 @@ class EigenstrainOperator:
         def part(first: int) -> None:
             work = np.empty((5, fields.shape[3]), dtype=complex)
             span = (first, min(first + _ROWS, fields.shape[2]))
-            press(span, waves.rows, waves.q, waves.odd, table.top, table.cells, table.solids, loads, fields, work)
+            press(span, waves.rows, waves.q, table.top, table.cells, table.solids, loads, fields, work)
 
         shared(part, range(0, fields.shape[2], _ROWS), self.threads)
         fields[:, :, 0, 0] = added

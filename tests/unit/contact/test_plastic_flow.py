@@ -1,0 +1,229 @@
+"""Plastic flow in the volume as a physics of the interface: histories, restart, files, what it works together with and what not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from refusals import refused
+
+import asperity as asp
+from asperity.contact.solve import Prepared
+from asperity.core.errors import InputError
+from asperity.solids.plasticity import J2, LinearHardening, Swift
+
+STEEL, FILM = asp.Elastic(200e9, 0.3), asp.Elastic(400e9, 0.25)
+SOFT = J2(STEEL, LinearHardening(0.8e9, 4e9))
+HARD = J2(FILM, Swift(3e9, 0.01, 0.2), kinematic=5e9)
+BODY = asp.Layered([asp.Layer(FILM, 60e-9)], STEEL)
+FLOW = asp.PlasticFlow((HARD, SOFT), cells=16)
+
+
+def rough(shape: tuple[int, int] = (32, 24)) -> asp.Surface:
+    """A wavy surface with summits of several heights."""
+    n, m = shape
+    x, y = 2.0 * np.pi * np.arange(n)[:, None] / n, 2.0 * np.pi * np.arange(m)[None, :] / m
+    heights = np.cos(2 * x + 0.3) * np.cos(2 * y) + 0.4 * np.cos(3 * x - 2 * y + 1.0) + 0.2 * np.cos(5 * x + y)
+    return asp.Surface(1.2e-9 * heights, 25e-9, 25e-9)
+
+
+def problem(**changes: Any) -> asp.ContactProblem:
+    return replace(asp.ContactProblem(rough(), BODY, plastic_flow=FLOW), **changes)
+
+
+@cache
+def course() -> asp.HistoryResult:
+    """Loaded, unloaded and loaded beyond."""
+    loads = [0.03e9, 0.12e9, 0.25e9, 0.1e9]
+    last = [0.24e9, 0.4e9]
+    return asp.solve(
+        problem(), asp.History([*map(asp.MeanPressure, loads), asp.Unloaded(), *map(asp.MeanPressure, last)])
+    )
+
+
+def test_history() -> None:
+    """Plastic work grows under rising loads alone; unloading leaves the imprint, and a load below the largest one moves nothing."""
+    flows = [step.plastic_flow for step in course().steps]
+    works = np.array([flow.work for flow in flows])
+    assert works[1] > 0.0
+    assert np.all(np.diff(works[[1, 2, 6]]) > 0.0)
+    np.testing.assert_allclose(works[3:6], works[2], rtol=2e-2)
+    imprint = flows[4].displacement
+    assert imprint.max() > 0.0
+    np.testing.assert_allclose(flows[5].displacement, imprint, atol=0.02 * imprint.max())
+    assert not course().steps[4].pressure.any()
+    assert all(flow.small_strain for flow in flows)
+    assert flows[-1].residual_energy > 0.0
+
+
+def test_layers_are_told_apart() -> None:
+    """Volumes, depths and first yield of each part; the soft base yields before the hard film does."""
+    film, base = course().last.plastic_flow.zones
+    assert [film.name, base.name] == ["layer 1", "base"]
+    assert base.top == pytest.approx(60e-9)
+    assert base.volume > film.volume
+    assert base.first_yield <= film.first_yield or np.isnan(film.first_yield)
+    assert base.first_yield == pytest.approx(0.12e9)
+    assert base.first_place[2] > 60e-9
+
+
+def test_energies_balance() -> None:
+    """Of first order in the steps; what is stored below the surface counts."""
+    errors = []
+    for count in (4, 8):
+        loads = [asp.MeanPressure(0.3e9 * k / count) for k in range(1, count + 1)]
+        errors.append(asp.solve(problem(), asp.History(loads)).energies.relative_error)
+    assert errors[1] < 0.05
+    assert errors[1] < 0.75 * errors[0]
+
+
+def test_restart_in_the_middle_is_exact(tmp_path: Path) -> None:
+    """From a state, and from the state of a saved history, the same bits as without a break."""
+    again = asp.solve(problem(), asp.MeanPressure(0.4e9), state=course().steps[5].state)
+    asp.save(course(), tmp_path / "history.nc")
+    loaded = asp.load(tmp_path / "history.nc")
+    stored = asp.solve(problem(), asp.MeanPressure(0.4e9), state=loaded.steps[5].state)
+    for one in (again, stored):
+        assert np.array_equal(one.pressure, course().last.pressure)
+        assert np.array_equal(
+            one.plastic_flow.flowed.state.plastic_strain, course().last.plastic_flow.flowed.state.plastic_strain
+        )
+    for read, step in zip(loaded.steps, course().steps, strict=True):
+        assert read.plastic_flow.work == step.plastic_flow.work
+        assert read.plastic_flow.residual_energy == step.plastic_flow.residual_energy
+        assert np.array_equal(read.plastic_flow.displacement, step.plastic_flow.displacement)
+        assert np.array_equal(read.plastic_flow.accumulated, step.plastic_flow.accumulated)
+    assert repr(loaded.last.problem.plastic_flow) == repr(FLOW)
+
+
+def test_a_single_result_is_read_back(tmp_path: Path) -> None:
+    result = asp.solve(problem(), asp.MeanPressure(0.2e9))
+    asp.save(result, tmp_path / "one.nc")
+    read = asp.load(tmp_path / "one.nc")
+    assert read.plastic_flow.zones == result.plastic_flow.zones
+    assert np.array_equal(read.plastic_flow.stress(), result.plastic_flow.stress())
+
+
+def test_elastic_where_nothing_yields() -> None:
+    """A light load gives the elastic contact, with no depth cells at all; a layer without a law stays elastic under any."""
+    light = asp.MeanPressure(1e6)
+    result = asp.solve(problem(), light)
+    assert not result.plastic_flow.depths.size
+    assert np.array_equal(result.pressure, asp.solve(problem(plastic_flow=None), light).pressure)
+    heavy = asp.solve(problem(plastic_flow=asp.PlasticFlow((None, SOFT), cells=16)), asp.MeanPressure(0.25e9))
+    film, base = heavy.plastic_flow.zones
+    assert film.volume == 0.0
+    assert base.volume > 0.0
+
+
+def test_position_and_load_agree() -> None:
+    """The approach and the mean gap of a load lead back to it."""
+    at = course().steps[1]
+    for control in (asp.Approach(at.approach), asp.MeanGap(at.mean_gap)):
+        result = asp.solve(problem(), control)
+        assert result.mean_pressure == pytest.approx(
+            at.mean_pressure, rel=0.03
+        )  # the one came in two steps, the other in one
+
+
+def test_which_body_flows_does_not_matter_without_shear() -> None:
+    """A rigid rough body on a flat plastic one, and the reverse."""
+    turned = asp.ContactProblem(rough(), asp.Rigid(), counter_body=BODY, plastic_flow=FLOW)
+    one, two = (asp.solve(each, asp.MeanPressure(0.2e9)) for each in (problem(), turned))
+    np.testing.assert_allclose(two.pressure, one.pressure, rtol=1e-9)
+    assert two.plastic_flow.work == pytest.approx(one.plastic_flow.work, rel=1e-9)
+
+
+def test_an_elastic_counter_body_gives_way() -> None:
+    """Both compliances act, the imprint is that of the plastic body alone."""
+    both = asp.solve(problem(counter_body=STEEL), asp.MeanPressure(0.2e9))
+    alone = asp.solve(problem(), asp.MeanPressure(0.2e9))
+    assert both.area_fraction > alone.area_fraction
+    assert both.plastic_flow.work < alone.plastic_flow.work
+
+
+def test_sliding_makes_it_flow_earlier() -> None:
+    """Shear traction adds to the stress at the surface; the opposite direction on the mirrored surface gives the mirror image."""
+    still = asp.solve(problem(), asp.MeanPressure(0.15e9))
+    friction = asp.Coulomb(0.4)
+    result = asp.solve(problem(friction=friction), asp.MeanPressure(0.15e9))
+    assert result.plastic_flow.work > 1.1 * still.plastic_flow.work
+    assert result.sliding is not None
+    heights = rough().heights[::-1]
+    mirrored = problem(surface=asp.Surface(heights, 25e-9, 25e-9), friction=asp.Coulomb(0.4, direction=np.pi))
+    image = asp.solve(mirrored, asp.MeanPressure(0.15e9))
+    np.testing.assert_allclose(image.pressure[::-1], result.pressure, atol=2e-3 * result.max_pressure)
+
+
+def test_cells_go_deeper_with_the_load() -> None:
+    """Cells of a first small load are kept, others are added below; the answer is that of cells that were deep from the start."""
+    shallow = course().steps[1].plastic_flow.flowed.edges
+    deep = course().last.plastic_flow.flowed.edges
+    assert deep.size >= shallow.size
+    assert np.array_equal(deep[: shallow.size], shallow)
+    flow = replace(FLOW, depth=float(deep[-1]), cells=deep.size - 1)
+    loads = [step.control for step in course().steps]
+    fixed = asp.solve(problem(plastic_flow=flow), asp.History(loads))
+    assert fixed.last.plastic_flow.work == pytest.approx(course().last.plastic_flow.work, rel=0.05)
+    assert fixed.last.mean_gap == pytest.approx(course().last.mean_gap, rel=0.02)
+
+
+def test_a_prescribed_depth_that_is_too_small_is_told() -> None:
+    shallow = asp.solve(problem(plastic_flow=replace(FLOW, depth=80e-9, cells=8)), asp.MeanPressure(0.25e9))
+    assert shallow.plastic_flow.reaches_end
+    assert not course().last.plastic_flow.reaches_end
+
+
+def test_number_of_threads_does_not_matter() -> None:
+    one, two = (asp.solve(problem(), asp.MeanPressure(0.2e9), engine=asp.CpuEngine(threads=n)) for n in (1, 2))
+    assert np.array_equal(one.pressure, two.pressure)
+    assert np.array_equal(one.plastic_flow.displacement, two.plastic_flow.displacement)
+
+
+@pytest.mark.parametrize(
+    ("changes", "subject"),
+    [
+        ({"law": asp.Hardness(2e9)}, "law of a contact with plastic flow"),
+        ({"adhesion": asp.ExponentialAdhesion(0.05, 1e-9)}, "adhesion of a contact with plastic flow"),
+        ({"friction": asp.FullStick()}, "friction of a contact with plastic flow"),
+        ({"body": STEEL}, "plasticity of a PlasticFlow"),
+        ({"plastic_flow": asp.PlasticFlow((SOFT, SOFT))}, "elastic constants of a J2 law"),
+    ],
+)
+def test_refused_problems(changes: dict[str, Any], subject: str) -> None:
+    with refused(InputError, subject):
+        problem(**changes)
+
+
+@pytest.mark.parametrize(
+    ("plasticity", "subject"),
+    [
+        ((None, None), "plasticity of a PlasticFlow"),
+        ((1.0,), "plasticity of a PlasticFlow"),
+        (2e9, "plasticity of a PlasticFlow"),
+    ],
+)
+def test_refused_laws(plasticity: Any, subject: str) -> None:
+    with refused(InputError, subject):
+        asp.PlasticFlow(plasticity)
+
+
+def test_stick_and_slip_is_refused() -> None:
+    with refused(InputError, "friction of a contact with plastic flow"):
+        asp.solve(problem(friction=asp.Coulomb(0.3)), asp.Step(asp.MeanPressure(1e8), asp.Shift(1e-9)))
+
+
+def test_a_result_without_it() -> None:
+    result = asp.solve(problem(plastic_flow=None), asp.MeanPressure(1e8))
+    assert result.plastic_flow is None
+    with refused(InputError, "problem of the result"):
+        result.require_plastic_flow()
+    assert course().last.require_plastic_flow() is course().last.plastic_flow
+
+
+def test_one_coupling_is_prepared() -> None:
+    assert [coupling.name for coupling in Prepared(problem()).couplings] == ["hardness", "plastic_flow"]
