@@ -1,4 +1,4 @@
-from . import dynamics, theories
+from . import dynamics, fem, theories
 from .contact import solvers
 from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
@@ -254,6 +254,7 @@ __all__ = [
     "export_csv",
     "export_stress_vtk",
     "export_vtk",
+    "fem",
     "filled",
     "filtered",
     "first_yield",

@@ -11,7 +11,7 @@ LAYERS = {
     5: ("run",),
     4: ("parts",),
     3: ("plots", "io"),
-    2: ("contact", "stress", "dynamics"),
+    2: ("contact", "stress", "dynamics", "fem"),
     1: ("surfaces", "solids", "theories"),
     0: ("core",),
 }
