@@ -24,8 +24,8 @@ from asperity.io.tree import FORMAT_VERSION, Node, write_tree
 
 def same(first: object, second: object) -> bool:
     """Equal to the last bit and of equal type, all the way down but for products at hand, which no file holds; NaN equals NaN."""
-    if isinstance(first, Deflections):
-        return second is None or isinstance(second, Deflections)
+    if isinstance(first, Deflections) or isinstance(second, Deflections):
+        return all(one is None or isinstance(one, Deflections) for one in (first, second))
     if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
         return first.dtype == second.dtype and first.shape == second.shape and first.tobytes() == second.tobytes()
     if isinstance(first, float) and isinstance(second, float) and first != first:
