@@ -46,6 +46,18 @@ DOCUMENTS = {
         shear={"shift": "0.5 nm", "cycles": 1, "steps": 2},
     ),
     "tangential force": document(friction={"law": "full stick"}, shear={"force": ["1 uN", "-1 uN"], "steps": 1}),
+    "held and let go": document(
+        counter_body="E=1GPa+2GPa@1ms+1GPa@0.1s,nu=0.4:50nm/E=3MPa+10MPa@10ms,nu=0.5",
+        control={"path": {"mean_pressure": ["1 MPa", "0.4 MPa"]}},
+        viscoelastic={"ramp": ["0 s", "1 ms"], "hold": "10 ms", "steps": 4},
+    ),
+    "sliding over rubber": document(
+        body="E=200GPa,nu=0.3",
+        counter_body="E=3MPa+3MPa@0.1s+10MPa@10ms,nu=0.5,WLF=298K;8.86;101.6K",
+        control={"mean_pressure": "1 kPa"},
+        viscoelastic={"temperature": "310 K"},
+        hysteresis={"speed": "1 mm/s", "direction": "30 deg"},
+    ),
     "list of steps": document(
         counter_body=BODY,
         friction={"law": "tresca", "strength": "50 MPa"},

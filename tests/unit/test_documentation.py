@@ -300,6 +300,27 @@ def test_the_examples_of_viscoelastic_bodies():
     assert names["found"].slope_friction == pytest.approx(names["found"].friction, rel=0.1)
 
 
+def test_the_commands_and_documents_of_viscoelastic_bodies(tmp_path, monkeypatch):
+    """Commands on coarser grids; each table is read as a part of a document."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs/how-to/viscoelastic.md"
+    for line in [line for block in blocks(page, "console") for line in block.splitlines()]:
+        shorter = re.sub(r"--points \d+", "--points 16", line).removeprefix("$ ")
+        more = ["--speed-points", "2"] if "--slowest" in shorter else []
+        result = CliRunner().invoke(app, [*shlex.split(shorter)[1:], *more])
+        assert result.exit_code == 0, result.output
+    assert float(asp.open_tree("run/result.nc")["viscoelastic/viscoelastic_time"]) == pytest.approx(121.0)
+    sliding = asp.open_tree("sliding/result.nc")["hysteresis"]
+    assert float(sliding["hysteresis_friction"]) == pytest.approx(float(sliding["hysteresis_slope_friction"]), rel=0.1)
+    head = 'version = 2\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\n'
+    body, times, speeds = blocks(page, "toml")
+    load = '\n[control]\nmean_pressure = "1 kPa"\n'
+    solid = loads(head + load + body).body.relaxation
+    assert [float(time) for time in solid.times] == [0.1, 0.01]
+    assert loads(head + 'body = "steel"\n' + times).viscoelastic.temperature == 310.0
+    assert loads(head + 'body = "steel"\n' + load + speeds).hysteresis.points == 9
+
+
 def test_the_options_of_films_and_their_keys_mean_the_same(tmp_path, monkeypatch):
     """Every row of the table in the guide, as option and as key."""
     monkeypatch.chdir(tmp_path)

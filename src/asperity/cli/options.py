@@ -50,6 +50,8 @@ BASIC = (
         "--adhesion",
         "--adhesion-range",
         "--retract",
+        "--hold",
+        "--sliding-speed",
     ),
     *("--section", "--depths", "--threads"),
 )

@@ -290,7 +290,9 @@ def slide(
         If pressure and displacement do not agree.
     """
     started = time.perf_counter()
-    _require_slidable(problem, control)
+    require_slidable(problem)
+    if isinstance(control, Unloaded):
+        raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
     angle = require.finite(direction, "direction of sliding (rad)")
     engine = CpuEngine()
@@ -357,8 +359,8 @@ def _with_friction(
     )
 
 
-def _require_slidable(problem: ContactProblem, control: Control) -> None:
-    """Refuse what is not steady, or has no hysteresis."""
+def require_slidable(problem: ContactProblem) -> None:
+    """Refuse with an InputError what is not steady, or has no hysteresis."""
     if not isinstance(problem.boundary, Periodic):
         raise InputError(f"boundary of steady sliding must be Periodic(), but is {problem.boundary!r}.")
     if not isinstance(problem.law, HardWall) or any(
@@ -367,8 +369,6 @@ def _require_slidable(problem: ContactProblem, control: Control) -> None:
         raise InputError(
             "law of steady sliding must be HardWall(), and film, friction and adhesion None: the friction found is that of hysteresis alone."
         )
-    if isinstance(control, Unloaded):
-        raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     pairs: tuple[tuple[Body, object, str], ...] = (
         (problem.body, problem.surface, "surface"),
         (problem.counter_body, problem.counter_surface, "counter_surface"),

@@ -11,10 +11,14 @@ import numpy as np
 from ..contact.result import ContactResult
 from ..contact.time_steps import COLUMNS, Creeping
 from ..core.quantity import Labelled, Quantity
+from .memory_files import memory_in, memory_node
 from .tree import Node
 
 CREEP = "creep"
 """Coupling, and group."""
+
+PASTS = "pasts"
+"""Group of a history with what is remembered after its steps."""
 
 RETARDED = Quantity("retarded_displacement", "m", "displacement that is not by the pressure then", dims=("x", "y"))
 
@@ -62,6 +66,19 @@ def creep_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
     yield Labelled(replace(_MOMENTS, dims=("step",)), np.array([len(each.records) for each in found]))
     fields = np.stack([each.retarded_displacement for each in found])
     yield Labelled(replace(RETARDED, name=_PREFIX + RETARDED.name, dims=("step", "x", "y")), fields)
+
+
+def creep_pasts(steps: Sequence[ContactResult]) -> dict[str, Node]:
+    """Group of what the bodies remember after every step but the last, whose past stands with its contact: a restart may begin at any."""
+    found = {f"step_{n}": memory_node(step.memory[CREEP]) for n, step in enumerate(steps[:-1]) if CREEP in step.memory}
+    return {PASTS: Node((), {}, found)} if found else {}
+
+
+def past_from(node: Node, step: int) -> dict[str, Any]:
+    """What the bodies remember after one ``step`` of the history in a group, by the name of the coupling; nothing if it is not there."""
+    pasts = node.children.get(PASTS, Node()).children
+    name = f"step_{step}"
+    return {CREEP: memory_in(pasts[name])} if name in pasts else {}
 
 
 def creep_from(node: Node, at: Mapping[str, Any], step: int) -> dict[str, Any]:

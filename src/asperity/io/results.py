@@ -38,7 +38,7 @@ from .adhesion_files import (
     adhesion_text,
     following,
 )
-from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in
+from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in, creep_pasts, past_from
 from .description import describe, provenance, rebuild, software, surface_provenance
 from .flow_files import FLOW, flow_columns, flow_found, flow_from
 from .memory_files import memories_of, memory_in, memory_node
@@ -410,15 +410,16 @@ def path_node(path: HistoryResult) -> Node:
     controls = [json.dumps(describe(step.control)) for step in steps]
     values.append(_column(Quantity("control", "", "prescribed load or position, as JSON"), controls))
     values += [*_coupling_columns(steps), Labelled(SPOTS, np.concatenate([step.spot_areas for step in steps]))]
+    pasts = creep_pasts(steps)
     if path.start is None:
-        return Node(tuple(values))
+        return Node(tuple(values), {}, pasts)
     started = path.start
     values.append(_field(Quantity("start_pressure", "Pa", "pressure before the first step"), started.pressure))
     if started.earlier is not None:
         quantity = Quantity("start_earlier", "Pa", "pressure of the load before that")
         values.append(_field(quantity, started.earlier))
     memory = Node((), {}, {name: memory_node(memory) for name, memory in started.memory.items()})
-    return Node(tuple(values), {}, {"start": memory})
+    return Node(tuple(values), {}, {"start": memory, **pasts})
 
 
 def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
@@ -482,7 +483,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             memory=memories_of(at["memory"])
             | flow
             | following(couplings, at["gap"], float(at["approach"]))
-            | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == len(ends) - 1 else {}),
+            | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == len(ends) - 1 else past_from(node, step)),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )

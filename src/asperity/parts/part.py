@@ -184,6 +184,14 @@ class Part:
         """By what this part joins the solve, by name; nothing for an analysis."""
         return {}
 
+    def altered(self, ask: Any, problem: ContactProblem) -> ContactProblem:
+        """The problem that is solved, where this part changes its bodies."""
+        return problem
+
+    def options(self, ask: Any) -> Mapping[str, Any]:
+        """Keywords of ``solve`` that this part sets."""
+        return {}
+
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Values of the quantities."""
         return Found()

@@ -12,10 +12,12 @@ from .adhesion import Adhesion
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .dynamics import Dynamics
 from .film import Friction, Menisci, WetTheory
+from .hysteresis import Hysteresis
 from .part import Part
 from .rolling import Rolling
 from .stick_slip import StickSlip
 from .stress import Stress, Yielding
+from .viscoelastic import Viscoelasticity
 
 GROUP = "asperity.parts"
 """Entry points of packages that add parts; each names a ``Part``, the class or an instance of it."""
@@ -29,6 +31,8 @@ BUILT_IN: tuple[Part, ...] = (
     WetTheory(),
     Adhesion(),
     LoadPath(),
+    Viscoelasticity(),
+    Hysteresis(),
     Plasticity(),
     PlasticLoad(),
     Stress(),

@@ -147,11 +147,14 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
 
 
 def _with_physics(problem: ContactProblem, asks: Mapping[str, Any], known: tuple[Part, ...]) -> ContactProblem:
-    """``problem`` with the film and the friction by which the parts join it."""
+    """``problem`` with the film and the friction by which the parts join it, and with what they change of its bodies."""
     joined: dict[str, Any] = {}
     for part in known:
         joined |= part.coupling(asks[part.name]) if part.name in asks else {}
-    return replace(problem, **joined)
+    problem = replace(problem, **joined)
+    for part in known:
+        problem = part.altered(asks[part.name], problem) if part.name in asks else problem
+    return problem
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:

@@ -27,6 +27,7 @@ from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts, with_own
 from ..parts.stick_slip import StickSlip
 from ..parts.stress import Stress, Yielding, stress_request
+from ..parts.viscoelastic import Viscoelasticity
 from ..plots.contact import PLOTS
 from ..plots.picture import Figure, drawn
 from .build import Case, build
@@ -283,6 +284,10 @@ def _is_wanted(part: Part, wanted: frozenset[str] | None) -> bool:
     return wanted is None or any(not item.costly or item.name in wanted for item in part.quantities)
 
 
+_WHOLE = frozenset({StickSlip.name, Adhesion.name, Viscoelasticity.name})
+"""Parts that need all steps of a load path."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Solving:
     """One case on its way through the solver."""
@@ -319,7 +324,14 @@ class _Solving:
         if self.warm.operator is None:
             problem, engine = self.case.problem, CpuEngine(self.threads)
             self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        return {"operator": self.warm.operator, "on_failure": self.on_failure, "solver": self.case.solver}
+        options: dict[str, Any] = {
+            "operator": self.warm.operator,
+            "on_failure": self.on_failure,
+            "solver": self.case.solver,
+        }
+        for part in self.case.parts:
+            options |= part.options(self.case.asks[part.name]) if part.name in self.case.asks else {}
+        return options
 
     def _single(self) -> ContactResult:
         case, keep = self.case, Keep(stiffness=self._stiffness)
@@ -334,9 +346,7 @@ class _Solving:
         case = self.case
         with self.stage(f"solving {len(case.path)} steps") as progress:
             stream = steps(case.problem, case.path, progress=progress, **self._options())
-            results = list(
-                deque(stream, maxlen=None if self.lines or {StickSlip.name, Adhesion.name} & set(case.asks) else 1)
-            )
+            results = list(deque(stream, maxlen=None if self.lines or _WHOLE & set(case.asks) else 1))
         last = results[-1]
         shear = last.sliding or last.stick_slip
         if self._stiffness and last.adhesion is None and (shear is None or not shear.shear_displacement.any()):

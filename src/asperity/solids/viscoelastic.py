@@ -319,8 +319,8 @@ class Viscoelastic(Elastic):
                 f"viscoelastic solid {self.name or 'without a name'} must have a shift to be taken to another temperature, but has none. "
                 "Give shift=WilliamsLandelFerry(reference, c1, c2) or Arrhenius(reference, activation_energy)."
             )
-        shift = self.shift.seen_from(temperature)
-        return replace(self.with_times(self.shift.factor(temperature)), shift=shift)
+        moved = self.with_times(self.shift.factor(temperature))
+        return replace(moved, shift=self.shift.seen_from(temperature))
 
     def with_times(self, factor: float) -> Self:
         """The same solid with all relaxation times multiplied by ``factor`` > 0."""

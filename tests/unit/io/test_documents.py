@@ -418,6 +418,8 @@ def test_schema_is_json_and_names_every_table() -> None:
         "adhesion",
         "dynamics",
         "rolling",
+        "viscoelastic",
+        "hysteresis",
         "film",
         "stress",
         "plastic_load",

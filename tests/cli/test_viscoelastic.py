@@ -1,0 +1,318 @@
+"""Viscoelastic contacts on the command line and in documents: the numbers of Python, files and figures made again, studies, and what is refused."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cli.conftest import Runner
+from study_cases import InProcess, plan
+
+import asperity as asp
+from asperity.contact.roughness import roughness_of
+from asperity.contact.time_steps import COLUMNS
+from asperity.core.errors import InputError
+from asperity.parts.hysteresis import COLUMNS as SPEED_COLUMNS
+from asperity.parts.hysteresis import SCALARS as SLIDING
+from asperity.parts.viscoelastic import SCALARS, STEPS
+from asperity.run.build import build
+from asperity.run.document import checked, dumps, loads
+from asperity.run.stored import load_outcome
+from asperity.studies.collect import dataset
+from asperity.studies.run import carry_out
+
+POLYMER = "E=0.5GPa+1.2GPa@0.1s+0.8GPa@5s,nu=0.38,bulk=elastic,name=polymer"
+BALL: dict[str, Any] = {
+    "version": 2,
+    "surface": {"kind": "sphere", "points": [20, 20], "size": "10 um", "radius": "20 um"},
+    "body": f"{POLYMER}:2um/E=70GPa,nu=0.22",
+    "boundary": {"kind": "free"},
+    "control": {"path": {"force": ["2 mN", "1 mN"]}},
+    "viscoelastic": {"ramp": ["0 s", "0.5 s"], "hold": "10 s", "tolerance": 0.01},
+}
+RUBBER = "E=3MPa+3MPa@0.1s+10MPa@10ms,nu=0.5,name=rubber,WLF=298K;8.86;101.6K"
+GROUND: dict[str, Any] = {
+    "version": 2,
+    "surface": {
+        "kind": "rough",
+        "points": [32, 32],
+        "size": "2 mm",
+        "seed": 2,
+        "spectrum": {
+            "kind": "self_affine",
+            "rms_height": "10 um",
+            "hurst": 0.8,
+            "rolloff_wavelength": "1 mm",
+            "shortest_wavelength": "0.25 mm",
+        },
+    },
+    "body": "rigid",
+    "counter_body": RUBBER,
+    "control": {"mean_pressure": "0.2 MPa"},
+    "hysteresis": {"speed": "1 cm/s"},
+}
+OPTIONS = ("--level", "none", "--body", BALL["body"], "--boundary", "free")
+IN_TIME = ("--ramp", "0s,0.5s", "--hold", "10s", "--time-tolerance", "0.01")
+
+
+def in_python() -> asp.HistoryResult:
+    """The history of the document ``BALL``."""
+    polymer = asp.Viscoelastic.prony(0.5e9, ((1.2e9, 0.1), (0.8e9, 5.0)), 0.38, elastic_bulk=True)
+    body = asp.Layered([asp.Layer(polymer, 2e-6)], asp.Elastic(70e9, 0.22))
+    problem = asp.ContactProblem(build(checked(BALL)).problem.surface, body, boundary=asp.Free())
+    high, low = asp.Force(2e-3), asp.Force(1e-3)
+    course = [high, asp.Step(high, duration=10.0), asp.Step(low, duration=0.5), asp.Step(low, duration=10.0)]
+    return asp.solve(problem, asp.History(course), time_steps=asp.TimeSteps(0.01))
+
+
+def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> None:
+    """Options give the numbers of Python; the file holds them, gives words and pictures again, and a restart from every step."""
+    asp.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
+    out = tmp_path / "out"
+    done = run("contact", tmp_path / "ball.nc", *OPTIONS, "--path", "2mN,1mN", *IN_TIME, "--out", out)
+    assert done.exit_code == 0, done.output
+    found, outcome = in_python(), load_outcome(out / "result.nc")
+    creeping = [step.creep for step in found.steps if step.creep is not None]
+    values, columns = outcome.values, outcome.found["viscoelastic"].values
+    assert values["viscoelastic_time"] == pytest.approx(20.5)
+    assert values["viscoelastic_heat"] == pytest.approx(sum(each.dissipated for each in creeping), rel=1e-6)
+    assert values["viscoelastic_stored"] == pytest.approx(creeping[-1].stored_energy, rel=1e-6)
+    assert values["viscoelastic_work"] == pytest.approx(sum(each.work for each in creeping), rel=1e-6)
+    np.testing.assert_allclose(columns["step_heat"], [each.dissipated for each in creeping], rtol=1e-5, atol=1e-18)
+    np.testing.assert_allclose(columns["step_end"], [0.0, 10.0, 10.5, 20.5])
+    ends = [int(at) for at in columns["step_moment"]]
+    np.testing.assert_allclose(columns["moment_approach"][ends], found.approach, rtol=1e-6)
+    np.testing.assert_allclose(columns["moment_time"][ends], columns["step_end"])
+    assert (np.diff(columns["moment_dissipated"]) >= 0.0).all()
+    tree = asp.open_tree(out / "result.nc")
+    for item in (*SCALARS, *STEPS):
+        assert tree[f"viscoelastic/{item.name}"].attrs["units"] == item.unit
+    for item in COLUMNS:
+        assert tree[f"viscoelastic/moment_{item.name}"].dims == ("moment",)
+    made = {path.stem for path in (out / "plots").iterdir()}
+    assert {figure.name for figure in outcome.figures["viscoelastic"]} <= made
+    assert {
+        "area_in_time",
+        "approach_in_time",
+        "load_in_time",
+        "energy_in_time",
+        "relaxation",
+        "complex_moduli",
+    } <= made
+    (words,) = (words for part, words in outcome.sections if part.name == "viscoelastic")
+    assert words.sentence in " ".join(done.output.split())
+    with (out / "scalars.csv").open(encoding="utf-8") as file:
+        rows = {row["name"]: row["value"] for row in csv.DictReader(file)}
+    assert float(rows["viscoelastic_heat"]) == values["viscoelastic_heat"]
+    again = run("report", out / "result.nc", "--out", tmp_path / "again.html")
+    assert again.exit_code == 0, again.output
+    assert words.sentence in (tmp_path / "again.html").read_text(encoding="utf-8")
+    assert outcome.path is not None
+    rest = asp.solve(
+        found.steps[0].problem,
+        asp.Step(asp.Force(2e-3), duration=10.0),
+        state=outcome.path.steps[0].state,
+        time_steps=asp.TimeSteps(0.01),
+    )
+    np.testing.assert_allclose(rest.pressure, found.steps[1].pressure, atol=1e-5 * rest.max_pressure)
+
+
+def test_single_load_held_and_cycles(run: Runner) -> None:
+    """One time for all loads; equal steps of time; every cycle has the same turning points."""
+    single = asp.run(BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"hold": "1 s", "steps": 3}})
+    assert single.path is not None
+    assert [step.control for step in single.path.steps] == [asp.Force(2e-3)] * 2
+    np.testing.assert_allclose(single.found["viscoelastic"].values["moment_time"], [0.0, 0.0, 1 / 3, 2 / 3, 1.0])
+    control = {"path": {"approach": ["50 nm", "10 nm"], "steps": 3}}
+    cycles = asp.run(BALL | {"control": control, "viscoelastic": {"ramp": "1 s", "repeat": 2, "steps": 4}})
+    assert cycles.path is not None
+    np.testing.assert_allclose(cycles.path.approach, [50e-9, 10e-9] * 2)
+    heats = cycles.found["viscoelastic"].values["step_heat"]
+    assert (heats > 0.0).all()
+    gaps = {"path": {"mean_gap": ["400 nm", "380 nm"], "steps": 2}}
+    flat = asp.run(BALL | {"control": gaps, "viscoelastic": {"ramp": "1 s", "steps": 3}})
+    assert flat.path is not None
+    np.testing.assert_allclose(flat.path.mean_gap, [400e-9, 380e-9], rtol=1e-6)
+
+
+def test_at_once_is_the_first_instant_and_a_finding_says_so() -> None:
+    """Without times the contact is that of the elastic solid of the first instant, and nothing becomes heat."""
+    table = {key: value for key, value in BALL.items() if key != "viscoelastic"} | {"control": {"force": "2 mN"}}
+    outcome = asp.run(table)
+    elastic = asp.run(table | {"body": "E=2.5GPa,nu=0.38:2um/E=70GPa,nu=0.22"})
+    np.testing.assert_allclose(
+        outcome.result.pressure, elastic.result.pressure, atol=1e-4 * elastic.result.max_pressure
+    )
+    assert outcome.values["viscoelastic_heat"] == 0.0
+    assert "first instant" in {finding.criterion for finding in outcome.findings}
+    assert {figure.name for figure in outcome.figures["viscoelastic"]} == {"relaxation", "complex_moduli"}
+    assert "viscoelastic" not in elastic.found
+
+
+def test_oscillation_is_the_shortcut_of_python() -> None:
+    table = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"frequency": "1 Hz", "amplitude": "1 nm"}}
+    outcome = asp.run(table)
+    response = asp.harmonic(outcome.result, 1.0)
+    assert outcome.values["storage_stiffness"] == pytest.approx(response.stiffness.real, rel=1e-9)
+    assert outcome.values["loss_tangent"] == pytest.approx(response.loss_tangent, rel=1e-9)
+    assert outcome.values["oscillation_heat"] == pytest.approx(response.heat(1e-9), rel=1e-9)
+    apart = asp.run(table | {"control": {"path": {"force": ["2 mN", "0"]}}})
+    assert math.isnan(apart.values["loss_tangent"])
+    assert "oscillation" in {finding.criterion for finding in apart.findings}
+
+
+def test_temperature_moves_all_times() -> None:
+    """A load held at a temperature is the same held shorter or longer by the shift at the reference."""
+    factor = asp.WilliamsLandelFerry(298.0, 8.86, 101.6).factor(310.0)
+    base = GROUND | {"hysteresis": None, "control": {"mean_pressure": "0.1 MPa"}}
+    base = {key: value for key, value in base.items() if value is not None}
+    warm = asp.run(base | {"viscoelastic": {"hold": "10 ms", "temperature": "310 K", "steps": 4}})
+    longer = asp.run(base | {"viscoelastic": {"hold": f"{10e-3 / factor} s", "steps": 4}})
+    assert factor < 0.2
+    np.testing.assert_allclose(warm.result.pressure, longer.result.pressure, atol=1e-6 * warm.result.max_pressure)
+    assert warm.values["viscoelastic_heat"] == pytest.approx(longer.values["viscoelastic_heat"], rel=1e-6)
+
+
+def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> None:
+    """Friction of Python with Persson's theory beside it, a curve against speed, and all of it again from the file."""
+    document = tmp_path / "ground.toml"
+    table = GROUND | {"hysteresis": {"speed": "1 cm/s", "slowest": "1 mm/s", "fastest": "0.1 m/s", "points": 3}}
+    document.write_text(dumps(checked(table)), encoding="utf-8")
+    done = run("contact", "--from", document, "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(tmp_path / "out" / "result.nc")
+    values = outcome.values
+    problem = build(checked(GROUND)).problem
+    found = asp.slide(problem, asp.MeanPressure(0.2e6), 0.01)
+    assert values["hysteresis_friction"] == pytest.approx(found.friction, rel=1e-9)
+    assert values["hysteresis_heat"] == pytest.approx(found.heat, rel=1e-9)
+    assert values["sliding_area_fraction"] == found.normal.area_fraction_corrected
+    spectrum = roughness_of(problem.surface).spectrum
+    assert spectrum is not None
+    assert isinstance(problem.counter_body, asp.Viscoelastic)
+    holds = spectrum.psd > 0.0
+    theory = asp.theories.rubber_friction(
+        asp.theories.IsotropicSpectrum(spectrum.q[holds], spectrum.psd[holds]),
+        problem.counter_body.contact_relaxation.complex_modulus,
+        speed=0.01,
+        pressure=0.2e6,
+        reduction=0.5,
+    )
+    assert values["persson_friction"] == pytest.approx(theory.friction, rel=1e-6)
+    assert values["persson_sliding_area_fraction"] == pytest.approx(theory.area_fraction, rel=1e-6)
+    columns = outcome.found["hysteresis"].values
+    np.testing.assert_allclose(columns["by_speed_speed"], [1e-3, 1e-2, 0.1])
+    assert columns["by_speed_friction"][1] == pytest.approx(found.friction, rel=1e-6)
+    assert (np.diff(columns["by_speed_area_fraction"]) < 0.0).all()
+    tree = asp.open_tree(tmp_path / "out" / "result.nc")
+    for item in (*SLIDING, *SPEED_COLUMNS):
+        assert tree[f"hysteresis/{item.name}"].attrs["units"] == item.unit
+    np.testing.assert_allclose(tree["hysteresis/sliding_pressure"], found.normal.pressure, atol=1e-6 * found.normal.max_pressure)  # fmt: skip
+    made = {path.stem for path in (tmp_path / "out" / "plots").iterdir()}
+    assert {figure.name for figure in outcome.figures["hysteresis"]} <= made
+    assert {"sliding_pressure", "friction_by_speed", "area_by_speed"} <= made
+    assert "first instant" not in {finding.criterion for finding in outcome.findings}
+    (words,) = (words for part, words in outcome.sections if part.name == "hysteresis")
+    assert words.sentence in " ".join(done.output.split())
+
+
+def test_sliding_along_a_line_and_over_a_coating_has_no_theory_beside_it() -> None:
+    coated = GROUND | {"counter_body": f"{RUBBER}:0.2mm/steel"}
+    line = GROUND | {"surface": {"kind": "sinusoid", "points": [32, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}}  # fmt: skip
+    for table in (coated, line):
+        values = asp.run(table).values
+        assert values["hysteresis_friction"] > 0.0
+        assert math.isnan(values["persson_friction"])
+
+
+def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
+    spectrum = GROUND["surface"]["spectrum"] | {"rms_height": "1 mm"}
+    steep = GROUND | {"control": {"mean_pressure": "60 MPa"}, "surface": GROUND["surface"] | {"spectrum": spectrum}}
+    assert "steep slopes" in {finding.criterion for finding in asp.run(steep).findings}
+    held = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"hold": "100 s", "steps": 3}}
+    assert "steps of time" in {finding.criterion for finding in asp.run(held).findings}
+    fine = asp.run(held | {"viscoelastic": {"hold": "100 s", "tolerance": 0.002}})
+    assert "steps of time" not in {finding.criterion for finding in fine.findings}
+
+
+def test_documents_keep_their_text() -> None:
+    for table in (BALL, GROUND):
+        document = checked(table)
+        assert loads(dumps(document)) == document
+        assert loads(dumps(document, form="json"), form="json") == document
+
+
+ELASTIC = {"body": "E=2GPa,nu=0.4"}
+REFUSED: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
+    "nothing relaxes": (BALL, ELASTIC, "body or counter_body"),
+    "times for other loads": (BALL, {"viscoelastic": {"ramp": ["1 s", "2 s", "3 s"]}}, "viscoelastic.ramp (--ramp)"),
+    "negative time": (BALL, {"viscoelastic": {"hold": "-1 s"}}, "viscoelastic.hold[1]"),
+    "time without unit": (BALL, {"viscoelastic": {"hold": 3}}, "viscoelastic.hold"),
+    "repeated at once": (BALL, {"viscoelastic": {"repeat": 2}}, "viscoelastic.repeat"),
+    "amplitude alone": (BALL, {"viscoelastic": {"amplitude": "1 nm"}}, "viscoelastic.amplitude"),
+    "temperature without shift": (BALL, {"viscoelastic": {"temperature": "310 K"}}, "viscoelastic solid polymer"),
+    "too cold": (GROUND, {"viscoelastic": {"temperature": "190 K"}}, "temperature (K)"),
+    "no speed": (GROUND, {"hysteresis": {}}, "hysteresis"),
+    "half a curve": (GROUND, {"hysteresis": {"speed": "1 m/s", "slowest": "1 mm/s"}}, "hysteresis"),
+    "curve backwards": (
+        GROUND,
+        {"hysteresis": {"speed": "1 m/s", "slowest": "1 m/s", "fastest": "1 mm/s"}},
+        "hysteresis.fastest (--fastest)",
+    ),
+    "points without ends": (
+        GROUND,
+        {"hysteresis": {"speed": "1 m/s", "points": 3}},
+        "hysteresis.points (--speed-points)",
+    ),
+    "rough rubber": (
+        GROUND,
+        {"body": RUBBER, "counter_body": "rigid"},
+        "surface of a viscoelastic body in steady sliding",
+    ),
+    "free boundary": (GROUND, {"boundary": {"kind": "free"}}, "boundary of steady sliding"),
+    "hard rubber": (GROUND, {"law": {"kind": "hardness", "hardness": "5 GPa"}}, "law of steady sliding"),
+    "wet": (GROUND, {"film": {"liquid": "water", "humidity": "80 %"}}, "film"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused(name: str) -> None:
+    base, tables, subject = REFUSED[name]
+    with pytest.raises(InputError) as refused:
+        build(checked(base | tables))
+    assert refused.value.subject.removeprefix("problem document: ") == subject
+
+
+def test_a_study_over_speed_and_temperature(tmp_path: Path) -> None:
+    """Numbers of a campaign are those of single runs; friction follows the shift of the times."""
+    quantities = ["hysteresis_friction", "sliding_area_fraction", "persson_friction"]
+    axes = [
+        {"path": "hysteresis.speed", "values": ["1 mm/s", "1 cm/s"]},
+        {"path": "viscoelastic.temperature", "values": ["298 K", "310 K"]},
+    ]
+    table = GROUND | {"viscoelastic": {"temperature": "298 K"}}
+    made = plan(problem=table, axes=axes, quantities=quantities)
+    carry_out(made, tmp_path / "r.log", InProcess())
+    data = dataset(made, tmp_path / "r.log")
+    alone = asp.run(GROUND | {"viscoelastic": {"temperature": "310 K"}}).values
+    for name in quantities:
+        assert float(data[name][1, 1]) == pytest.approx(alone[name], rel=1e-6)
+    assert (np.diff(data["sliding_area_fraction"].values, axis=1) > 0.0).all()
+
+
+def test_a_study_over_the_time_of_a_hold(tmp_path: Path) -> None:
+    table = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"hold": "1 s", "steps": 4}}
+    made = plan(
+        problem=table,
+        axes=[{"path": "viscoelastic.hold.0", "values": ["0.1 s", "10 s"]}],
+        quantities=["approach", "viscoelastic_heat"],
+    )
+    carry_out(made, tmp_path / "r.log", InProcess())
+    data = dataset(made, tmp_path / "r.log")
+    alone = asp.run(table | {"viscoelastic": {"hold": "10 s", "steps": 4}}).values
+    assert float(data["viscoelastic_heat"][1]) == pytest.approx(alone["viscoelastic_heat"], rel=1e-9)
+    assert float(data["approach"][0]) < float(data["approach"][1])
