@@ -16,6 +16,7 @@ from scipy.special import ndtri
 
 from asperity.theories import catalogue
 from asperity.theories.protocol import ContactAnswer, Prediction
+from asperity.theories.rough.persson import IsotropicSpectrum
 from asperity.theories.rough.profile_peaks import SampledPeaks, peak_integral
 from asperity.theories.single.hertz import ellipse_of_curvatures
 from asperity.theories.statistics.heights import ExponentialHeights
@@ -132,6 +133,19 @@ def kappa(theory, D: float) -> float:
     """A_r E* h'_rms/p at the separation D of a surface with m0 = m2 = 1."""
     found = theory.at_separation(D)
     return float((found.area_fraction * math.sqrt(2.0) / found.pressure)[0])
+
+
+RELAXED, STEP, TIME = 2e6, 2e7, 1e-4
+"""Relaxed modulus and what relaxes (Pa), and the time (s) of a standard linear solid that slides."""
+
+
+def sliding_area(speed: float, modulus: float) -> float:
+    """Area of the rubber at ``speed`` (m/s) against that of an elastic half-space of this ``modulus``."""
+    q, psd = np.array([1e4, 1e5, 1e6]), np.array([1e-18, 1e-20, 1e-24])
+    found = make("persson-friction", RELAXED, [STEP], [TIME], q, psd).at_speed([speed], 1e5).area_fraction
+    spectrum = IsotropicSpectrum(q, psd)
+    gradient = math.sqrt(float(spectrum.partial_moment(3, spectrum.span[-1:])[0]) / (2.0 * math.pi))
+    return apart(found, make("persson", modulus, gradient).at_pressure([1e5]).area_fraction)
 
 
 def area_at_equal_load(name: str, other: str, alpha: float, separations: ArrayLike) -> float:
@@ -419,6 +433,24 @@ MATRIX: tuple[Agreement, ...] = (
         (8.0, 16.0, 32.0),
         1e-3,
         "corrections go as 1/D²",
+    ),
+    Agreement(
+        "persson-friction",
+        "persson",
+        "slow sliding: area of the relaxed half-space",
+        lambda speed: sliding_area(speed, RELAXED),
+        (1e-6, 1e-9),
+        1e-6,
+        "every wave then passes in more than the relaxation time; the modulus differs from the relaxed one by the square of its frequency times that",
+    ),
+    Agreement(
+        "persson-friction",
+        "persson",
+        "fast sliding: area of the half-space of the first instant",
+        lambda slowness: sliding_area(1.0 / slowness, RELAXED + STEP),
+        (1e-6, 1e-9),
+        1e-6,
+        "every wave then passes in less than the relaxation time, but for directions across the motion",
     ),
     Agreement(
         "persson",

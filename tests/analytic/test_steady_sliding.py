@@ -189,3 +189,35 @@ def test_reduced_deformation_lowers_the_friction() -> None:
     assert 0.5 * whole.friction < reduced.friction < whole.friction
     with refused(asp.InputError, "sliding speed (m/s)"):
         asp.theories.rubber_friction(spectrum, E, speed=0.0, pressure=1e5)
+
+
+def test_theory_of_the_catalogue_is_the_function() -> None:
+    """Along speeds and pressures, for a series of terms; as many times as moduli."""
+    q, psd = np.array([1e3, 1e5, 1e6]), np.array([1e-15, 1e-21, 1e-26])
+    theory = asp.theories.PerssonFriction(2e6, [1e7, 2e7], [1e-2, 1e-4], q, psd, reduction=0.5)
+    solid = asp.Viscoelastic.prony(2e6, ((1e7, 1e-2), (2e7, 1e-4)), 0.0)
+    by_speed, by_pressure = theory.at_speed([1e-3, 1e-1], 1e5), theory.at_pressure([1e5, 1e6], 1e-3)
+    for speed, pressure, answer, at in ((1e-1, 1e5, by_speed, 1), (1e-3, 1e6, by_pressure, 1)):
+        found = asp.theories.rubber_friction(
+            asp.theories.IsotropicSpectrum(q, psd),
+            solid.contact_relaxation.complex_modulus,
+            speed=speed,
+            pressure=pressure,
+            reduction=0.5,
+        )
+        assert answer.friction[at] == pytest.approx(found.friction, rel=1e-12)
+        assert answer.area_fraction[at] == pytest.approx(found.area_fraction, rel=1e-12)
+        assert answer.heat[at] == pytest.approx(found.friction * pressure * speed, rel=1e-12)
+    assert by_speed.friction[0] == by_pressure.friction[0]
+    with refused(asp.InputError, "times of a relaxation"):
+        asp.theories.PerssonFriction(2e6, [1e7, 2e7], [1e-2], q, psd)
+
+
+def test_spectrum_in_many_pieces_is_that_in_few() -> None:
+    """Fewer points between neighbours of a dense table lose no digits that matter."""
+    few = np.array([1e3, 1e5, 1e6]), np.array([1e-15, 1e-21, 1e-26])
+    dense = np.union1d(np.geomspace(1e3, 1e6, 400), [1e5])
+    many = dense, np.exp(np.interp(np.log(dense), np.log(few[0]), np.log(few[1])))
+    one, other = (asp.theories.PerssonFriction(2e6, [2e7], [1e-4], *table).at_speed([1e-2], 1e5) for table in (few, many))  # fmt: skip
+    assert other.friction == pytest.approx(one.friction, rel=1e-7)
+    assert other.area_fraction == pytest.approx(one.area_fraction, rel=1e-7)

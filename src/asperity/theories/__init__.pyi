@@ -69,7 +69,7 @@ from .rough.interacting_crests import InteractingCrests
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import IsotropicSpectrum, Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
-from .rough.rubber_friction import RubberFriction, rubber_friction
+from .rough.rubber_friction import PerssonFriction, RubberFriction, rubber_friction
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -215,6 +215,7 @@ __all__ = [
     "PartialSlip",
     "PearsonHeights",
     "Persson",
+    "PerssonFriction",
     "PinInHole",
     "PlasticityIndex",
     "PointShakedown",

@@ -38,6 +38,7 @@ from .rough.interacting_crests import InteractingCrests
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
+from .rough.rubber_friction import PerssonFriction
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -80,6 +81,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             MajumdarBhushan,
             Persson,
         ),
+        "Rubber friction": (PerssonFriction,),
         "Waves": (Westergaard, CrossedWaves),
         "One contact": (
             HertzPoint,

@@ -51,6 +51,13 @@ EXAMPLES = {
         "q": np.array([1e6, 1e7, 1e8]),
         "psd": np.array([1e-30, 1e-33, 1e-36]),
     },
+    "persson-friction": {
+        "relaxed": 2e6,
+        "moduli": np.array([1e7, 2e7]),
+        "times": np.array([1e-2, 1e-4]),
+        "q": np.array([1e4, 1e5, 1e6]),
+        "psd": np.array([1e-18, 1e-20, 1e-24]),
+    },
     "westergaard": {"E_star": 1e11, "amplitude": 1e-9, "wavelength": 1e-6},
     "crossed-waves": {"E_star": 1e11, "amplitude": 1e-9, "wavelength": 1e-6},
     "hertz": BALL,
@@ -139,6 +146,7 @@ RANGES = {
     "local": (1e7, 1e10),
     "torque": (0.0, 1e-15),
     "creepage": (-0.01, 0.01),
+    "speed": (1e-4, 1.0),
 }
 """Between what the arguments run."""
 
