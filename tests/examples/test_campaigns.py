@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from study_cases import InProcess
 
+import asperity as asp
 from asperity.studies.campaign import prepare_study
 from asperity.studies.run import carry_out
 
@@ -37,6 +39,7 @@ def test_every_ready_study_is_tested_here():
         "film_and_roughness",
         "humidity",
         "skewness_and_kurtosis",
+        "rubber_friction",
         *GOLD,
     }
 
@@ -62,6 +65,26 @@ def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
     assert softer < 1.0 < stiffer
     # max pressure is that of small spots and reaches less deep than the mean gap does
     assert np.all(found["max_pressure_ceiling"] < found["mean_gap_ceiling"])
+
+
+def test_warm_rubber_has_the_friction_of_cold_rubber_at_higher_speed(tmp_path):
+    """All curves are one against speed times the shift of the times; Persson's theory follows, and area falls with speed."""
+    found = finished("rubber_friction", tmp_path).dataset()
+    friction, area = (np.asarray(found[name]) for name in ("hysteresis_friction", "sliding_area_fraction"))
+    speed, temperature = np.asarray(found["speed"]), np.asarray(found["temperature"])
+    shift = asp.WilliamsLandelFerry(298.0, 8.86, 101.6)
+    for column, T in enumerate(temperature):
+        seen = speed * shift.factor(T)
+        inside = (seen >= speed[0]) & (seen <= speed[-1])
+        assert inside.sum() >= 5
+        expected = CubicSpline(np.log(speed), friction[:, 1])(np.log(seen[inside]))
+        np.testing.assert_allclose(friction[inside, column], expected, atol=0.02 * friction.max())
+    assert (np.diff(area, axis=0) <= 1e-3).all()
+    assert (np.diff(area, axis=1) >= -1e-3).all()
+    peak = friction.max(axis=0)
+    assert peak == pytest.approx(peak[1], rel=0.05)
+    theory = np.asarray(found["persson_friction"])
+    assert theory.max(axis=0) == pytest.approx(peak, rel=0.2)
 
 
 @pytest.mark.slow
