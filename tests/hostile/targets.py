@@ -45,6 +45,19 @@ class Target:
         return tuple(path.name if word == DAMAGED else word for word in random.choice(self.commands))
 
 
+class Moduli(Target):
+    """Files of moduli, read by a document beside them."""
+
+    def mutant(self, folder: Path, random: Random) -> Arguments:
+        """Write a damaged file and the document that names it into ``folder``; the command that reads it."""
+        super().mutant(folder, random)
+        body = {"relaxation": {"kind": "measured", "moduli_file": f"{DAMAGED}.csv"}, "poisson_ratio": 0.4}
+        surface = {"kind": "sphere", "points": [8, 8], "size": "8 um", "radius": "20 um"}
+        table = {"version": 2, "surface": surface, "body": body, "control": {"mean_pressure": "1 kPa"}}
+        (folder / "moduli.toml").write_text(tomli_w.dumps(table), encoding="utf-8")
+        return ("contact", "--from", "moduli.toml")
+
+
 class Options(Target):
     """Command lines with words replaced, taken out, repeated or exchanged."""
 
@@ -224,8 +237,17 @@ MATERIALS = {
     "material": {
         "glass": {"youngs_modulus": {"value": "70 GPa", "source": "own"}, "poisson_ratio": 0.2, "aliases": ["g"]},
         "film": {"youngs_modulus": "140 GPa", "poisson_ratio": 0.3, "hardness": "9 GPa", "note": "thin"},
+        "rubber": {
+            "youngs_modulus": {"value": "3 MPa + 10 MPa @ 10 ms + 3 MPa @ 0.1 s", "source": "own"},
+            "poisson_ratio": 0.45,
+            "elastic_bulk": True,
+            "shift": "WLF 298 K; 8.86; 101.6 K",
+        },
     }
 }
+MODULI = "# own\nfrequency (Hz), storage modulus (MPa), loss modulus (MPa)\n" + "".join(
+    f"{10.0**k:g}, {3.0 + k}, {0.3 * k + 0.1:.3g}\n" for k in range(6)
+)
 SOUND = (
     (
         "contact",
@@ -302,6 +324,7 @@ TARGETS: Mapping[str, Callable[[Path], Target]] = {
         campaign(folder), mutate.in_text, (*[("status", "study")] * 9, ("collect", "study"))
     ),
     "material files": lambda _: Target(in_json({"own": MATERIALS}, "toml"), as_toml, MATERIAL),
+    "files of moduli": lambda _: Moduli({"moduli.csv": MODULI.encode()}, mutate.in_text, (("contact", DAMAGED),)),
     "text matrices and lists": lambda _: Target(
         texts(), mutate.in_text, (*READ, ("info", DAMAGED, "--lateral-unit", "um"))
     ),

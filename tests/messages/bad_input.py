@@ -12,6 +12,7 @@ from study_cases import plan
 
 import asperity as asp
 
+RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
 STRESS: tuple[tuple[str, ...], ...] = (
     ("--friction", "-0.1"),
     ("--direction", "90"),
@@ -74,6 +75,16 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--friction=-0.3", "--shift", "5nm"),
     (*BODY, *LOAD, "--friction-law", "tresca", "--shift", "5nm"),
     (*BODY, *LOAD, "--friction", "0.3", "--friction-strength", "1MPa"),
+    (*BODY, *LOAD, "--hold", "1s"),
+    (*RUBBER, *LOAD, "--hold", "1m"),
+    (*RUBBER, *LOAD, "--ramp", "1s,2s"),
+    (*RUBBER, *LOAD, "--repeat", "2"),
+    (*RUBBER, *LOAD, "--temperature", "310K"),
+    (*RUBBER, *LOAD, "--oscillation-amplitude", "1nm"),
+    (*RUBBER, *LOAD, "--slowest", "1mm/s"),
+    (*RUBBER, *LOAD, "--sliding-speed", "1mm/s"),
+    ("--body", "moduli=none.csv,nu=0.3", *LOAD),
+    ("--body", "E=1GPa,power=0.1,shortest=1e-300s,longest=1e300s,nu=0.3", *LOAD),
     (*BODY, *LOAD, "--tolerance", "2"),
     (*BODY, *LOAD, "--load", "1mN"),
     (*BODY, "--pressure", "6GPa", "--hardness", "body"),

@@ -382,7 +382,7 @@ def require_slidable(problem: ContactProblem) -> None:
         if isinstance(surface, Surface) and float(np.ptp(surface.heights)) > 0.0:
             raise InputError(
                 f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on it is at rest, but is rough. "
-                "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
+                'Write ContactProblem(rough, Rigid(), counter_body=rubber); on the command line --body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5".'
             )
 
 

@@ -50,7 +50,7 @@ class HysteresisSettings(Settings):
     direction: Angle = setting("0 deg", option="--sliding-direction", help="Of the rough body, from x towards y: 90deg")
     slowest: SlidingSpeed | None = setting(None, option="--slowest", help="First speed of a curve: 0.1mm/s")
     fastest: SlidingSpeed | None = setting(None, option="--fastest", help="Last speed of a curve: 10m/s")
-    points: Annotated[int, Whole(2)] = setting(USUAL_POINTS, option="--speed-points", help="Speeds of the curve")
+    points: Annotated[int, Whole(2, 1000)] = setting(USUAL_POINTS, option="--speed-points", help="Speeds of the curve")
     reduction: Share = setting(
         0.5, option="--reduction", help="Of the deformation in partial contact, gamma of Persson's theory, 1 for none"
     )

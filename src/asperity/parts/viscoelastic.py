@@ -15,7 +15,7 @@ from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.status import Advice
 from ..core.units import percent, show
-from ..core.values import Count, Fraction, Length, Number
+from ..core.values import Count, Fraction, Length, Number, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
@@ -47,7 +47,9 @@ class ViscoelasticSettings(Settings):
     hold: tuple[Duration, ...] | None = setting(
         None, option="--hold", help="Time for which each load is held, one for all or each: 60s"
     )
-    repeat: Count = setting(1, option="--repeat", help="Number of times the loads are run through")
+    repeat: Annotated[int, Whole(1, 10000)] = setting(
+        1, option="--repeat", help="Number of times the loads are run through"
+    )
     temperature: Temperature | None = setting(
         None, option="--temperature", help="Of all viscoelastic solids, which must have a shift: 320K"
     )

@@ -317,7 +317,8 @@ class Viscoelastic(Elastic):
         if self.shift is None:
             raise InputError(
                 f"viscoelastic solid {self.name or 'without a name'} must have a shift to be taken to another temperature, but has none. "
-                "Give shift=WilliamsLandelFerry(reference, c1, c2) or Arrhenius(reference, activation_energy)."
+                "Give shift=WilliamsLandelFerry(reference, c1, c2) or Arrhenius(reference, activation_energy), in the text of a body "
+                "WLF=298K;8.86;101.6K or Arrhenius=298K;80000J/mol."
             )
         moved = self.with_times(self.shift.factor(temperature))
         return replace(moved, shift=self.shift.seen_from(temperature))
@@ -343,6 +344,17 @@ def alike(solids: tuple[Elastic, ...]) -> bool:
 
 # Series for functions of time and frequency: a fixed grid of times, strengths by non-negative least squares.
 
+_MOST_TERMS = 400
+"""Terms of a series that is fitted."""
+
+
+def _require_terms(decades: float, per_decade: int) -> None:
+    if not decades * per_decade <= _MOST_TERMS:
+        raise InputError(
+            f"number of terms of a fitted series must be at most {_MOST_TERMS}, but is {decades * per_decade:.3g}: {per_decade} a decade over "
+            f"{decades:.3g} decades. Take fewer a decade, or a narrower band."
+        )
+
 
 def power_law_series(
     coefficient: float, exponent: float, *, shortest: float, longest: float, per_decade: int = 3
@@ -360,7 +372,9 @@ def power_law_series(
             f"longest time of a power law (s) must be greater than the shortest {shortest:g} s, but is {longest:g} s."
         )
     count = require.integer(per_decade, 1, "number of terms a decade")
-    first, last = shortest * 10.0 ** -min(2.0 / (1.0 - alpha), 8.0), longest * 100.0
+    beyond = min(2.0 / (1.0 - alpha), 8.0)
+    _require_terms(math.log10(longest) - math.log10(shortest) + beyond + 4.0, count)
+    first, last = shortest * 10.0**-beyond, longest * 100.0
     steps = math.ceil(math.log10(last / first) * count)
     taus = first * 10.0 ** (np.arange(-count, steps + count + 1) / count)
     times = np.geomspace(first, last, 8 * steps)
@@ -458,7 +472,7 @@ def fitted_solid(
     Raises
     ------
     InputError
-        If the columns differ in length or hold values outside their ranges.
+        If the columns differ in length or hold values outside their ranges, or the series would have more than 400 terms.
     """
     f, real, imaginary = (np.atleast_1d(np.asarray(values, dtype=float)) for values in (frequency, storage, loss))
     if not (f.ndim == 1 and f.shape == real.shape == imaginary.shape and f.size >= 2):
@@ -474,6 +488,7 @@ def fitted_solid(
         raise InputError("storage moduli (Pa) must be positive, loss moduli (Pa) not negative, and all of them finite.")
     count = require.integer(per_decade, 1, "number of terms a decade")
     omega, size = 2.0 * np.pi * f, np.hypot(real, imaginary)
+    _require_terms(math.log10(omega.max()) - math.log10(omega.min()) + 2.0, count)
     longest, shortest = 1.0 / omega.min(), 1.0 / omega.max()
     taus = np.geomspace(shortest, longest, max(2, math.ceil(math.log10(longest / shortest) * count) + 1))
     beyond = (taus[1] / taus[0]) ** np.arange(1, count + 1)

@@ -266,3 +266,14 @@ def test_graded_layers_of_what_relaxes_are_refused() -> None:
     rubber, steel = asp.Viscoelastic.maxwell(1e6, 1.0, 0.4), asp.Elastic(200e9, 0.3)
     with refused(InputError, "materials of a graded layer"):
         asp.graded(rubber, steel, 1e-6)
+
+
+def test_series_of_too_many_terms_are_refused() -> None:
+    """A band of six hundred decades, or a thousand terms in one, would take for ever."""
+    with refused(InputError, "number of terms of a fitted series", "3 a decade"):
+        asp.Viscoelastic.power_law(1e9, 0.1, 0.3, shortest=1e-300, longest=1e300)
+    wide = np.geomspace(1e-150, 1e150, 5)
+    with refused(InputError, "number of terms of a fitted series"):
+        asp.fitted_solid(wide, np.ones(5), np.ones(5), poisson_ratio=0.3)
+    with refused(InputError, "number of terms of a fitted series", "100000 a decade"):
+        asp.fitted_solid([1.0, 10.0], [1.0, 2.0], [0.1, 0.1], poisson_ratio=0.3, per_decade=100000)
