@@ -173,8 +173,8 @@ def test_what_adhesion_does_not_bear_is_refused():
     for control in (asp.Pull(FORCE), asp.FixedGrips(APPROACH)):
         with refused(InputError, "control of a problem without adhesion"):
             asp.solve(dry, control)
-    with refused(InputError, "adhesion of a contact"):
-        sphere(16, 6.0, LennardJonesAdhesion(WORK, RANGE))
+    with refused(InputError, "law of a contact with the adhesion Lennard-Jones 3-9"):
+        sphere(16, 6.0, LennardJonesAdhesion(WORK, RANGE), law=asp.Hardness(1e5))
     with refused(InputError, "problem of the result"):
         asp.solve(dry, asp.Force(FORCE)).require_adhesion()
     with refused(NoSolutionError, "approach"):
@@ -184,6 +184,8 @@ def test_what_adhesion_does_not_bear_is_refused():
 def test_unresolved_zone_is_said_with_the_pixel_needed():
     found = asp.solve(sphere(16, 6.0, ExponentialAdhesion(WORK, WORK / strength_of(4.0))), asp.Force(FORCE))
     assert not found.adhesion.resolved
+    assert repr(found.adhesion).startswith("<AdhesiveContact: exponential, attractive force")
+    assert "exponential, 50 mJ/m²" in repr(found)
     assert found.adhesion.needed_pixel == pytest.approx(found.adhesion.cohesive_length / 5.0)
 
 

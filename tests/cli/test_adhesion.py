@@ -87,6 +87,16 @@ def test_short_range_needs_the_work_alone(run: Runner, tmp_path: Path) -> None:
     assert [item.criterion for item in outcome.findings if item.level == "warning"].count("adhesive zone") == 1
 
 
+def test_lennard_jones_in_documents() -> None:
+    table = {"work": "50 mJ/m**2", "strength": "60 kPa", "law": "lennard-jones"}
+    outcome = asp.run(PROBLEM | {"adhesion": table, "control": {"force": "10 uN"}})
+    law = outcome.result.adhesion.law
+    assert isinstance(law, asp.LennardJonesAdhesion)
+    assert law.strength == pytest.approx(60e3, rel=1e-12)
+    assert outcome.result.external_force == pytest.approx(10e-6, rel=1e-6)
+    assert outcome.values["stability_margin"] > 0.0
+
+
 def test_criteria_stand_beside_a_rough_contact() -> None:
     document = PROBLEM | {
         "surface": ROUGH,

@@ -283,10 +283,10 @@ class ContactProblem(Shown):
 
     def _check_adhesion(self) -> None:
         _require(self.adhesion, Adhesion | None, "adhesion", "a law such as ExponentialAdhesion(work, range) or None")
-        if self.adhesion is not None and self.adhesion.spacing > 0.0:
+        if self.adhesion is not None and self.adhesion.spacing > 0.0 and not isinstance(self.law, HardWall):
             raise InputError(
-                f"adhesion of a contact must be a law beside a hard wall, but {self.adhesion.name} has a core that repels at a distance. "
-                "Use VanDerWaalsAdhesion(...), or ExponentialAdhesion(...) of the same work and strength."
+                f"law of a contact with the adhesion {self.adhesion.name} must be HardWall(), but is {self.law!r}: its core has no wall whose "
+                "pressure a hardness could limit. Use ExponentialAdhesion(...) of the same work and strength."
             )
 
     def _check_plastic_flow(self) -> None:

@@ -11,6 +11,7 @@ from typing import Protocol, TypeAlias, runtime_checkable
 import numpy as np
 
 from ..contact.advice import doubts
+from ..contact.couplings.adhesion import AdhesiveContact
 from ..contact.couplings.menisci import Menisci
 from ..contact.history import HistoryResult
 from ..contact.laws import LayeredHardness
@@ -411,6 +412,8 @@ def problem_rows(problem: ContactProblem) -> Rows:
     rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
     law = f"{problem.law.name} {limit_text(problem)}".rstrip()
     rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
+    if problem.adhesion is not None:
+        rows.append(("adhesion", f"{problem.adhesion.name}, {show(problem.adhesion.work, 'J/m**2')}"))
     return rows
 
 
@@ -513,6 +516,9 @@ def _line(thing: object) -> str:
     if isinstance(thing, Menisci):
         pull, share = show(thing.meniscus_force, "N"), f"{thing.relative_meniscus_force:.3g}"
         return f"Menisci: {thing.n_menisci}, meniscus force {pull}, {share} of the external force"
+    if isinstance(thing, AdhesiveContact):
+        pull = f"attractive force {show(thing.attractive_force, 'N')}, external force {show(thing.external_force, 'N')}"
+        return f"AdhesiveContact: {thing.law.name}, {pull}, margin of stability {thing.margin:.3g}"
     if isinstance(thing, YieldReport):
         worst = thing.first or max(thing.regions, key=lambda part: part.peak.value)
         stress = f"{thing.criterion.name} {show(worst.peak.value, 'Pa')}"

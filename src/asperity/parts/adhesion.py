@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..contact.result import ContactResult
     from ..plots.picture import Figure
 
-LAWS = ("exponential", "dugdale", "linear", "van der waals", "jkr")
+LAWS = ("exponential", "dugdale", "linear", "van der waals", "lennard-jones", "jkr")
 """Laws of adhesion in documents."""
 
 WITHOUT_RANGE, OWN_RANGE = "jkr", "van der waals"
@@ -93,6 +93,7 @@ class AdhesionSettings(Settings):
             DugdaleAdhesion,
             ExponentialAdhesion,
             JKRAdhesion,
+            LennardJonesAdhesion,
             LinearAdhesion,
             VanDerWaalsAdhesion,
         )
@@ -105,6 +106,8 @@ class AdhesionSettings(Settings):
         reach = float(self.range) if self.range is not None else work / float(self.strength or math.nan)
         if self.law == OWN_RANGE:
             return VanDerWaalsAdhesion(work, 2.0 * reach)
+        if self.law == "lennard-jones":
+            return LennardJonesAdhesion(work, 16.0 * reach / (9.0 * math.sqrt(3.0)))
         if self.law == "dugdale":
             return DugdaleAdhesion(work, reach, USUAL_SMOOTHING)
         return LinearAdhesion(work, reach) if self.law == "linear" else ExponentialAdhesion(work, reach)

@@ -20,11 +20,12 @@ from ...core.late import Shown
 from ...core.status import Status
 from ...solids.compliance.halfspace import Compliance
 from .. import measure
-from ..laws import Adhesion, JKRAdhesion, cohesive_length
+from ..laws import Adhesion, JKRAdhesion, SoftAdhesion, cohesive_length
 from ..operators import Operator, prepare_operator
 from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
 from ..solvers.adhesion.front import MovingFront, step_compliance
 from ..solvers.adhesion.problem import Adhered, AdhesiveProblem
+from ..solvers.adhesion.soft_core import SoftCoreNewton
 from ..solvers.adhesion.solver import AdhesiveSolution, AdhesiveSolver, MajoriseMinimise
 from ..solvers.protocol import FixedMean, FixedOffset
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
@@ -182,9 +183,11 @@ class AdhesiveContact(Shown):
         return self.margin > 0.0
 
 
-def method_of(law: Adhesion) -> type[MajoriseMinimise] | type[MovingFront]:
+def method_of(law: Adhesion) -> type[MajoriseMinimise] | type[MovingFront] | type[SoftCoreNewton]:
     """Method that solves contacts with this ``law``."""
-    return MovingFront if isinstance(law, JKRAdhesion) else MajoriseMinimise
+    if isinstance(law, JKRAdhesion):
+        return MovingFront
+    return SoftCoreNewton if law.spacing > 0.0 else MajoriseMinimise
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,6 +263,8 @@ class AdhesionCoupling(Coupling):
         solver: AdhesiveSolver = MajoriseMinimise(tolerance=0.1 * tolerance)
         if isinstance(problem.adhesion, JKRAdhesion):
             solver = MovingFront(step_compliance(operator))
+        elif problem.adhesion.spacing > 0.0:
+            solver = SoftCoreNewton(tolerance=0.1 * tolerance)
         return cls(problem.adhesion, operator, problem.contact_modulus, solver, tolerance)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
@@ -284,7 +289,7 @@ class AdhesionCoupling(Coupling):
 
     def _touching(self, posed: Posed) -> RealArray:
         """Attraction (nx, ny) in Pa of the contact without load that surfaces find which were brought to touch."""
-        first = self.law.attraction(posed.dented.max() - posed.dented)
+        first = self.law.attraction(self.law.spacing + posed.dented.max() - posed.dented)
         problem = AdhesiveProblem(self.operator, posed.dented, self.law, FixedMean(0.0))
         return self.solver.solve(problem, first).state.attraction
 
@@ -329,7 +334,7 @@ class AdhesionCoupling(Coupling):
         for _ in range(_POSITIONS):
             problem = AdhesiveProblem(self.operator, profile, self.law, FixedOffset(offset), cap)
             found = self.solver.solve(problem, pull, pressure)
-            miss = float(found.state.gap.mean()) - wanted
+            miss = float((found.state.gap - self._core(found.state)).mean()) - wanted
             if abs(miss) <= _POSITION_ERROR * wanted + 1e-12 * float(np.ptp(profile)):
                 return found
             pull, pressure = found.state.attraction, found.state.pressure
@@ -351,14 +356,20 @@ class AdhesionCoupling(Coupling):
             mean = float(note.solution.state.pressure.mean())
             constraint = FixedMean(mean) if mean > 0.0 else FixedOffset(note.solution.state.offset)
         load = float(exchange.x.sum()) * grid.pixel_area
-        return Share(load=load, lift=-self.operator.apply(exchange.x), constraint=constraint)
+        lift = -self.operator.apply(exchange.x) + (self.law.spacing - self._core(note.solution.state))
+        return Share(load=load, lift=lift, constraint=constraint)
+
+    def _core(self, state: Adhered) -> RealArray | float:
+        """Gap (nx, ny) in m of the ``state`` up to that of the largest attraction, from which on points touch; none at a wall."""
+        return np.minimum(state.gap, self.law.peak) if isinstance(self.law, SoftAdhesion) and self.law.spacing else 0.0
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The attraction of the gap of ``contact``; solved anew where other couplings have moved it."""
         note: _Note = exchange.note
         pressure = np.asarray(contact.pressure, dtype=float)
-        residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap)
-        base = contact.qp.profile - self.operator.apply(exchange.x)
+        core = self._core(note.solution.state)
+        residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap + core)
+        base = contact.qp.profile - self.operator.apply(exchange.x) + (self.law.spacing - core)
         if residual <= self.tolerance or (self._same(note, base, contact) and note.solution.status.converged):
             return replace(exchange, target=exchange.x, residual=residual)
         mean = self._mean(note.posed)
@@ -385,16 +396,13 @@ class AdhesionCoupling(Coupling):
         """Memory of attraction and energies; what adhesion did."""
         found = self._outcome(exchange, contact)
         posed: Posed = exchange.note.posed
-        gap = np.where(np.asarray(contact.pressure) > 0.0, 0.0, contact.gap)
-        return found.memory(gap, posed.top + contact.level), found
+        return found.memory(self._gap(exchange, contact), posed.top + contact.level), found
 
     def _outcome(self, exchange: Exchange, contact: Contact) -> AdhesiveContact:
         note: _Note = exchange.note
         grid, solution = self.operator.grid, note.solution
         pressure = np.asarray(contact.pressure, dtype=float)
-        gap = np.where(
-            pressure > 0.0, 0.0, np.maximum(contact.gap, np.finfo(float).tiny)
-        )  # touch without pressure gains nothing
+        gap = self._gap(exchange, contact)
         traction = pressure - exchange.x
         elastic = 0.5 * float((traction * self.operator.apply(traction)).sum()) * grid.pixel_area
         interface = float(self.law.energy(gap).sum()) * grid.pixel_area
@@ -447,7 +455,13 @@ class AdhesionCoupling(Coupling):
         return math.sqrt(area / math.pi)
 
     def _zone(self, pressure: RealArray, gap: RealArray) -> BoolArray:
-        return (pressure <= 0.0) & (gap < self.law.range)
+        return (pressure <= 0.0) & (gap < self.law.spacing + self.law.range)
+
+    def _gap(self, exchange: Exchange, contact: Contact) -> RealArray:
+        """Gap (nx, ny) in m that the law sees; a touch without pressure gains nothing."""
+        touching = np.asarray(contact.pressure) > 0.0
+        opened = np.where(touching, 0.0, np.maximum(contact.gap, np.finfo(float).tiny))
+        return opened + self._core(exchange.note.solution.state)
 
 
 def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> AdhesiveProblem:

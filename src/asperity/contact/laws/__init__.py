@@ -7,6 +7,7 @@ from .adhesion import (
     ExponentialAdhesion,
     LennardJonesAdhesion,
     LinearAdhesion,
+    SoftAdhesion,
     VanDerWaalsAdhesion,
     cohesive_length,
 )
@@ -33,6 +34,7 @@ __all__ = [
     "LimitByDepth",
     "LinearAdhesion",
     "PlasticFlow",
+    "SoftAdhesion",
     "TrescaFriction",
     "VanDerWaalsAdhesion",
     "cohesive_length",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, Protocol, Self, runtime_checkable
 
 import numpy as np
@@ -58,6 +59,15 @@ class Adhesion(Protocol):
 
     def energy(self, gap: RealArray) -> RealArray:
         """φ in J/m², <= 0 beside a hard wall."""
+
+
+@runtime_checkable
+class SoftAdhesion(Adhesion, Protocol):
+    """Attraction with a core that repels below the ``spacing``, which stands for the wall."""
+
+    @property
+    def peak(self) -> float:
+        """Gap in m of the largest attraction, nearer than which the surfaces count as touching."""
 
 
 class _BesideWall:
@@ -302,6 +312,9 @@ class VanDerWaalsAdhesion:
 class LennardJonesAdhesion:
     """σ = (8w/3z0) [(z0/g)³ - (z0/g)⁹]: two half-spaces of Lennard-Jones' atoms; no wall, the repulsion is in the law.
 
+    In a contact approaches count from where the undeformed surfaces are z0 apart, and points nearer than the gap of the largest
+    attraction as touching, under the wall pressure σ0 - σ(g); the net traction is that less the attraction, as with other laws.
+
     Parameters
     ----------
     work
@@ -323,6 +336,11 @@ class LennardJonesAdhesion:
     def spacing(self) -> float:
         """z0 in m."""
         return self.equilibrium
+
+    @property
+    def peak(self) -> float:
+        """3^(1/6) z0 in m."""
+        return math.pow(3.0, 1.0 / 6.0) * self.equilibrium
 
     @property
     def range(self) -> float:
@@ -360,7 +378,10 @@ Curve = Callable[[RealArray], RealArray]
 
 @dataclass(frozen=True)
 class CustomAdhesion:
-    """A law of one's own beside a hard wall: σ(g) >= 0 that does not rise, its energy and its slope.
+    """A law of one's own: σ(g) with its energy and its slope, beside a hard wall, or with a core that repels.
+
+    Beside a wall σ >= 0 does not rise with the gap. With an ``equilibrium`` σ is negative nearer than that, rises to its largest
+    value and falls from there on.
 
     Parameters
     ----------
@@ -372,34 +393,41 @@ class CustomAdhesion:
         σ' in Pa/m of gaps in m.
     far
         Gap in m, > 0, beyond which the attraction is negligible; up to there the three functions are checked.
+    equilibrium
+        Gap z0 in m at which a law with a core has no traction; zero, the default, for a law beside a wall. A law with a core is checked
+        from z0/2 on.
 
     Raises
     ------
     InputError
-        If σ is negative or rises somewhere, or the energy or the slope do not belong to it.
+        If σ does not have that form, or the energy or the slope do not belong to it.
     """
 
     of_gap: Curve
     energy_of_gap: Curve
     slope_of_gap: Curve
     far: float
+    equilibrium: float = 0.0
     name: ClassVar[str] = "own law"
     citation_keys: ClassVar[tuple[str, ...]] = ()
-    spacing: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
-        g = np.linspace(0.0, require.positive(self.far, "far gap of the adhesion (m)"), 4001)
-        s, phi, fall = self.attraction(g), self.energy(g), self.slope(g)
-        step = g[1]
-        if not (np.isfinite(s).all() and s.min() >= 0.0 and np.diff(s).max() <= 1e-9 * s[0] and s[0] > 0.0):
+        require.not_negative(self.equilibrium, "equilibrium gap (m)")
+        if not require.positive(self.far, "far gap of the adhesion (m)") > self.equilibrium:
             raise InputError(
-                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but its values from "
-                f"{s.min():g} to {s.max():g} Pa are not so. Use LennardJonesAdhesion(...) for a repulsive core."
+                f"far gap of the adhesion (m) must be more than the equilibrium gap {self.equilibrium:g}, but is {self.far:g}."
             )
+        g = self._gaps
+        s, phi, fall = self.attraction(g), self.energy(g), self.slope(g)
+        self._check_form(g, s)
         for values, rate, what in ((phi, s, "energy"), (s, fall, "slope")):
+            step = np.diff(g)
             miss = np.abs(np.diff(values) - 0.5 * step * (rate[1:] + rate[:-1]))
-            # a trapezium misses by the second difference of the rate; kinks lie in one interval each
-            allowed = 0.5 * step * np.abs(np.diff(rate)) + 1e-9 * np.abs(values).max()
+            # a trapezium misses by the second difference of the rate; kinks lie in one interval each, extrema between two
+            turns = np.abs(np.diff(rate))
+            if self.equilibrium > 0.0:
+                turns = np.maximum(turns, np.maximum(np.roll(turns, 1), np.roll(turns, -1)))
+            allowed = 0.5 * step * turns + 1e-9 * np.abs(values).max()
             if not (miss <= allowed).all():
                 where = g[int(np.argmax(miss - allowed))]
                 raise InputError(
@@ -408,9 +436,59 @@ class CustomAdhesion:
                 )
 
     @property
+    def _gaps(self) -> RealArray:
+        return np.linspace(0.5 * self.equilibrium, self.far, 4001 if self.equilibrium == 0.0 else 40001)
+
+    def _check_form(self, g: RealArray, s: RealArray) -> None:
+        """Refuse an attraction ``s`` at the gaps ``g`` that is none."""
+        if self.equilibrium > 0.0:
+            most, at = float(s.max()), int(np.argmax(s))
+            crossing = abs(float(self.attraction(np.array([self.equilibrium]))[0])) <= 1e-9 * most
+            if not (
+                np.isfinite(s).all()
+                and most > 0.0
+                and crossing
+                and (s[g < self.equilibrium * (1.0 - 1e-9)] < 0.0).all()
+                and (np.diff(s[: at + 1]) > 0.0).all()
+                and np.diff(s[at:]).max(initial=0.0) <= 1e-9 * most
+                and s[-1] >= 0.0
+            ):
+                raise InputError(
+                    "attraction of an adhesion law with a core must be finite, negative below the equilibrium gap "
+                    f"{self.equilibrium:g} m, zero there, and rise to one largest value from which it falls, but its values from {s.min():g} to "
+                    f"{s.max():g} Pa are not so. See LennardJonesAdhesion(...)."
+                )
+            return
+        if not (np.isfinite(s).all() and s.min() >= 0.0 and np.diff(s).max() <= 1e-9 * s[0] and s[0] > 0.0):
+            raise InputError(
+                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but its values from "
+                f"{s.min():g} to {s.max():g} Pa are not so. Give the equilibrium gap for a core that repels."
+            )
+
+    @property
+    def spacing(self) -> float:
+        """z0 in m."""
+        return self.equilibrium
+
+    @cached_property
+    def peak(self) -> float:
+        """Gap in m of the largest attraction."""
+        if self.equilibrium == 0.0:
+            return 0.0
+        from scipy.optimize import brentq
+
+        g = self._gaps
+        at = int(np.argmax(self.attraction(g)))
+        ends = float(g[max(at - 1, 0)]), float(g[min(at + 1, g.size - 1)])
+        slopes = [float(self.slope(np.array([end]))[0]) for end in ends]
+        if not slopes[0] > 0.0 > slopes[1]:
+            return float(g[at])
+        return float(brentq(lambda gap: float(self.slope(np.array([gap]))[0]), *ends, xtol=1e-12 * ends[1]))
+
+    @property
     def work(self) -> float:
-        """w = -φ(0) in J/m²."""
-        return -float(self.energy(np.zeros(1))[0])
+        """w = -φ at no gap, or at z0, in J/m²."""
+        return -float(self.energy(np.array([self.equilibrium]))[0])
 
     @property
     def range(self) -> float:
@@ -419,13 +497,13 @@ class CustomAdhesion:
 
     @property
     def strength(self) -> float:
-        """σ(0) in Pa."""
-        return float(self.attraction(np.zeros(1))[0])
+        """Largest σ in Pa, beside a wall σ(0)."""
+        return float(self.attraction(np.array([self.peak]))[0])
 
     @property
     def steepest(self) -> float:
         """max(-σ') in Pa/m up to the far gap."""
-        return float(-self.slope(np.linspace(0.0, self.far, 4001)).min())
+        return float(-self.slope(np.geomspace(self.peak, self.far, 4001) if self.peak else self._gaps).min())
 
     def attraction(self, gap: RealArray) -> RealArray:
         """σ in Pa."""

@@ -32,7 +32,7 @@ class AdhesiveProblem:
     profile
         h, composite heights (nx, ny) in m.
     law
-        The attraction; beside a hard wall.
+        The attraction; with a core that repels the gap is d + z0 + K t - h, z0 its spacing, and t = -σ(g) everywhere.
     constraint
         ``FixedOffset`` of d in m, or ``FixedMean`` of t in Pa, of either sign.
     cap
@@ -76,7 +76,7 @@ class Adhered:
     deflection
         K t in m of the net traction.
     gap
-        g in m, zero in contact.
+        g in m, zero in contact with a wall.
     attraction
         σ(g) in Pa.
     offset
@@ -107,6 +107,7 @@ _INNER_STEPS = 60
 class Linearised:
     """Response of the gap on the free points to a change of their traction, at fixed contact: the compliance K less what the wall takes.
 
+    A core that repels takes the place of the wall: its points give way by the traction on them over σ' > 0.
     With S = |σ'|^½ (K/C) |σ'|^½ the Hessian of Π on the free points is congruent to 1 - S: the number of its negative
     eigenvalues is the number of eigenvalues of S above 1 (Sylvester).
     """
@@ -114,9 +115,16 @@ class Linearised:
     def __init__(self, problem: AdhesiveProblem, state: Adhered) -> None:
         self.problem, self.operator = problem, problem.operator
         self.wall: BoolArray = state.pressure > 0.0
-        held = self.wall & (state.pressure < problem.cap)
+        slope = problem.law.slope(state.gap)
+        self.soft: RealArray | float = 0.0
+        if problem.law.spacing > 0.0:
+            self.wall = slope > 0.0
+            self.soft = 1.0 / np.where(self.wall, slope, 1.0)
+            held = self.wall
+        else:
+            held = self.wall & (state.pressure < problem.cap)
         self.contact: BoolArray = held
-        slope = np.where(self.wall, 0.0, np.maximum(-problem.law.slope(state.gap), 0.0))
+        slope = np.where(self.wall, 0.0, np.maximum(-slope, 0.0))
         self.root = np.sqrt(slope)
         self.free: BoolArray = slope > 0.0
         self.pairs = 0.0
@@ -127,7 +135,8 @@ class Linearised:
         """1/c(q) on the half spectrum of the grid, the mean as the longest wave."""
         kernel = spectral_kernel(self.operator.compliance, self.operator.grid)
         kernel[0, 0] = kernel.max()
-        return 1.0 / kernel
+        typical = float(np.median(self.soft[self.contact])) if isinstance(self.soft, np.ndarray) else 0.0
+        return 1.0 / (kernel + typical)
 
     def _preconditioned(self, r: RealArray) -> RealArray:
         self.pairs += 1.0
@@ -156,8 +165,7 @@ class Linearised:
         if self.problem.load_prescribed:
             wall[self.contact] = -traction.sum() / np.count_nonzero(self.contact)
             u = u + self._applied(wall)
-        rigid = -float(u[self.contact].mean()) if self.problem.load_prescribed else 0.0
-        r = np.where(self.contact, -(u + rigid), 0.0)
+        rigid, r = self._open(u, wall)
         first = float(np.linalg.norm(r))
         direction, before = np.zeros_like(r), 1.0
         for _ in range(_INNER_STEPS):
@@ -170,11 +178,16 @@ class Linearised:
             direction = z + (rz / before) * direction
             before = rz
             moved = self._applied(direction)
-            step = rz / float((direction * moved).sum())
-            u = u + step * moved
-            rigid = -float(u[self.contact].mean()) if self.problem.load_prescribed else 0.0
-            r = np.where(self.contact, -(u + rigid), 0.0)
+            step = rz / float((direction * (moved + self.soft * direction)).sum())
+            u, wall = u + step * moved, wall + step * direction
+            rigid, r = self._open(u, wall)
         return u + rigid
+
+    def _open(self, u: RealArray, wall: RealArray) -> tuple[float, RealArray]:
+        """Rigid displacement, and what the contact would open by under the traction ``wall``: nothing at a wall, soft·wall of a core."""
+        ahead = u + self.soft * wall
+        rigid = -float(ahead[self.contact].mean()) if self.problem.load_prescribed else 0.0
+        return rigid, np.where(self.contact, -(ahead + rigid), 0.0)
 
     def product(self, z: RealArray, tolerance: float = _INNER) -> RealArray:
         """S z on the free points."""

@@ -179,6 +179,8 @@ def minimised(
 ) -> Adhered:
     """Hard-wall contact under the fixed attraction ``pull`` (nx, ny) in Pa, started from this wall ``pressure``.
 
+    The gap is that beyond the spacing of a law with a core.
+
     Raises
     ------
     NoSolutionError
@@ -186,7 +188,7 @@ def minimised(
     """
     lowered = problem.operator.apply(pull)
     profile, constraint = problem.profile + lowered, problem.constraint
-    none = np.zeros_like(profile)
+    none, spacing = np.zeros_like(profile), problem.law.spacing
     if isinstance(constraint, FixedMean):
         mean = constraint.mean_pressure + float(pull.mean())
         if mean <= 0.0:
@@ -201,7 +203,7 @@ def minimised(
         wanted = constraint
         if float(profile.max()) <= constraint.offset:
             gap = constraint.offset - profile
-            return Adhered(none, pull, -lowered, gap, problem.law.attraction(gap), constraint.offset)
+            return Adhered(none, pull, -lowered, gap, problem.law.attraction(gap + spacing), constraint.offset)
     scale = float(profile.std()) or 1.0
     qp = ContactQP(problem.operator, profile, problem.cap, wanted, scale)
     start = pressure if pressure is not None and pressure.any() else None
@@ -211,7 +213,7 @@ def minimised(
     p, u = solution.state.pressure, solution.state.deflection
     offset = -level(qp, p, u - profile)
     gap = np.where(p > 0.0, 0.0, np.maximum(offset + u - profile, 0.0))
-    return Adhered(p, pull, u - lowered, gap, problem.law.attraction(gap), offset)
+    return Adhered(p, pull, u - lowered, gap, problem.law.attraction(gap + spacing), offset)
 
 
 def _steihaug(

@@ -11,7 +11,7 @@ from ..protocol import FixedOffset
 
 
 def adhesive_gap(problem: AdhesiveProblem, start: RealArray, *, tolerance: float = 1e-12) -> RealArray:
-    """Gap (nx, ny) in m that minimises ½ u·K⁻¹u + Σφ(g) over g >= 0, u = g + h - d, downhill from the gap ``start`` (nx, ny) in m.
+    """Gap (nx, ny) in m that minimises ½ u·K⁻¹u + Σφ(g) over g >= 0, u = g + h - d (less z0 of a core), downhill from the gap ``start`` (nx, ny) in m.
 
     By L-BFGS-B (Byrd, Lu, Nocedal & Zhu 1995) in gaps over the range and energies over the work of adhesion.
 
@@ -29,7 +29,7 @@ def adhesive_gap(problem: AdhesiveProblem, start: RealArray, *, tolerance: float
     from scipy.optimize import Bounds, minimize
 
     law, factor = problem.law, cho_factor(problem.operator.matrix())
-    flat = (problem.constraint.offset - problem.profile).ravel()
+    flat = (problem.constraint.offset + law.spacing - problem.profile).ravel()
 
     def energy(x: RealArray) -> tuple[float, RealArray]:
         g = law.range * x
@@ -44,7 +44,7 @@ def adhesive_gap(problem: AdhesiveProblem, start: RealArray, *, tolerance: float
         first,
         jac=True,
         method="L-BFGS-B",
-        bounds=Bounds(0.0, np.inf),
+        bounds=Bounds(0.3 * law.spacing / law.range, np.inf),
         options={"ftol": 0.0, "gtol": tolerance, "maxiter": 50_000, "maxfun": 100_000, "maxcor": 30},
     )
     gap: RealArray = law.range * found.x.reshape(problem.profile.shape)
