@@ -1,5 +1,7 @@
 from . import dynamics, fem, theories
 from .contact import solvers
+from .contact.adhesive_bound import EnergyBound, energy_bound
+from .contact.adhesive_branch import AdhesiveBranch, adhesive_branch, adhesive_jumps
 from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
@@ -122,6 +124,7 @@ __version__: str
 __all__ = [
     "J2",
     "AdhesionLoop",
+    "AdhesiveBranch",
     "AdhesiveContact",
     "Advice",
     "Approach",
@@ -147,6 +150,7 @@ __all__ = [
     "DugdaleAdhesion",
     "Elastic",
     "EnergyBalance",
+    "EnergyBound",
     "Everywhere",
     "ExponentialAdhesion",
     "ExponentialGrading",
@@ -237,6 +241,8 @@ __all__ = [
     "__version__",
     "adhesion_cycle",
     "adhesion_loop",
+    "adhesive_branch",
+    "adhesive_jumps",
     "advise",
     "channels",
     "characterise",
@@ -250,6 +256,7 @@ __all__ = [
     "depths_through",
     "despiked",
     "dynamics",
+    "energy_bound",
     "export_comparison_csv",
     "export_csv",
     "export_stress_vtk",

@@ -66,6 +66,30 @@ def test_options_make_the_same_document(run: Runner, tmp_path: Path) -> None:
     assert math.isnan(outcome.values["pull_off_force"])
 
 
+def test_branch_and_jumps_on_request(run: Runner, tmp_path: Path) -> None:
+    document, out = tmp_path / "case.toml", tmp_path / "out"
+    table = {"work": "50 mJ/m**2", "strength": "130 kPa", "retract": "1.4 um", "steps": 16}
+    surface = PROBLEM["surface"] | {"points": [40, 40], "size": "42 um"}
+    case = PROBLEM | {"surface": surface, "adhesion": table, "control": {"approach": "0.1 um"}}
+    document.write_text(dumps(checked(case)), encoding="utf-8")
+    done = run("contact", "--from", document, "--adhesion-branch", "--jump-tolerance", "20nm", "--out", out)
+    assert done.exit_code == 0, done.output
+    outcome = load_outcome(out / "result.nc")
+    assert outcome.values["folds"] == 2.0
+    values = outcome.found["adhesion"].values
+    margin, force = values["branch_margin"], values["branch_force"]
+    assert margin.shape == force.shape == values["branch_approach"].shape
+    assert margin.min() < 0.0 < margin.max()
+    (words,) = (words for part, words in outcome.sections if part.name == "adhesion")
+    rows = dict(words.rows)
+    assert rows["folds of the branch"] == "2"
+    heading, cells = words.tables[-1]
+    assert heading == "Where jumps begin"
+    assert len(cells.cells) == 2
+    assert "adhesive_branch" in {path.stem for path in (out / "plots").iterdir()}
+    assert outcome.values["adhesive_energy_bound"] <= outcome.values["adhesive_energy"]
+
+
 def test_an_unresolved_zone_is_a_finding() -> None:
     coarse = PROBLEM | {"adhesion": {"work": "50 mJ/m**2", "strength": "300 kPa"}}
     outcome = asp.run(coarse)
@@ -120,6 +144,8 @@ def test_criteria_stand_beside_a_rough_contact() -> None:
         {"work": "50 mJ/m**2", "range": "1 nm", "steps": 5},
         {"work": "50 nm", "range": "1 nm"},
         {"work": "50 mJ/m**2", "law": "jkr", "range": "1 nm"},
+        {"work": "50 mJ/m**2", "range": "1 nm", "branch": True},
+        {"work": "50 mJ/m**2", "range": "1 nm", "jump_tolerance": "0.1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
     ],
 )

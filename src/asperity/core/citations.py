@@ -42,6 +42,7 @@ REFERENCES = {
     "Eberly2014": "Eberly, D. (2014). A robust eigensolver for 3 x 3 symmetric matrices. Geometric Tools.",
     "Ferry1980": "Ferry, J. D. (1980). Viscoelastic Properties of Polymers, 3rd ed. Wiley, New York.",
     "Flamant1892": "Flamant, A. (1892). Sur la repartition des pressions dans un solide rectangulaire charge transversalement. Comptes Rendus de l'Academie des Sciences 114, 1465-1468.",
+    "Feng2000": "Feng, J. Q. (2000). Contact behavior of spherical elastic particles: a computational study of particle adhesion and deformations. Colloids and Surfaces A 172, 175-198.",
     "Frerot2019": "Frerot, L., Bonnet, M., Molinari, J.-F., Anciaux, G. (2019). A Fourier-accelerated volume integral method for elastoplastic contact. Computer Methods in Applied Mechanics and Engineering 351, 951-976.",
     "Fuller1975": "Fuller, K. N. G., Tabor, D. (1975). The effect of surface roughness on the adhesion of elastic solids. Proceedings of the Royal Society A 345, 327-342.",
     "Galin1961": "Galin, L. A. (1961). Contact Problems in the Theory of Elasticity. North Carolina State College, Raleigh (translation of the Russian edition of 1953).",

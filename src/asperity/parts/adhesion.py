@@ -16,9 +16,20 @@ from ..core.settings import Settings, setting
 from ..core.status import Advice
 from ..core.units import percent, show
 from ..core.values import Choice, Count, Length, Number, Pressure, SurfaceTension
+from .adhesion_branch import (
+    BRANCH,
+    ENERGY,
+    branch_figures,
+    branch_of,
+    branch_rows,
+    branch_values,
+    energy_values,
+    jumps_table,
+)
 from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
+    from ..contact.adhesive_branch import Jump
     from ..contact.adhesive_cycles import AdhesionLoop
     from ..contact.laws import Adhesion as AdhesionLaw
     from ..contact.problem import ContactProblem, Control, Step
@@ -63,6 +74,13 @@ class AdhesionSettings(Settings):
         None, option="--machine-stiffness", help="Of the machine that holds the bodies: 10N/m; rigid by default"
     )
 
+    branch: bool = setting(
+        False, option="--adhesion-branch", help="Follow the branch that jumps leave through its folds, with --retract"
+    )
+    jump_tolerance: Length | None = setting(
+        None, option="--jump-tolerance", help="Close in on every jump to this approach, with --retract: 0.01nm"
+    )
+
     @model_validator(mode="after")
     def _whole(self) -> AdhesionSettings:
         if self.work is None:
@@ -78,10 +96,11 @@ class AdhesionSettings(Settings):
                 f" must give either a range (--adhesion-range) or a strength (--adhesion-strength) for the law {self.law}, but gives "
                 f'{"both" if given else "neither"}. Write for example range = "1 nm".'
             )
-        if self.retract is None and (self.stiffness is not None or self.cycles != 1 or self.steps != USUAL_STEPS):
+        further = self.stiffness is not None or self.branch or self.jump_tolerance is not None
+        if self.retract is None and (further or self.cycles != 1 or self.steps != USUAL_STEPS):
             raise InputError(
-                " must give the distance to which the bodies part, retract (--retract), with its steps, cycles and the stiffness of the "
-                "machine, but does not."
+                " must give the distance to which the bodies part, retract (--retract), with its steps, cycles, branch, jumps and the stiffness of "
+                "the machine, but does not."
             )
         if self.retract is not None and self.steps < 2:
             raise InputError(f".steps (--retract-steps) must be at least 2, but is {self.steps}.")
@@ -121,6 +140,14 @@ class Asked:
     law: AdhesionLaw
 
 
+@dataclass(frozen=True, eq=False)
+class Looped:
+    """The loop of a path, and its jumps where they were closed in on."""
+
+    loop: AdhesionLoop
+    jumps: tuple[Jump, ...] = ()
+
+
 STICKINESS = (
     Quantity("pastewka_robbins", "1", "Pastewka and Robbins' number / its limit, sticky below 1"),
     Quantity("persson_tosatti_work", "J/m**2", "work of adhesion less the energy of full contact (Persson, Tosatti)"),
@@ -142,7 +169,7 @@ class Adhesion(Part):
         """Scalars of the contact, of approach and parting, and criteria."""
         from ..contact.adhesive_cycles import ADHESION_SCALARS, LOOP_SCALARS
 
-        return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS)
+        return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS, *ENERGY, *BRANCH)
 
     def asked(self, document: Any, folder: Path) -> Asked | None:
         """The table [adhesion] with its law."""
@@ -177,6 +204,7 @@ class Adhesion(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the contact, of the loop, and the criteria."""
+        from ..contact.adhesive_branch import adhesive_jumps
         from ..contact.adhesive_cycles import LOOP_SCALARS, adhesion_loop, adhesion_numbers
 
         found = solved.result.require_adhesion()
@@ -185,10 +213,18 @@ class Adhesion(Part):
         numbers = (math.nan,) * 4
         if loop is not None:
             numbers = (loop.pull_off_force, loop.pull_off_approach, loop.hysteresis, loop.effective_work)
-        values |= dict(zip((item.name for item in LOOP_SCALARS), numbers, strict=True))
-        return Found(
-            values, loop, _findings(solved), (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001")
-        )
+        values |= dict(zip((item.name for item in LOOP_SCALARS), numbers, strict=True)) | energy_values(solved)
+        keys, findings = (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001"), _findings(solved)
+        table = getattr(ask, "settings", None)
+        if loop is None or table is None:
+            return Found(values, loop, findings, keys)
+        if table.branch:
+            branch, stopped = branch_of(solved, -float(table.retract))
+            values, findings, keys = values | branch_values(branch), (*findings, *stopped), (*keys, "Feng2000")
+        jumps: tuple[Jump, ...] = ()
+        if table.jump_tolerance is not None and solved.path is not None:
+            jumps = adhesive_jumps(solved.path, float(table.jump_tolerance))
+        return Found(values, Looped(loop, jumps), findings, keys)
 
     def citations(self, ask: Asked, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
@@ -204,8 +240,9 @@ class Adhesion(Part):
 
         if solved.path is None:
             return drawn(ADHESION_PLOTS, solved.result)
+        branch = branch_figures(found.values)
         at = solved.path.steps[adhesion_loop(solved.path.steps).pull_off]
-        return (*drawn((ADHESION_LOOP,), solved.path), *drawn(ADHESION_PLOTS, at))
+        return (*drawn((ADHESION_LOOP,), solved.path), *branch, *drawn(ADHESION_PLOTS, at))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Law, attraction, resolution, stability; pull-off and hysteresis of a path."""
@@ -273,14 +310,16 @@ REMARK = (
 
 def adhesion_words(solved: Solved, found: Found) -> Words:
     """Sentence, settings and tables."""
-    loop: AdhesionLoop | None = found.detail
-    rows = law_rows(solved.result) + criteria_rows(found.values)
-    if loop is None:
+    rows = law_rows(solved.result) + branch_rows(found.values) + criteria_rows(found.values)
+    if found.detail is None:
         return Words(adhesion_sentence(solved.result), rows=rows, remarks=(REMARK,))
+    looped = found.detail if isinstance(found.detail, Looped) else Looped(found.detail)
+    loop = looped.loop
     headline = [("pull-off force", show(loop.pull_off_force, "N"))]
-    return Words(
-        loop_sentence(loop), headline, rows, (("Jumps", jump_table(loop)),) if loop.jumped.any() else (), (REMARK,)
-    )
+    tables = (("Jumps", jump_table(loop)),) if loop.jumped.any() else ()
+    if looped.jumps:
+        tables = (*tables, ("Where jumps begin", jumps_table(looped.jumps)))
+    return Words(loop_sentence(loop), headline, rows, tables, (REMARK,))
 
 
 def adhesion_sentence(result: ContactResult) -> str:

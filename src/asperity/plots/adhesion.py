@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -65,6 +66,24 @@ def plot_adhesion_loop(history: HistoryResult, ax: Axes) -> Axes:
     return legend_above(ax)
 
 
+def plot_branch(values: Mapping[str, Any], ax: Axes) -> Axes:
+    """Draw on ``ax`` the external force along a branch, ``branch_force`` (N) of ``values``, against ``branch_approach`` (m)."""
+    approach, force = np.asarray(values["branch_approach"]), np.asarray(values["branch_force"])
+    stable = np.asarray(values["branch_margin"]) > 0.0
+    in_m, in_n = scale(approach, "m"), scale(force, "N")
+    x, y = in_m(approach), in_n(force)
+    ax.axhline(0.0, color="0.8", linewidth=0.5)
+    parts = ((stable, BLUE, "-", "grips hold"), (~stable, VERMILLION, "--", "grips cannot hold"))
+    for wanted, colour, line, label in parts:
+        # a piece reaches to the next point of the other kind
+        ends = wanted | np.roll(wanted, 1)
+        ends[0] = wanted[0]
+        if wanted.any():
+            ax.plot(np.where(ends, x, np.nan), np.where(ends, y, np.nan), color=colour, linestyle=line, label=label)
+    ax.set(xlabel=f"approach ({in_m.symbol})", ylabel=f"external force ({in_n.symbol})")
+    return legend_above(ax)
+
+
 ADHESION_PLOTS = (
     Plot(
         "adhesive_zone",
@@ -90,3 +109,11 @@ ADHESION_LOOP = Plot(
     plot_adhesion_loop,
 )
 """Figure of a history with adhesion."""
+
+BRANCH_PLOT = Plot(
+    "adhesive_branch",
+    "Branch between the jumps",
+    "External force along the branch from the deepest contact on. Where grips cannot hold the contact, the smallest eigenvalue of its energy is negative; they jump at the folds.",
+    plot_branch,
+)
+"""Figure of the values of a branch."""
