@@ -95,6 +95,7 @@ from .solids.layers import (
 from .solids.library import Liquid, liquid, liquids, material, materials
 from .solids.plasticity import J2, LinearHardening, PlasticState, Swift, Voce
 from .solids.strength import plastic_parts, plastic_solid
+from .solids.surface_energy import work_of_adhesion
 from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises
@@ -326,6 +327,7 @@ __all__ = [
     "tip_limited",
     "turned_over",
     "wet_theory",
+    "work_of_adhesion",
     "write_comparison_report",
     "write_report",
     "write_roughness_report",

@@ -121,6 +121,20 @@ def test_lennard_jones_in_documents() -> None:
     assert outcome.values["stability_margin"] > 0.0
 
 
+def test_work_of_adhesion_of_a_pair(run: Runner, tmp_path: Path) -> None:
+    document, out = tmp_path / "case.toml", tmp_path / "out"
+    document.write_text(dumps(checked(PROBLEM | {"adhesion": None})), encoding="utf-8")
+    done = run(
+        "contact", "--from", document, "--adhesion-pair", "PDMS / teflon", "--adhesion-strength", "60kPa", "--out", out
+    )
+    assert done.exit_code == 0, done.output
+    outcome, pair = load_outcome(out / "result.nc"), asp.work_of_adhesion("PDMS", "PTFE")
+    assert outcome.result.adhesion.law == asp.ExponentialAdhesion.of_strength(pair.work, 60e3)
+    (words,) = (words for part, words in outcome.sections if part.name == "adhesion")
+    assert dict(words.rows)["work of adhesion from"] == "; ".join(pair.sources)
+    assert len(pair.sources) == 2
+
+
 def test_criteria_stand_beside_a_rough_contact() -> None:
     document = PROBLEM | {
         "surface": ROUGH,
@@ -145,6 +159,8 @@ def test_criteria_stand_beside_a_rough_contact() -> None:
         {"work": "50 nm", "range": "1 nm"},
         {"work": "50 mJ/m**2", "law": "jkr", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "branch": True},
+        {"work": "50 mJ/m**2", "pair": "PDMS/PTFE", "range": "1 nm"},
+        {"pair": "PDMS", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "jump_tolerance": "0.1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
     ],

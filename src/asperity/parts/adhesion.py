@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from ..contact.problem import ContactProblem, Control, Step
     from ..contact.result import ContactResult
     from ..plots.picture import Figure
+    from ..solids.surface_energy import PairAdhesion
 
 LAWS = ("exponential", "dugdale", "linear", "van der waals", "lennard-jones", "jkr")
 """Laws of adhesion in documents."""
@@ -62,6 +63,11 @@ class AdhesionSettings(Settings):
     """
 
     work: SurfaceTension | None = setting(None, option="--adhesion", help="Work of adhesion: 50mJ/m**2")
+    pair: str | None = setting(
+        None,
+        option="--adhesion-pair",
+        help="Two solids whose work of adhesion it is, instead of --adhesion: PDMS/fused silica",
+    )
     law: Law = setting("exponential", option="--adhesion-law", help="Attraction as a function of the gap")
     range: Length | None = setting(None, option="--adhesion-range", help="Work over strength: 1nm")
     strength: Pressure | None = setting(None, option="--adhesion-strength", help="Largest attraction: 50MPa")
@@ -83,8 +89,16 @@ class AdhesionSettings(Settings):
 
     @model_validator(mode="after")
     def _whole(self) -> AdhesionSettings:
-        if self.work is None:
-            raise InputError(' must give the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), but does not.')
+        if (self.work is None) == (self.pair is None):
+            gives = "neither" if self.work is None else "both"
+            raise InputError(
+                ' must give either the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), or a pair of solids, such as pair = '
+                f'"PDMS/fused silica" (--adhesion-pair), but gives {gives}.'
+            )
+        if self.pair is not None and self.pair.count("/") != 1:
+            raise InputError(
+                f'.pair (--adhesion-pair) must be two solids, such as "PDMS/fused silica", but is {self.pair!r}.'
+            )
         given = (self.range is not None) + (self.strength is not None)
         if given and self.law == WITHOUT_RANGE:
             raise InputError(
@@ -106,6 +120,13 @@ class AdhesionSettings(Settings):
             raise InputError(f".steps (--retract-steps) must be at least 2, but is {self.steps}.")
         return self
 
+    def of_pair(self) -> PairAdhesion:
+        """Work of adhesion of the pair, with sources."""
+        from ..solids.surface_energy import work_of_adhesion
+
+        first, second = str(self.pair).split("/")
+        return work_of_adhesion(first, second)
+
     def adhesion(self) -> AdhesionLaw:
         """The law."""
         from ..contact.laws import (
@@ -117,7 +138,7 @@ class AdhesionSettings(Settings):
             VanDerWaalsAdhesion,
         )
 
-        work = float(self.work or math.nan)
+        work = float(self.work) if self.work is not None else self.of_pair().work
         if self.law == WITHOUT_RANGE:
             return JKRAdhesion(work)
         if self.law == OWN_RANGE and self.range is None and self.strength is None:
@@ -138,6 +159,10 @@ class Asked:
 
     settings: AdhesionSettings
     law: AdhesionLaw
+
+
+SOURCES = Quantity("work_of_adhesion_sources", "", "sources of the work of adhesion of the pair", dims=("source",))
+"""What the work of adhesion of two named solids rests on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +194,7 @@ class Adhesion(Part):
         """Scalars of the contact, of approach and parting, and criteria."""
         from ..contact.adhesive_cycles import ADHESION_SCALARS, LOOP_SCALARS
 
-        return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS, *ENERGY, *BRANCH)
+        return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS, *ENERGY, *BRANCH, SOURCES)
 
     def asked(self, document: Any, folder: Path) -> Asked | None:
         """The table [adhesion] with its law."""
@@ -204,18 +229,22 @@ class Adhesion(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the contact, of the loop, and the criteria."""
+        import numpy as np
+
         from ..contact.adhesive_branch import adhesive_jumps
         from ..contact.adhesive_cycles import LOOP_SCALARS, adhesion_loop, adhesion_numbers
 
         found = solved.result.require_adhesion()
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
-        values = adhesion_numbers(solved.result) | _criteria(solved.problem)
+        values: dict[str, Any] = adhesion_numbers(solved.result) | _criteria(solved.problem)
         numbers = (math.nan,) * 4
         if loop is not None:
             numbers = (loop.pull_off_force, loop.pull_off_approach, loop.hysteresis, loop.effective_work)
         values |= dict(zip((item.name for item in LOOP_SCALARS), numbers, strict=True)) | energy_values(solved)
         keys, findings = (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001"), _findings(solved)
         table = getattr(ask, "settings", None)
+        if table is not None and table.pair is not None:
+            values |= {SOURCES.name: np.array(table.of_pair().sources)}
         if loop is None or table is None:
             return Found(values, loop, findings, keys)
         if table.branch:
@@ -311,6 +340,8 @@ REMARK = (
 def adhesion_words(solved: Solved, found: Found) -> Words:
     """Sentence, settings and tables."""
     rows = law_rows(solved.result) + branch_rows(found.values) + criteria_rows(found.values)
+    if SOURCES.name in found.values:
+        rows.append(("work of adhesion from", "; ".join(map(str, found.values[SOURCES.name]))))
     if found.detail is None:
         return Words(adhesion_sentence(solved.result), rows=rows, remarks=(REMARK,))
     looped = found.detail if isinstance(found.detail, Looped) else Looped(found.detail)
