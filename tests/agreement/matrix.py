@@ -86,6 +86,41 @@ def like_hertz(name: str, *args: object) -> float:
     return contacts_apart(make(name, E, R, *args).at_load(LOADS), HERTZ.at_load(LOADS))
 
 
+def adhesive_paraboloid(_: float) -> float:
+    """JKR's power law of exponent 2 against JKR's sphere."""
+    shape, sphere = make("jkr-power-law", E, 0.5 / R, 2.0, 0.05), make("jkr", E, R, 0.05)
+    radii = R * np.array([1e-3, 3e-3, 1e-2])
+    found, expected = shape.at_radius(radii), sphere.at_radius(radii)
+    return max(
+        *(apart(getattr(found, name), getattr(expected, name)) for name in ("load", "approach", "stiffness")),
+        apart(shape.pull_off, sphere.pull_off),
+    )
+
+
+def adhesive_cone(work: float) -> float:
+    """Adhesive cone against the one without adhesion, at a contact radius of R/10."""
+    found, expected = make("jkr-power-law", E, 0.1, 1.0, work), make("power-law-indenter", E, 0.1, 1.0)
+    return contacts_apart(found.at_radius([0.1 * R]), expected.at_radius([0.1 * R]))
+
+
+def adhesive_wave(work: float) -> float:
+    """Adhesive wave against Westergaard's, at contact fractions of 0.2 to 0.8."""
+    found, expected = make("jkr-wave", E, 1e-8, 1e-5, work), make("westergaard", E, 1e-8, 1e-5)
+    answer, shares = found.at_fraction([0.2, 0.5, 0.8]), [0.2, 0.5, 0.8]
+    return apart(expected.area_fraction(answer.mean_pressure), shares)
+
+
+def full_contact_of_a_wave(_: float) -> float:
+    """Work left by full contact of one wave against the work of adhesion less that of pressing the wave flat."""
+    amplitude, length, work = 1e-8, 1e-5, 0.5
+    wave = make("westergaard", E, amplitude, length)
+    pressure = wave.full_contact_pressure * np.linspace(0.0, 1.0, 100_001) ** 2
+    approach = wave.approach(pressure)
+    pressed = float((0.5 * (pressure[1:] + pressure[:-1]) * np.diff(approach)).sum())
+    energy = E * 2.0 * np.pi / length * amplitude**2 / 8.0
+    return apart(make("persson-tosatti", work, energy).effective_work, work - pressed)
+
+
 def quantile_summits(count: float) -> float:
     """Summits at the quantiles of a Gaussian against the Gaussian."""
     heights = SIGMA * ndtri((np.arange(int(count)) + 0.5) / int(count))
@@ -514,6 +549,42 @@ MATRIX: tuple[Agreement, ...] = (
         (1e-5, 1e-7, 1e-9),
         1e-5,
         "the adhesive load 2πwR over the load",
+    ),
+    Agreement(
+        "jkr-power-law",
+        "jkr",
+        "exponent 2",
+        adhesive_paraboloid,
+        (),
+        ROUNDING,
+        "the same profile",
+    ),
+    Agreement(
+        "jkr-power-law",
+        "power-law-indenter",
+        "work of adhesion to zero",
+        adhesive_cone,
+        (1e-5, 1e-7, 1e-9),
+        5e-3,
+        "goes as the square root of the work",
+    ),
+    Agreement(
+        "jkr-wave",
+        "westergaard",
+        "work of adhesion to zero",
+        adhesive_wave,
+        (1e-4, 1e-6, 1e-8),
+        5e-3,
+        "goes as the square root of the work",
+    ),
+    Agreement(
+        "persson-tosatti",
+        "westergaard",
+        "one wave: work of pressing it flat",
+        full_contact_of_a_wave,
+        (),
+        1e-9,
+        "the elastic energy of full contact; trapezia of 1e5 steps",
     ),
     Agreement(
         "power-law-indenter",

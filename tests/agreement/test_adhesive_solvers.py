@@ -143,6 +143,21 @@ def test_other_couplings_join(more):
         assert found.adhesion.attraction == pytest.approx(attraction, abs=2e-5 * EXPONENTIAL.strength)
 
 
+def test_a_film_of_liquid_joins_at_a_position_and_under_a_force_or_says_so():
+    film = asp.LiquidFilm.of(asp.liquid("water"), 0.6 * APPROACH)
+    problem = sphere(48, 6.0, EXPONENTIAL, film=film)
+    held = asp.solve(problem, asp.FixedGrips(0.5 * APPROACH))
+    assert held.converged
+    pulled = held.adhesion.attractive_force + held.menisci.meniscus_force
+    assert held.menisci.meniscus_force > 0.0
+    assert held.external_force == pytest.approx(held.force - pulled, rel=1e-9)
+    loaded = asp.solve(problem, asp.Force(2.0 * FORCE))
+    # a change of the menisci by two pixels does not count
+    assert loaded.external_force == pytest.approx(2.0 * FORCE, rel=0.05)
+    coarse = asp.solve(sphere(24, 6.0, EXPONENTIAL, film=film), asp.Force(2.0 * FORCE), on_failure="return")
+    assert coarse.converged or coarse.status.remedy
+
+
 def test_stick_and_slip_joins():
     problem = sphere(24, 6.0, EXPONENTIAL, friction=asp.Coulomb(0.3))
     found = asp.solve(problem, asp.Step(asp.Force(FORCE), asp.Shift(1e-8)))

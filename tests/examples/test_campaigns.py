@@ -38,6 +38,7 @@ def test_every_ready_study_is_tested_here():
         "normalised_laws",
         "film_and_roughness",
         "humidity",
+        "pull_off_and_roughness",
         "skewness_and_kurtosis",
         "rubber_friction",
         *GOLD,
@@ -101,3 +102,20 @@ def test_area_rises_in_proportion_to_load(tmp_path):
     assert 1.6 < kappa[0] < 2.51
     assert np.all(np.diff(kappa) < 0.0)
     assert area[0] == pytest.approx(2.0 * load[0] / (modulus * 0.02), rel=0.25)
+
+
+@pytest.mark.slow
+def test_roughness_lowers_the_pull_off_and_adhesion_raises_it(tmp_path):
+    """Four times the rms height leaves less than a quarter of the pull-off; the criteria say the same."""
+    found = finished("pull_off_and_roughness", tmp_path).analysis()
+    force = np.asarray(found["pull_off_force_mean"])
+    assert force.shape == (3, 2)
+    assert np.all(np.diff(force, axis=0) < 0.0)
+    assert np.all(np.diff(force, axis=1) > 0.0)
+    assert np.all(force[-1] < 0.25 * force[0])
+    assert np.all(np.diff(found["pastewka_robbins_mean"], axis=0) > 0.0)
+    assert np.all(np.diff(found["persson_tosatti_work_mean"], axis=0) < 0.0)
+    # twice the work at the same range halves the number and Fuller and Tabor's parameter
+    for name in ("pastewka_robbins_mean", "fuller_tabor_mean"):
+        values = np.asarray(found[name])
+        assert values[:, 1] == pytest.approx(0.5 * values[:, 0], rel=1e-9)

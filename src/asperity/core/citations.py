@@ -73,6 +73,7 @@ REFERENCES = {
     "Johnson1962": "Johnson, K. L. (1962). A shakedown limit in rolling contact. Proceedings of the Fourth U.S. National Congress of Applied Mechanics, 971-975.",
     "Johnson1971": "Johnson, K. L., Kendall, K., Roberts, A. D. (1971). Surface energy and the contact of elastic solids. Proceedings of the Royal Society A 324, 301-313.",
     "Johnson1985": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press.",
+    "Johnson1995": "Johnson, K. L. (1995). The adhesion of two elastic bodies with slightly wavy surfaces. International Journal of Solids and Structures 32, 423-430.",
     "JohnsonGreenwood1985": "Johnson, K. L., Greenwood, J. A., Higginson, J. G. (1985). The contact of elastic regular wavy surfaces. International Journal of Mechanical Sciences 27, 383-396.",
     "Kalker1967": "Kalker, J. J. (1967). On the rolling contact of two elastic bodies in the presence of dry friction. Dissertation, Delft University of Technology.",
     "Kalker1977": "Kalker, J. J. (1977). Variational principles of contact elastostatics. IMA Journal of Applied Mathematics 20, 199-219.",

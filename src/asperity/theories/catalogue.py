@@ -6,8 +6,10 @@ import difflib
 from types import MappingProxyType
 
 from ..core.errors import InputError
+from .adhesion.adhesive_shapes import AdhesivePowerLaw, AdhesiveWave
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
+from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
 from .friction.finite_friction import FrictionalIndenter, FrictionalPunch, GoodmanLine
 from .friction.full_stick import StickingIndenter, StickingIndenterLine, StickingPunch, StickingPunchLine
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave
@@ -82,7 +84,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             Persson,
         ),
         "Rubber friction": (PerssonFriction,),
-        "Waves": (Westergaard, CrossedWaves),
+        "Waves": (Westergaard, CrossedWaves, AdhesiveWave),
         "One contact": (
             HertzPoint,
             HertzLine,
@@ -122,6 +124,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             JKR,
             DMT,
             MaugisDugdale,
+            AdhesivePowerLaw,
             ChangEtsionBogySphere,
             KogutEtsionSphere,
             JacksonGreenSphere,
@@ -139,6 +142,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             Strip,
         ),
         "Statistics of surfaces": (NayakSummits, SampledPeaks),
+        "Stickiness": (PastewkaRobbins, PerssonTosatti),
         "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
         "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
     }

@@ -210,6 +210,7 @@ class _Note:
     before: _Before
     base: RealArray
     solution: AdhesiveSolution
+    mean: float | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,7 +282,7 @@ class AdhesionCoupling(Coupling):
         elif posed.external_force is not None and posed.external_force <= 0.0:
             pull = self._touching(posed)
         solution = self._solved(posed, posed.dented, np.inf, self._mean(posed), pull, posed.start)
-        note = _Note(posed, before, posed.dented, solution)
+        note = _Note(posed, before, posed.dented, solution, self._mean(posed))
         x = solution.state.pull
         return Exchange(
             x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=min(self.law.strength, 1e300), note=note
@@ -370,14 +371,17 @@ class AdhesionCoupling(Coupling):
         core = self._core(note.solution.state)
         residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap + core)
         base = contact.qp.profile - self.operator.apply(exchange.x) + (self.law.spacing - core)
-        if residual <= self.tolerance or (self._same(note, base, contact) and note.solution.status.converged):
-            return replace(exchange, target=exchange.x, residual=residual)
         mean = self._mean(note.posed)
         if mean is not None and isinstance(contact.qp.constraint, FixedMean):
             mean = contact.qp.constraint.mean_pressure - float(exchange.x.mean())
+        known = self._same(note, base, contact) and _same_load(mean, note.mean) and note.solution.status.converged
+        if residual <= self.tolerance or known:
+            return replace(exchange, target=exchange.x, residual=residual)
         solution = self._solved(note.posed, base, contact.qp.cap, mean, exchange.x, contact.pressure)
         x = solution.state.pull
-        return replace(exchange, target=x, residual=residual, note=replace(note, base=base, solution=solution))
+        return replace(
+            exchange, target=x, residual=residual, note=replace(note, base=base, solution=solution, mean=mean)
+        )
 
     def _same(self, note: _Note, base: RealArray, contact: Contact) -> bool:
         """Whether the last solution is of this profile already, so that only the normal solve is to be more accurate."""
@@ -462,6 +466,13 @@ class AdhesionCoupling(Coupling):
         touching = np.asarray(contact.pressure) > 0.0
         opened = np.where(touching, 0.0, np.maximum(contact.gap, np.finfo(float).tiny))
         return opened + self._core(exchange.note.solution.state)
+
+
+def _same_load(mean: float | None, known: float | None) -> bool:
+    """Whether two mean pressures (Pa) are the same but for rounding; other couplings, such as menisci, add to the load."""
+    if mean is None or known is None:
+        return mean is known
+    return abs(mean - known) <= 1e-9 * max(abs(mean), abs(known))
 
 
 def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> AdhesiveProblem:

@@ -167,6 +167,9 @@ class WavyJKR:
 
 
 _PANELS, _NODES, _DECAY = 60, 20, 40.0
+_HALVED = 5
+"""Times that the first panel of wavenumbers is halved: a film passes from bending to its own modulus at q h of (6 E2/E1)^(1/3), for
+E1/E2 = 50 within that panel, where 20 nodes lost 2e-8 of the approach."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +210,8 @@ class CoatedJKR:
         a = require.positive(radius, "contact radius (m)")
         x, weight = (part[0] for part in gauss(np.array([[0.0, a]]), self.nodes))
         points = np.append(x, a)
-        ends = np.linspace(0.0, _DECAY / self.depth, _PANELS + 1)
+        equal = np.linspace(0.0, _DECAY / self.depth, _PANELS + 1)
+        ends = np.concatenate([[0.0], equal[1] * 0.5 ** np.arange(_HALVED, 0, -1), equal[1:]])
         q, weight_q = (part.ravel() for part in gauss(np.stack([ends[:-1], ends[1:]], axis=-1), _NODES))
         cosines = np.cos(np.outer(points, q))
         kernel = 2.0 / math.pi * (cosines * (self.excess(q) * weight_q)) @ cosines.T

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 from ...core import require
+from ...core.quantity import Quantity
+from ...core.values import Length, Number, Positive
+from ..protocol import Modulus, Theory, Work
 
 PASTEWKA_ROBBINS_LIMIT = math.pi * math.pow(3.0 / 16.0, 2.0 / 3.0)
 """1.029: surfaces whose number is smaller are sticky (Pastewka & Robbins 2014)."""
@@ -65,3 +69,71 @@ def stickiness_of(
     diameter = 4.0 * slope / laplacian
     number = slope * E_star / (2.0 * work) * math.pow(slope * diameter / 4.0, 2.0 / 3.0) * math.cbrt(reach)
     return Stickiness(diameter, number, work - full_contact_energy)
+
+
+@dataclass(frozen=True)
+class PastewkaRobbins(Theory):
+    """Stickiness of a rough surface from its slope and Laplacian: whether the area of contact would grow under no load.
+
+        (h' Δr/κ ℓ_a) (h' d_rep/4Δr)^(2/3) < π (3/16)^(2/3),  ℓ_a = w/E*,  d_rep = 4 h'/h'',  κ = 2.
+
+    Examples
+    --------
+    >>> rubber = PastewkaRobbins(E_star=1e6, slope=0.1, laplacian=1e6, work=0.05, reach=1e-9)
+    >>> f"{rubber.share_of_limit:.2g}: sticky"
+    '0.0045: sticky'
+    """
+
+    E_star: Modulus
+    slope: Annotated[Positive, "rms slope h'"]
+    laplacian: Annotated[float, Number("1/m", above=0.0), "rms of the Laplacian of the heights h''"]
+    work: Work
+    reach: Annotated[Length, "range Δr of the attraction"]
+    name: ClassVar[str] = "pastewka-robbins"
+    title: ClassVar[str] = "Pastewka-Robbins, stickiness"
+    citation_keys: ClassVar[tuple[str, ...]] = ("PastewkaRobbins2014",)
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("share_of_limit", "1", "number over its limit: sticky below 1"),
+        Quantity("repulsive_diameter", "m", "diameter of a contact region d_rep"),
+    )
+
+    @property
+    def _found(self) -> Stickiness:
+        return stickiness_of(self.slope, self.laplacian, 0.0, E_star=self.E_star, work=self.work, reach=self.reach)
+
+    @property
+    def share_of_limit(self) -> float:
+        """The number over its limit."""
+        return self._found.share_of_limit
+
+    @property
+    def repulsive_diameter(self) -> float:
+        """d_rep in m."""
+        return self._found.repulsive_diameter
+
+
+@dataclass(frozen=True)
+class PerssonTosatti(Theory):
+    """Work of adhesion that full contact of a rough surface leaves: w - U_el/A; there is no full contact where it is negative.
+
+    Examples
+    --------
+    >>> f"{PerssonTosatti(work=0.05, elastic_energy=0.02).effective_work:.3g} J/m²"
+    '0.03 J/m²'
+    """
+
+    work: Work
+    elastic_energy: Annotated[
+        float, Number("J/m^2", least=0.0), "elastic energy of full contact over nominal area, (E*/4) ∫ q C d²q"
+    ]
+    name: ClassVar[str] = "persson-tosatti"
+    title: ClassVar[str] = "Persson-Tosatti, full contact"
+    citation_keys: ClassVar[tuple[str, ...]] = ("PerssonTosatti2001",)
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("effective_work", "J/m^2", "work of adhesion left by full contact"),
+    )
+
+    @property
+    def effective_work(self) -> float:
+        """w - U_el/A in J/m²."""
+        return self.work - self.elastic_energy
