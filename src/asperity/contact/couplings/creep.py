@@ -8,7 +8,7 @@ with the compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar, Protocol
 
@@ -128,6 +128,14 @@ class Past:
     dissipated: float
     place: tuple[float, float, float]
 
+    @classmethod
+    def of(cls, memory: Memory) -> Past:
+        """The past in a ``memory``, response and xi as they are in it."""
+        mean, approach, gap = (float(value) for value in memory["place"])
+        fields = {name: memory[name] for name in ("pressure", "response", "xi", "squares")}
+        place = mean, approach, gap
+        return cls(float(memory["time"]), dissipated=float(memory["dissipated"]), place=place, **fields)
+
     @property
     def memory(self) -> Memory:
         """Named real arrays; complex ones have a last axis of real and imaginary parts."""
@@ -196,15 +204,7 @@ class SharedPast:
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
         if memory:
-            return Past(
-                float(memory["time"]),
-                memory["pressure"],
-                memory["response"],
-                memory["xi"],
-                memory["squares"],
-                float(memory["dissipated"]),
-                _place(memory),
-            )
+            return Past.of(memory)
         none, count = np.zeros(self.operator.grid.shape), self.times.size
         return Past(0.0, none, none, np.zeros((count, *none.shape)), np.zeros(count), 0.0, VIRGIN)
 
@@ -286,15 +286,8 @@ class LayeredPast:
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
         if memory:
-            return Past(
-                float(memory["time"]),
-                memory["pressure"],
-                _complex_view(memory["response"]),
-                _complex_view(memory["xi"]),
-                memory["squares"],
-                float(memory["dissipated"]),
-                _place(memory),
-            )
+            past = Past.of(memory)
+            return replace(past, response=_complex_view(memory["response"]), xi=_complex_view(memory["xi"]))
         count, none = self.times.size, np.zeros_like(_spectrum(self.transform))
         xi = np.zeros((count, *none.shape), dtype=complex)
         return Past(0.0, np.zeros(self.operator.grid.shape), none, xi, np.zeros(count), 0.0, VIRGIN)
@@ -382,11 +375,6 @@ def _real_product(x: ComplexArray, y: ComplexArray) -> float:
 
 VIRGIN = (0.0, 0.0, math.nan)
 """Place before any load; the mean gap is then that at first touch."""
-
-
-def _place(memory: Memory) -> tuple[float, float, float]:
-    mean, approach, gap = (float(value) for value in memory["place"])
-    return mean, approach, gap
 
 
 def _spectrum(transform: RealTransform | PaddedTransform) -> ComplexArray:
