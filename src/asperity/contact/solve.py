@@ -214,7 +214,7 @@ class Prepared:
         if creep is not None:
             _require_no_shear(self.couplings)
             self.remembering = remembering(creep, self.operator)
-            self.operators = OperatorsInTime(creep, self.operator, self.remembering.kernels)
+            self.operators = OperatorsInTime(creep, self.operator)
             self.couplings = (*self.couplings, CreepCoupling())
 
     def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
@@ -222,9 +222,14 @@ class Prepared:
         return self._settled(step, state, self.operator, None)
 
     def _settled(
-        self, step: Step, state: InterfaceState | None, operator: Operator, retarded: RealArray | None
+        self,
+        step: Step,
+        state: InterfaceState | None,
+        operator: Operator,
+        retarded: RealArray | None,
+        ahead: float | None = None,
     ) -> Settled:
-        """The same with the ``operator`` of a step of time, and the displacement that earlier pressures leave at its end."""
+        """The same with the ``operator`` of a step of time, and the displacement that earlier pressures leave at its end; ``ahead`` as of ``Posed``."""
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
@@ -241,7 +246,8 @@ class Prepared:
         if retarded is not None:
             dented, lift = dented - retarded, retarded
         known = None if state is None else state.deflections
-        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, step.tangential, lift, known)
+        tangential = step.tangential
+        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, tangential, lift, known, ahead)
         memories = {} if state is None else state.memory
         return settle(posed, self.couplings, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
@@ -376,9 +382,10 @@ class InTime:
         prepared, problem = self.prepared, self.prepared.problem
         weights = TimeWeights.of(self.remembering.times, length)
         retarded = self.remembering.lift(moment.past, weights)
-        operator = prepared.operators.at(weights.after)
+        operator = prepared.operators.at(weights.after, self.remembering.summed(weights))
+        ahead = length / moment.length if moment.length else None
         settled = self._apart(control, moment.state, operator, retarded) or prepared._settled(
-            Step(control), moment.state, operator, retarded
+            Step(control), moment.state, operator, retarded, ahead
         )
         contact = settled.contact
         ends = {
@@ -410,7 +417,7 @@ class InTime:
             past.dissipated,
             0.0,
         )
-        return Moment(settled, past, state, np.array(numbers), retarded, stored)
+        return Moment(settled, past, state, np.array(numbers), retarded, stored, length)
 
     def _apart(
         self, control: Control, state: InterfaceState | None, operator: Operator, retarded: RealArray

@@ -136,7 +136,8 @@ class Creeping:
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """Contact after one step of time: what settled, the past then, the state to go on from, its record, and its error."""
+    """Contact after one step of time: what settled, the past then, the state to go on from, its record, its displacement by the past,
+    its stored energy (J), and the length (s) of the step, zero where none is known."""
 
     settled: Settled | None
     past: Past
@@ -144,6 +145,7 @@ class Moment:
     record: RealArray
     retarded: RealArray | float = 0.0
     stored: float = 0.0
+    length: float = 0.0
 
 
 def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:

@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
+from ...core.engine.cpu import SERIAL_BELOW, Blocks
 from ...core.spectral import PaddedTransform, RealTransform, wrapped
 from ...solids.compliance.creep import AnyCreep, LayeredCreep, SharedCreep
 from ..boundary import Periodic
@@ -164,9 +165,9 @@ class Remembering(Protocol):
     def times(self) -> RealArray:
         """Retardation times, s."""
 
-    @property
-    def kernels(self) -> RealArray | None:
-        """Compliances (terms, …) in m/Pa on the half spectrum of the operator; None where all are multiples of one."""
+    def summed(self, weights: TimeWeights) -> RealArray | None:
+        """Compliance (m/Pa) by which the pressure at the end of a step adds to that of the first instant, on the half spectrum of the
+        operator; None where all terms are multiples of one."""
 
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
@@ -194,12 +195,14 @@ class SharedPast:
 
     creep: SharedCreep
     operator: Operator
-    kernels: None = None
 
     @property
     def times(self) -> RealArray:
         """Retardation times, s."""
         return self.creep.times
+
+    def summed(self, weights: TimeWeights) -> None:
+        """None: it is a multiple of the operator."""
 
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
@@ -253,6 +256,43 @@ class SharedPast:
         return found / size if size else 0.0
 
 
+_SHOWS = 1e-6
+"""Share of the compliance at the first instant below which a retarded one is left out. Of seven to ten terms of a coating three remain at most
+wavenumbers: those of its material alone; what stays out is a hundredth of the error of the series."""
+
+
+class Passes:
+    """Compiled passes over half spectra on some threads, and the sums of compliances for the last step of time.
+
+    ``cuts`` (terms, rows): number of columns beyond which a compliance is zero.
+    """
+
+    def __init__(self, threads: int, cuts: RealArray) -> None:
+        self._blocks, self.cuts = Blocks(threads), cuts
+        self._last: tuple[float, RealArray] | None = None
+
+    @cached_property
+    def _kernels(self) -> Any:
+        from ...core.engine import retarded_kernels
+
+        return retarded_kernels
+
+    def run(self, kernel: str, spectrum: RealArray | ComplexArray, *arguments: Any) -> None:
+        """Call ``kernel`` over all rows of a ``spectrum``."""
+        serial = spectrum.size < SERIAL_BELOW
+        self._blocks.share(getattr(self._kernels, kernel), len(spectrum), *arguments, serial=serial)
+
+    def sums_of(self, kernels: RealArray, weights: TimeWeights) -> RealArray:
+        """(3, …): sums of ``kernels`` (terms, …) times before, after and the errors by curvature of ``weights``; those of the last ones are kept."""
+        if self._last is not None and self._last[0] == weights.length:
+            return self._last[1]
+        sums: RealArray = np.empty((3, *kernels.shape[1:]))
+        factors = np.stack([weights.before, weights.after, weights.of_curvature])
+        self.run("weighted", sums[0], self.cuts, factors, kernels, sums)
+        self._last = weights.length, sums
+        return sums
+
+
 @dataclass(frozen=True, eq=False)
 class LayeredPast:
     """One half spectrum for each retardation time; ``kernels`` (terms, …) and ``instantaneous`` are compliances (m/Pa) on it."""
@@ -261,6 +301,7 @@ class LayeredPast:
     operator: Operator
     kernels: RealArray = field(repr=False)
     transform: RealTransform | PaddedTransform = field(repr=False)
+    passes: Passes = field(repr=False)
 
     @classmethod
     def prepared(cls, creep: LayeredCreep, operator: Operator) -> LayeredPast:
@@ -276,12 +317,18 @@ class LayeredPast:
                 influence = wrapped(boundary.influence(creep.term(number), grid), operator.padded)
                 kernels.append(transform.forward(influence, _spectrum(transform)).real.copy())
         free = None if isinstance(boundary, Periodic) else PaddedTransform(grid.shape, operator.padded, threads)
-        return cls(creep, operator, np.stack(kernels), free or transform)
+        stacked = np.stack(kernels)
+        cuts = _cuts(stacked, operator.kernel)
+        return cls(creep, operator, stacked, free or transform, Passes(threads, cuts))
 
     @property
     def times(self) -> RealArray:
         """Retardation times, s."""
         return self.creep.times
+
+    def summed(self, weights: TimeWeights) -> RealArray:
+        """sum after_k c_k on the half spectrum."""
+        return np.asarray(self.passes.sums_of(self.kernels, weights)[1])
 
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
@@ -294,15 +341,13 @@ class LayeredPast:
 
     def lift(self, past: Past, weights: TimeWeights) -> RealArray:
         """Inverse transform of sum c_k (e_k xi_k + before_k p)."""
-        total = np.asarray(np.tensordot(weights.before, self.kernels, 1) * past.response, dtype=complex)
-        each = np.empty_like(total)
-        for e, kernel, xi in zip(weights.e, self.kernels, past.xi, strict=True):
-            total += np.multiply(kernel, xi, out=each) if e == 1.0 else np.multiply(e * kernel, xi, out=each)
-        return (
-            self.transform.backward(total, np.empty(self.operator.grid.shape))
-            if total.any()
-            else np.zeros(self.operator.grid.shape)
-        )
+        if not past.time and not past.pressure.any():
+            return np.zeros(self.operator.grid.shape)
+        total = _spectrum(self.transform)
+        before = self.passes.sums_of(self.kernels, weights)[0]
+        fields = weights.e, self.kernels, _parts(past.xi), before, _parts(past.response), _parts(total)
+        self.passes.run("retarded", total, self.passes.cuts, *fields)
+        return self.field(total)
 
     def after(
         self,
@@ -313,41 +358,31 @@ class LayeredPast:
         place: tuple[float, float, float],
     ) -> tuple[Past, float]:
         """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ xi_k·K_k xi_k."""
-        response = self.spectrum(pressure)
-        counted, before = self._counted, np.asarray(past.response, dtype=complex)
-        of_pressures = np.stack(
-            [
-                counted * (x.real * y.real + x.imag * y.imag)
-                for x, y in ((before, before), (before, response), (response, response))
-            ]
-        )
-        p00, p01, p11 = np.tensordot(self.kernels, of_pressures, ((1, 2), (1, 2))).T
-        with_0, with_1, xi, each = (
-            np.empty(self.times.size),
-            np.empty(self.times.size),
-            np.empty_like(past.xi),
-            np.empty_like(response),
-        )
-        for number, (kernel, old) in enumerate(zip(self.kernels, past.xi, strict=True)):
-            np.multiply(counted * kernel, old, out=each)
-            with_0[number], with_1[number] = (_real_product(each, p) for p in (before, response))
-            np.multiply(old, weights.e[number], out=xi[number])
-            xi[number] += np.multiply(before, weights.before[number], out=each)
-            xi[number] += np.multiply(response, weights.after[number], out=each)
-        products = Products(past.squares, with_0, with_1, p00, p01, p11)
+        response, xi = (
+            self.spectrum(pressure),
+            np.zeros(past.xi.shape, complex),
+        )  # what is never written takes no memory
+        own = np.zeros((len(response), self.times.size, 5))
+        fields = self.kernels, self._counted, _parts(past.response), _parts(response), _parts(past.xi), _parts(xi), own
+        self.passes.run("advance", response, self.passes.cuts, weights.e, weights.before, weights.after, *fields)
+        products = Products(past.squares, *own.sum(axis=0).T)
         squares, ones = weights.advanced(products), np.ones(self.times.size)
         heat = past.dissipated + weights.dissipated(ones, products)
-        stored = 0.5 * float((self.operator.kernel * of_pressures[2]).sum())
+        at_once = self.operator.grid.pixel_area * float(np.einsum("ij,ij->", pressure, deflection))
+        stored = 0.5 * (at_once - float(weights.after @ products.p11))
         stored += 0.5 * float(squares[np.isfinite(self.times)].sum())
         return Past(past.time + weights.length, pressure, response, xi, squares, heat, place), stored
 
     def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
         """Norm of the displacement by p'' over that by p."""
-        second = _second_difference(pasts, tuple(past.response for past in pasts))
-        retarded = np.tensordot(weights.of_curvature, self.kernels, 1)
-        whole = self.operator.kernel + np.tensordot(weights.after, self.kernels, 1)
-        size = float(np.linalg.norm(whole * pasts[2].response))
-        return float(np.linalg.norm(retarded * second)) / size if size else 0.0
+        _, after, bent = self.passes.sums_of(self.kernels, weights)
+        first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
+        factors = 2.0 / (first + last) * np.array([1.0 / first, -1.0 / first - 1.0 / last, 1.0 / last])
+        sums = np.zeros((len(after), 2))
+        spectra = [_parts(past.response) for past in pasts]
+        self.passes.run("curvature", pasts[2].response, bent, self.operator.kernel, after, factors, *spectra, sums)
+        second, size = np.sqrt(sums.sum(axis=0))
+        return float(second / size) if size else 0.0
 
     def spectrum(self, values: RealArray) -> ComplexArray:
         """Half spectrum of ``values`` (nx, ny)."""
@@ -359,18 +394,27 @@ class LayeredPast:
 
     @cached_property
     def _counted(self) -> RealArray:
-        """Area (m²) by which the products of a half spectrum count, (1, columns): twice where it stands for two waves (Parseval)."""
+        """Area (m²) by which the products of a half spectrum count, (columns,): twice where it stands for two waves (Parseval)."""
         (nx, ny), columns = self.operator.padded, self.kernels.shape[2]
-        found = np.full((1, columns), 2.0)
-        found[0, 0] = 1.0
+        found = np.full(columns, 2.0)
+        found[0] = 1.0
         if ny % 2 == 0 and ny > 1:
-            found[0, -1] = 1.0
+            found[-1] = 1.0
         return found * (self.operator.grid.pixel_area / (nx * ny))
 
 
-def _real_product(x: ComplexArray, y: ComplexArray) -> float:
-    """Sum of Re(x conj y)."""
-    return float(np.vdot(y, x).real)
+def _cuts(kernels: RealArray, first: RealArray) -> RealArray:
+    """Number of columns (terms, rows) up to the last at which ``kernels`` show beside the ``first``; they are set to zero beyond."""
+    columns = np.arange(1, first.shape[1] + 1)
+    cuts = np.stack([np.where(np.abs(each) > _SHOWS * first, columns, 0).max(axis=1) for each in kernels])
+    for each, cut in zip(kernels, cuts, strict=True):
+        each[columns > cut[:, None]] = 0.0
+    return cuts
+
+
+def _parts(spectra: RealArray | ComplexArray) -> RealArray:
+    """Complex ``spectra`` with real and imaginary parts in turn along the last axis."""
+    return np.ascontiguousarray(spectra, dtype=complex).view(float)
 
 
 VIRGIN = (0.0, 0.0, math.nan)

@@ -421,7 +421,9 @@ class _Iteration:
         return np.clip(latest + ratio * (latest - self.pressures[-2]), 0.0, qp.cap)
 
     def _ahead(self, qp: ContactQP) -> float | None:
-        """Step to the load of ``qp`` over that between the last two, where it goes on in one direction."""
+        """Step to the load of ``qp``, or in time, over that between the last two, where it goes on in one direction."""
+        if len(self.pressures) >= 2 and self.posed.ahead is not None and self.last is None:
+            return min(self.posed.ahead, _FARTHEST)
         if len(self.pressures) < 2 or not isinstance(qp.constraint, FixedMean):
             return None
         before, latest = self.pressures[-2:]

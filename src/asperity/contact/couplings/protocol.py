@@ -74,6 +74,8 @@ class Posed:
         Displacements by ``start`` and by ``earlier``, where they are at hand.
     retarded
         Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
+    ahead
+        Length of this step of time over the one before, in which pressures are extrapolated to start from; None where it is not known.
     """
 
     operator: Operator
@@ -86,6 +88,7 @@ class Posed:
     tangential: Tangential | None = None
     retarded: RealArray | float = 0.0
     deflections: Deflections | None = None
+    ahead: float | None = None
 
     @cached_property
     def top(self) -> float:

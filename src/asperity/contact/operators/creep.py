@@ -92,27 +92,27 @@ class SummedOperator(_Prepared):
 
 
 class OperatorsInTime:
-    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept.
+    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept."""
 
-    ``kernels`` (terms, …) are compliances (m/Pa) of the terms of a layered creep on its half spectrum.
-    """
-
-    def __init__(self, creep: AnyCreep, instantaneous: Operator, kernels: RealArray | None) -> None:
-        self.creep, self.instantaneous, self.kernels = creep, instantaneous, kernels
+    def __init__(self, creep: AnyCreep, instantaneous: Operator) -> None:
+        self.creep, self.instantaneous = creep, instantaneous
         self._last: tuple[bytes, Operator] | None = None
 
-    def at(self, weights: RealArray) -> Operator:
-        """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are retarded."""
+    def at(self, weights: RealArray, added: RealArray | None) -> Operator:
+        """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are retarded.
+
+        ``added`` is the sum of these (m/Pa) on the half spectrum, for layers.
+        """
         if not weights.any():
             return self.instantaneous
         key = weights.tobytes()
         if self._last is None or self._last[0] != key:
-            self._last = key, self._made(weights)
+            self._last = key, self._made(weights, added)
         return self._last[1]
 
-    def _made(self, weights: RealArray) -> Operator:
+    def _made(self, weights: RealArray, added: RealArray | None) -> Operator:
         whole = self.instantaneous
         if isinstance(self.creep, SharedCreep):
             return MultipleOperator(whole, 1.0 + float(self.creep.shares @ weights))
-        kernel = whole.kernel + np.tensordot(weights, np.asarray(self.kernels), 1)
-        return SummedOperator(whole, self.creep.with_terms(weights), kernel)
+        assert added is not None
+        return SummedOperator(whole, self.creep.with_terms(weights), whole.kernel + added)
