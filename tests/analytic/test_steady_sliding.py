@@ -143,12 +143,6 @@ def test_load_that_reaches_a_position() -> None:
         (lambda: asp.slide(over(rough(), RUBBER), asp.Unloaded(), 1.0), "control of steady sliding"),
         (
             lambda: asp.slide(
-                asp.ContactProblem(rough(), asp.Rigid(), counter_body=RUBBER, boundary=asp.Free()), LOAD, 1.0
-            ),
-            "boundary of steady sliding",
-        ),
-        (
-            lambda: asp.slide(
                 asp.ContactProblem(rough(), asp.Rigid(), counter_body=RUBBER, law=asp.Hardness(1e6)), LOAD, 1.0
             ),
             "law of steady sliding",

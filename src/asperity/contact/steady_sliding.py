@@ -36,6 +36,8 @@ from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import ConstantHardness
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 from .laws import HardWall
+from .moving_load import FreeMovingKernel
+from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
 from .problem import ContactProblem, Control, Unloaded
 from .result import ContactResult, assemble, certify
@@ -115,6 +117,11 @@ class MovingKernel:
         total = 2.0 * float(columns.sum()) - float(columns[0]) - (float(columns[-1]) if ny % 2 == 0 and ny > 1 else 0.0)
         return total / pressure.size**2
 
+    @property
+    def lags(self) -> bool:
+        """Whether there is any difference from the compliance of the storage modulus."""
+        return bool(np.abs(self.whole - self.storage).max() > _NO_LAG * self.storage.max())
+
     def _spectrum(self, values: RealArray) -> ComplexArray:
         return self.transform.forward(
             np.ascontiguousarray(values, dtype=float), np.empty(self.transform.spectrum_shape, np.complex128)
@@ -135,7 +142,7 @@ _ROWS = 64
 class LagCoupling(Coupling):
     """Displacement beyond that of the storage modulus, as a lift; it is the unknown."""
 
-    kernel: MovingKernel = field(repr=False)
+    kernel: MovingKernel | FreeMovingKernel = field(repr=False)
     feedback: bool = True
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "lag"
@@ -266,14 +273,15 @@ def slide(
     Parameters
     ----------
     problem
-        Periodic contact with a hard wall, without film and friction. The surfaces of viscoelastic bodies must be flat: roughness
+        Contact with a hard wall, without film and friction, on any boundary: on a free grid one body slides or rolls over the
+        half-space, all of which is at rest before it comes. The surfaces of viscoelastic bodies must be flat: roughness
         that moves with them causes no hysteresis. A rigid rough body on rubber: ``ContactProblem(rough, Rigid(), counter_body=rubber)``.
     control
         ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
     speed
         Of the rough body over the viscoelastic one, m/s, >= 0; zero finds the relaxed contact.
     direction
-        Of the motion, angle in rad from +x towards +y.
+        Of the motion, angle in rad from +x towards +y; on a free grid along one of its axes.
     tolerance
         Largest relative change of the displacement from round to round.
     rounds
@@ -282,7 +290,7 @@ def slide(
     Raises
     ------
     InputError
-        If the problem has another boundary, law or physics, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
+        If the problem has another law or physics, the direction is not along an axis of a free grid, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
         waves that stand still in it.
     NoSolutionError
         If a position has no solution.
@@ -295,15 +303,9 @@ def slide(
         raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
     angle = require.finite(direction, "direction of sliding (rad)")
-    engine = CpuEngine()
-    kernel = MovingKernel.of(
-        problem, (v * math.cos(angle), v * math.sin(angle)), engine.threads_for(problem.grid.shape)
-    )
-    symmetric: Compliance = _Symmetric(problem, v)  # type: ignore[assignment]
-    operator = PeriodicOperator(symmetric, problem.grid, engine=engine, kernel=kernel.storage)
+    kernel, operator = _prepared(problem, v, angle)
     profile = problem.profile()
-    lags = bool(np.abs(kernel.whole - kernel.storage).max() > _NO_LAG * kernel.storage.max())
-    couplings = ConstantHardness(HardWall()), LagCoupling(kernel, lags, tolerance)
+    couplings = ConstantHardness(HardWall()), LagCoupling(kernel, kernel.lags, tolerance)
     posed = Posed(operator, profile, profile, control, float(profile.std()) or 1.0)
     settled = settle(posed, couplings, {}, _SOLVER, rounds=rounds)
     normal = _normal(problem, settled, couplings[0], kernel.lag(settled.contact.pressure), started)
@@ -311,6 +313,21 @@ def slide(
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
+
+
+def _prepared(
+    problem: ContactProblem, speed: float, direction: float
+) -> tuple[MovingKernel | FreeMovingKernel, Operator]:
+    """Kernel of pressure that moves with a ``speed`` (m/s) in a ``direction`` (rad), and its symmetric operator."""
+    engine, symmetric = CpuEngine(), _Symmetric(problem, speed)
+    compliance: Compliance = symmetric  # type: ignore[assignment]
+    if not isinstance(problem.boundary, Periodic):
+        first = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        moving = FreeMovingKernel.of(problem, first, speed, direction)
+        return moving, moving.symmetric(first)
+    velocity = speed * math.cos(direction), speed * math.sin(direction)
+    kernel = MovingKernel.of(problem, velocity, engine.threads_for(problem.grid.shape))
+    return kernel, PeriodicOperator(compliance, problem.grid, engine=engine, kernel=kernel.storage)
 
 
 def _normal(
@@ -341,7 +358,7 @@ def _normal(
 
 
 def _with_friction(
-    normal: ContactResult, kernel: MovingKernel, profile: RealArray, speed: float, direction: float
+    normal: ContactResult, kernel: MovingKernel | FreeMovingKernel, profile: RealArray, speed: float, direction: float
 ) -> SteadySliding:
     """Friction by the loss in all waves and by the slope of the surface, and the bound on the error."""
     p = np.asarray(normal.pressure, dtype=float)
@@ -361,8 +378,6 @@ def _with_friction(
 
 def require_slidable(problem: ContactProblem) -> None:
     """Refuse with an InputError what is not steady, or has no hysteresis."""
-    if not isinstance(problem.boundary, Periodic):
-        raise InputError(f"boundary of steady sliding must be Periodic(), but is {problem.boundary!r}.")
     if not isinstance(problem.law, HardWall) or any(
         each is not None for each in (problem.film, problem.friction, problem.adhesion)
     ):

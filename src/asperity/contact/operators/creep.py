@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import Convolution, Engine
-from ...solids.compliance.creep import AnyCreep, RetardedCompliance, SharedCreep
+from ...solids.compliance.creep import AnyCreep, SharedCreep
 from ...solids.compliance.halfspace import Compliance
 from ..boundary import Periodic
 from .convolution import Octaves, Operator, _Prepared, coarse_grid, prepare_operator, spectral_kernel
@@ -64,7 +64,7 @@ class _Multiple(Octaves):
 class SummedOperator(_Prepared):
     """Operator of a ``compliance`` whose ``kernel`` (m/Pa) on the half spectrum of ``whole``, the operator at the first instant, is known."""
 
-    def __init__(self, whole: Operator, compliance: RetardedCompliance, kernel: RealArray) -> None:
+    def __init__(self, whole: Operator, compliance: Compliance, kernel: RealArray) -> None:
         self.whole, self.compliance, self.kernel = whole, compliance, kernel
         self.grid, self.padded, self.boundary = whole.grid, whole.padded, whole.boundary
         self.engine: Engine = whole.engine
