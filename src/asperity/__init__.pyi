@@ -54,6 +54,7 @@ from .contact.state import InterfaceState
 from .contact.steady_sliding import SteadySliding, slide
 from .contact.tangential import Shift, TangentialForce
 from .contact.time_steps import Creeping, TimeSteps
+from .contact.transient_sliding import TransientSliding, slide_in_time
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
@@ -228,6 +229,7 @@ __all__ = [
     "TangentialStiffness",
     "TimeSteps",
     "Tractions",
+    "TransientSliding",
     "Tresca",
     "TrescaFriction",
     "UnitError",
@@ -317,6 +319,7 @@ __all__ = [
     "shear_cycles",
     "sliced",
     "slide",
+    "slide_in_time",
     "solve",
     "solvers",
     "stress",

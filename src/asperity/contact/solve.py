@@ -338,7 +338,7 @@ class InTime:
     def step(self, step: Step, state: InterfaceState | None) -> ContactResult:
         """Result at the end of ``step``, started from ``state``."""
         started, prepared = time.perf_counter(), self.prepared
-        begin = self._begin(state)
+        begin = self.begin(state)
         moments, tries = marched(begin, step.normal, step.duration, prepared.time_steps, self)
         if not moments:
             raise ConvergenceError(
@@ -363,7 +363,8 @@ class InTime:
         remedy = "Allow more steps of time, or a larger tolerance of theirs."
         return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
 
-    def _begin(self, state: InterfaceState | None) -> Moment:
+    def begin(self, state: InterfaceState | None) -> Moment:
+        """What the interface is before a step, from its ``state``."""
         past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
         profile = self.prepared.profile
         mean, approach, gap = past.place
