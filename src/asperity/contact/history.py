@@ -331,7 +331,8 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         0.0 if step.stick_slip is None else step.stick_slip.tangential_energy for step in history.steps
     ]
     start = history.start
-    if history.steps[0].adhesion is None and (start is None or not start.pressure.any()):
+    adhesion = history.steps[0].adhesion is not None
+    if not adhesion and (start is None or not start.pressure.any()):
         virgin = history.steps[0].problem.profile()
         dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
@@ -344,7 +345,7 @@ def _balance(history: HistoryResult) -> EnergyBalance:
     viscous, moments = np.zeros(elastic.shape), [step.creep for step in history.steps if step.creep is not None]
     if moments:
         work, viscous = np.cumsum([each.work for each in moments]), np.cumsum([each.dissipated for each in moments])
-        if start is not None and start.pressure.any():
+        if adhesion or (start is not None and start.pressure.any()):
             work, viscous = work - work[0], viscous - viscous[0]
     tangential, slip, taken = along
     return EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous)

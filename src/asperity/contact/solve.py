@@ -14,18 +14,20 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
-from ..solids.compliance.creep import contact_creep
+from ..solids.compliance.creep import AnyCreep, SharedCreep, contact_creep
+from ..solids.layers import deformable, materials_of
+from ..solids.viscoelastic import alike
 from . import measure
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
-from .couplings.adhesion import AdhesionCoupling, require_adhesion
-from .couplings.creep import CreepCoupling, Past, Remembering, TimeWeights, remembering
+from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time, require_adhesion
+from .couplings.creep import CreepCoupling, Past, Remembering, SharedPast, TimeWeights, remembering
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
 from .couplings.menisci import MeniscusCoupling
 from .couplings.plastic_flow import PlasticFlowCoupling
-from .couplings.protocol import Contact, Coupling, Posed
+from .couplings.protocol import Contact, Coupling, Memory, Posed
 from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
@@ -212,7 +214,7 @@ class Prepared:
         creep = contact_creep(problem.body, problem.counter_body)
         self.remembering: Remembering | None = None
         if creep is not None:
-            _require_no_shear(self.couplings)
+            _require_followed(self.couplings, creep, problem)
             self.remembering = remembering(creep, self.operator)
             self.operators = OperatorsInTime(creep, self.operator)
             self.couplings = (*self.couplings, CreepCoupling())
@@ -228,8 +230,9 @@ class Prepared:
         operator: Operator,
         retarded: RealArray | None,
         ahead: float | None = None,
+        couplings: tuple[Coupling, ...] | None = None,
     ) -> Settled:
-        """The same with the ``operator`` of a step of time, and the displacement that earlier pressures leave at its end; ``ahead`` as of ``Posed``."""
+        """The same with the ``operator`` and ``couplings`` of a step of time, and the displacement that the past leaves at its end; ``ahead`` as of ``Posed``."""
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
@@ -249,7 +252,8 @@ class Prepared:
         tangential = step.tangential
         posed = Posed(operator, self.profile, dented, control, scale, start, earlier, tangential, lift, known, ahead)
         memories = {} if state is None else state.memory
-        return settle(posed, self.couplings, memories, self.solver, rounds=self.rounds, progress=self.progress)
+        joined = self.couplings if couplings is None else couplings
+        return settle(posed, joined, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""
@@ -264,18 +268,20 @@ class Prepared:
         settled: Settled,
         state: InterfaceState | None,
         seconds: float,
-        creeping: tuple[Creeping, Past] | None = None,
+        in_time: tuple[Creeping, Moment] | None = None,
     ) -> ContactResult:
         """Result of what ``settled`` in so many ``seconds``, started from ``state``, with what happened in time."""
         contact, problem = settled.contact, self.problem
-        ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
-        if creeping is not None:
-            ends["creep"] = creeping[1].memory, creeping[0]
+        ends: dict[str, tuple[Memory, object]]
+        if in_time is None:
+            ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
+        else:
+            ends = {**in_time[1].ends, "creep": (in_time[1].past.memory, in_time[0])}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
         lift = next((found[name].shear_displacement for name in ("sliding", "stick_slip") if name in found), None)
         attraction = found["adhesion"].attraction if "adhesion" in found else None
         if attraction is not None:
-            lift = (0.0 if lift is None else lift) - self.operator.apply(attraction)
+            lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
         residual = found["stick_slip"].complementarity if "stick_slip" in found else 0.0
         certificate = replace(self._certificate(settled, seconds), complementarity=residual)
         status = doubted(settled.status, certificate)
@@ -310,18 +316,21 @@ class Prepared:
         return replace(found, couplings=settled.checks, rounds=settled.rounds)
 
 
-def _require_no_shear(couplings: tuple[Coupling, ...]) -> None:
-    """Refuse shear that would creep, and attraction: only the displacement by pressure is followed in time."""
+def _require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
+    """Refuse shear whose creep is not followed: that of sticking surfaces, and of bodies whose moduli do not all relax alike."""
     for coupling in couplings:
-        if isinstance(coupling, AdhesionCoupling):
+        if isinstance(coupling, StickSlipCoupling):
             raise InputError(
-                "adhesion of viscoelastic bodies must be None, but is given: what attraction makes them creep is not followed."
+                "friction of viscoelastic bodies must be None or Coulomb friction of surfaces that slide everywhere, but here they stick "
+                "and slip (coupling stick_slip), and how shear makes them creep is not followed. Leave it out."
             )
-        if isinstance(coupling, StickSlipCoupling) or (isinstance(coupling, SlidingCoupling) and coupling.feedback):
-            raise InputError(
-                "friction of viscoelastic bodies must be None, or Coulomb friction whose shear moves the surfaces along only, but "
-                "here it would creep. Leave it out, or write Coulomb(mu, coupled=False)."
-            )
+        if isinstance(coupling, SlidingCoupling) and coupling.feedback:
+            materials = [m for solid, _ in deformable(problem.body, problem.counter_body) for m in materials_of(solid)]
+            if not isinstance(creep, SharedCreep) or not alike(tuple(materials)):
+                raise InputError(
+                    "friction of viscoelastic bodies must be None, or their moduli must all relax alike, but here they do not, and how shear "
+                    "makes them creep (coupling sliding) is not followed. Leave it out, or write Coulomb(mu, coupled=False)."
+                )
 
 
 class InTime:
@@ -348,7 +357,7 @@ class InTime:
         last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
         settled = self._ended(last, begin.past.time + step.duration, tries)
         creeping = _creeping(begin, moments, tries)
-        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last.past))
+        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last))
         if before is not state:  # the work since the step began, not since the last moment
             vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
         return result
@@ -371,11 +380,13 @@ class InTime:
         if np.isnan(gap):
             past = replace(past, place=(mean, approach, float(profile.max() - profile.mean())))
         force = float(past.pressure.sum()) * self.prepared.problem.grid.pixel_area
-        fraction = np.count_nonzero(past.pressure) / profile.size
+        fraction = np.count_nonzero(past.pressure > 0.0) / profile.size
         largest = float(past.pressure.max())
         record = np.array(
             [past.time, *past.place[:1], force, *past.place[1:], fraction, largest, 0.0, past.dissipated, 0.0]
         )
+        if state is not None:
+            state = replace(state, earlier=None)  # of a moment within the step before, which is not kept
         return Moment(None, past, state, record)
 
     def advanced(self, moment: Moment, control: Control, length: float) -> Moment:
@@ -385,48 +396,60 @@ class InTime:
         retarded = self.remembering.lift(moment.past, weights)
         operator = prepared.operators.at(weights.after, self.remembering.summed(weights))
         ahead = length / moment.length if moment.length else None
+        couplings = self._couplings(operator, moment.past, weights)
         settled = self._apart(control, moment.state, operator, retarded) or prepared._settled(
-            Step(control), moment.state, operator, retarded, ahead
+            Step(control), moment.state, operator, retarded, ahead, couplings
         )
         contact = settled.contact
-        ends = {
-            c.name: c.end(settled.exchanges[c.name], contact) for c in prepared.couplings if c.name in settled.exchanges
-        }
+        ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in couplings if c.name in settled.exchanges}
         menisci = next(
             (outcome for outcome in (end[1] for end in ends.values()) if hasattr(outcome, "external_force")), None
         )
         area, wraps = problem.grid.area, problem.boundary.wraps
-        external = contact.force if menisci is None else float(menisci.external_force)
+        external = contact.force if menisci is None else max(float(menisci.external_force), 0.0)
         approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
-        place = (max(external, 0.0) / area, approach, gap)
-        past, stored = self.remembering.after(
-            moment.past, weights, contact.pressure, contact.solution.state.deflection, place
-        )
+        traction, deflection = contact.pressure, contact.solution.state.deflection
+        adhesive = ends["adhesion"][1] if "adhesion" in ends else None
+        if isinstance(adhesive, AdhesiveContact):
+            traction = traction - adhesive.attraction
+            deflection = deflection - operator.apply(adhesive.attraction)
+            external = adhesive.external_force
+        held = adhesive.grips if isinstance(adhesive, AdhesiveContact) else approach
+        place = (external / area, held, gap)
+        past, stored = self.remembering.after(moment.past, weights, traction, deflection, place)
+        if isinstance(adhesive, AdhesiveContact):
+            heat = past.dissipated - moment.past.dissipated
+            ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
         fraction = measure.corrected_area(contact.touching, problem.grid, wraps=wraps) / area
-        numbers = (
-            past.time,
-            place[0],
-            contact.force,
-            approach,
-            gap,
-            fraction,
-            contact.pressure.max(),
-            stored,
-            past.dissipated,
-            0.0,
-        )
-        return Moment(settled, past, state, np.array(numbers), retarded, stored, length)
+        force = external if isinstance(adhesive, AdhesiveContact) else contact.force
+        top = contact.pressure.max()
+        numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
+        return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends)
+
+    def _couplings(self, operator: Operator, past: Past, weights: TimeWeights) -> tuple[Coupling, ...]:
+        """Couplings of the problem with the ``operator`` of the step, and shear with what the ``past`` left."""
+        found: list[Coupling] = []
+        for coupling in self.prepared.couplings:
+            if isinstance(coupling, AdhesionCoupling):
+                found.append(replace(coupling, operator=operator))
+            elif isinstance(coupling, SlidingCoupling) and coupling.feedback:
+                assert isinstance(self.remembering, SharedPast)
+                growth = 1.0 + float(self.remembering.creep.shares @ weights.after)
+                found.append(coupling.in_time(growth, self.remembering.held(past, weights)))
+            else:
+                found.append(coupling)
+        return tuple(found)
 
     def _apart(
         self, control: Control, state: InterfaceState | None, operator: Operator, retarded: RealArray
     ) -> Settled | None:
         """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
-        if not isinstance(control, Approach | MeanGap) or not retarded.any():
-            return None
         prepared = self.prepared
+        if not isinstance(control, Approach | MeanGap) or not retarded.any() or prepared.problem.adhesion is not None:
+            return None
         dented = prepared.profile - retarded
         if state is not None:
             dented = dented - state.permanent_indentation

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -13,7 +13,8 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from .couplings.creep import Past
-from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
+from .couplings.protocol import Memory
+from .problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded
 
 if TYPE_CHECKING:
     from .couplings.driver import Settled
@@ -137,7 +138,7 @@ class Creeping:
 @dataclass(frozen=True, eq=False)
 class Moment:
     """Contact after one step of time: what settled, the past then, the state to go on from, its record, its displacement by the past,
-    its stored energy (J), and the length (s) of the step, zero where none is known."""
+    its stored energy (J), the length (s) of the step, zero where none is known, and what the couplings remember and found."""
 
     settled: Settled | None
     past: Past
@@ -146,6 +147,7 @@ class Moment:
     retarded: RealArray | float = 0.0
     stored: float = 0.0
     length: float = 0.0
+    ends: Mapping[str, tuple[Memory, object]] = field(default_factory=dict)
 
 
 def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:
@@ -153,19 +155,24 @@ def control_at(end: Control, share: float, place: tuple[float, float, float], ar
     if share >= 1.0:
         return end
     mean, approach, gap = place
-    kinds: dict[type, tuple[Callable[[float], Control], float]] = {
-        MeanPressure: (MeanPressure, mean),
-        Force: (Force, mean * area),
-        Approach: (Approach, approach),
-        MeanGap: (MeanGap, gap),
-        Unloaded: (MeanPressure, mean),
+    if isinstance(end, FixedGrips):
+        return replace(end, value=approach + share * (end.value - approach))
+    kinds: dict[type, tuple[Callable[[float], Control], float, float]] = {
+        MeanPressure: (MeanPressure, mean, 1.0),
+        Force: (Force, mean * area, 1.0),
+        Approach: (Approach, approach, 1.0),
+        MeanGap: (MeanGap, gap, 1.0),
+        Unloaded: (Force, mean * area, 1.0),
+        Pull: (Force, mean * area, -1.0),
     }
     if type(end) not in kinds:
         raise InputError(
             f"load or position of a step with a duration must be one of {', '.join(k.__name__ for k in kinds)}, but is {end!r}."
         )
-    kind, start = kinds[type(end)]
-    value = start + share * (end.value - start)
+    kind, start, sign = kinds[type(end)]
+    value = start + share * (sign * end.value - start)
+    if value < 0.0 and kind in (Force, MeanPressure):
+        return Pull(-value if kind is Force else -value * area)
     return kind(value) if value > 0.0 else Unloaded()
 
 

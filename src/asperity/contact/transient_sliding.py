@@ -268,7 +268,7 @@ class _Motion:
         records = np.stack([before.record, moment.record])
         retarded = np.broadcast_to(moment.retarded, moment.past.pressure.shape)
         creeping = Creeping(records, retarded, moment.stored, heat, float(work), 1)
-        result = self.prepared.result(settled, before.state, seconds, (creeping, moment.past))
+        result = self.prepared.result(settled, before.state, seconds, (creeping, moment))
         self.prepared.problem = self.problem
         return result
 

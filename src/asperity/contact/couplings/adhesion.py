@@ -528,6 +528,23 @@ def _creeps(before: _Before, gap: RealArray) -> bool:
     return bool(np.count_nonzero(earlier != later) <= _JUMPED_SHARE * most)
 
 
+def in_time(
+    exchange: Exchange, contact: Contact, found: AdhesiveContact, stored: float, heat: float
+) -> tuple[Memory, AdhesiveContact]:
+    """Memory and outcome of a step of time of viscoelastic bodies, which hold the energy ``stored`` (J) after its ``heat`` (J).
+
+    What is lost is neither stored nor heat of the bodies: a jump, or the error of the trapezium.
+    """
+    before: _Before = exchange.note.before
+    approach = exchange.note.posed.top + contact.level
+    lost, jumped = _lost(before, found.external_force, approach, stored + heat + found.interface_energy, contact.gap)
+    jumps = before.jumps + int(jumped)
+    found = replace(
+        found, elastic_energy=stored, dissipated=lost, jumped=jumped, jumps=jumps, total_dissipated=before.total + lost
+    )
+    return found.memory(contact.gap, approach), found
+
+
 def require_adhesion(problem: ContactProblem, control: Control) -> None:
     """Refuse with an InputError what only adhesion bears, in a ``problem`` without."""
     if problem.adhesion is None and isinstance(control, Pull | FixedGrips):

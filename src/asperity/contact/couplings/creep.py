@@ -213,10 +213,15 @@ class SharedPast:
 
     def lift(self, past: Past, weights: TimeWeights) -> RealArray:
         """K_0 sum shares_k (e_k xi_k + before_k p)."""
+        total = self.held(past, weights)
+        return self.operator.apply(total) if total.any() else total
+
+    def held(self, past: Past, weights: TimeWeights) -> RealArray:
+        """sum shares_k (e_k xi_k + before_k p): pressure (Pa) that would displace as much at the first instant."""
         total = float(self.creep.shares @ weights.before) * past.pressure
         for share, e, xi in zip(self.creep.shares, weights.e, past.xi, strict=True):
             total += share * e * xi
-        return self.operator.apply(total) if total.any() else total
+        return total
 
     def after(
         self,
@@ -363,8 +368,9 @@ class LayeredPast:
             np.zeros(past.xi.shape, complex),
         )  # what is never written takes no memory
         own = np.zeros((len(response), self.times.size, 5))
+        factors = np.stack([weights.e, weights.before, weights.after])
         fields = self.kernels, self._counted, _parts(past.response), _parts(response), _parts(past.xi), _parts(xi), own
-        self.passes.run("advance", response, self.passes.cuts, weights.e, weights.before, weights.after, *fields)
+        self.passes.run("advance", response, self.passes.cuts, factors, *fields)
         products = Products(past.squares, *own.sum(axis=0).T)
         squares, ones = weights.advanced(products), np.ones(self.times.size)
         heat = past.dissipated + weights.dissipated(ones, products)

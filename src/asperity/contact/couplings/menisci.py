@@ -30,6 +30,9 @@ COLLAPSED = 0.5
 TOLERANCE = 1e-4
 """Change of the force over the external force that does not count."""
 
+_INSIDE = 0.1
+"""Share of the bracket of the force that a step keeps from its ends."""
+
 _ACCURACY = 1e-4
 _PIXELS = 2  # that may change sides from one solve to the next by its error alone
 _FULL = (
@@ -127,6 +130,7 @@ class _Note:
     """Where the liquid stands and its force (N); the force of the first round, whether the interface was open in it and dry before.
 
     ``direction`` is the sign of the first change of the force, ``rounds`` counts replies, ``external`` is the external force (N).
+    ``low`` and ``high`` are the forces (N) between which it changes from too much to too little, ``jump`` its last change (N).
     """
 
     found: Wetting | None = None
@@ -137,6 +141,21 @@ class _Note:
     direction: float = 0.0
     rounds: int = 0
     external: float = 0.0
+    low: float = -math.inf
+    high: float = math.inf
+    jump: float = 0.0
+
+    def bracketed(self, x: float, step: float) -> _Note:
+        """The same after the force ``x`` (N) was found to change by ``step`` (N)."""
+        low, high = (x, self.high) if step >= 0.0 else (self.low, x)
+        if low >= high:  # what else moves has moved the balance
+            low, high = (x, math.inf) if step >= 0.0 else (-math.inf, x)
+        return replace(self, low=low, high=high, jump=abs(step))
+
+    @property
+    def width(self) -> float:
+        """Length (N) within which the balance, or the jump that takes its place, lies."""
+        return self.high - self.low
 
 
 @dataclass(frozen=True)
@@ -184,10 +203,13 @@ class MeniscusCoupling(Coupling):
         note = replace(note, direction=note.direction or math.copysign(1.0, step) if step else note.direction)
         # where contact takes the place of menisci the force falls with the load, and plain repetition would swing
         target = latest if step * note.direction >= 0.0 else x + 0.5 * step
+        note = note.bracketed(x, step)
+        if math.isfinite(note.width) and not _INSIDE < (target - note.low) / (note.width or 1.0) < 1.0 - _INSIDE:
+            target = 0.5 * (note.low + note.high)  # an island that comes and goes: the force lies in its jump
         return replace(
             exchange,
             target=np.asarray(target),
-            residual=abs(step) / reference,
+            residual=min(abs(step), note.width) / reference,
             tolerance=self.tolerance + _PIXELS * pixel / reference,
             note=note,
         )
@@ -203,7 +225,11 @@ class MeniscusCoupling(Coupling):
 
     def settled(self, exchange: Exchange) -> str:
         """That the force is steady, and how the liquid stands."""
-        return f"The meniscus force is steady ({exchange.note.found.regime})"
+        note: _Note = exchange.note
+        steady = f"The meniscus force is steady ({note.found.regime if note.found else 'dry'})"
+        if note.width >= note.jump:
+            return steady
+        return f"{steady} in a jump of {note.jump:.3g} N, by which an island of liquid comes or goes there,"
 
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the force."""

@@ -69,12 +69,17 @@ class ShearKernel:
 
 @dataclass(frozen=True, eq=False)
 class SlidingCoupling(Coupling):
-    """Lift by the shear of ``friction``; the unknown is that displacement (nx, ny) in m."""
+    """Lift by the shear of ``friction``; the unknown is that displacement (nx, ny) in m.
+
+    Of viscoelastic bodies whose moduli relax alike it is ``growth`` times that of the first instant, and ``retarded`` (m) by earlier pressures.
+    """
 
     friction: Coulomb
     kernel: ShearKernel = field(repr=False)
     feedback: bool = True
     tolerance: float = TOLERANCE
+    growth: float = 1.0
+    retarded: RealArray | float = 0.0
     name: ClassVar[str] = "sliding"
     remedy: ClassVar[str] = "Tighten the solver's tolerance, allow more change, or lower the friction coefficient."
 
@@ -87,11 +92,15 @@ class SlidingCoupling(Coupling):
         kernel = ShearKernel(problem, (mu * math.cos(angle), mu * math.sin(angle)), threads=threads)
         return cls(friction, kernel, kernel.largest > NO_COUPLING * stiffest, tolerance)
 
+    def in_time(self, growth: float, held: RealArray) -> Self:
+        """The same in a step of time, where the past displaces like the pressure ``held`` (Pa) at the first instant."""
+        return replace(self, growth=growth, retarded=replace(self, growth=1.0, retarded=0.0)._displacement(held))
+
     def _displacement(self, pressure: RealArray) -> RealArray:
         """Normal displacement (nx, ny) in m under friction times ``pressure``; the kernel holds the largest coefficient."""
         if isinstance(self.friction.coefficient, np.ndarray):
             pressure = pressure * (self.friction.coefficient / self.friction.largest)
-        return self.kernel.displacement(pressure)
+        return self.growth * self.kernel.displacement(pressure) + self.retarded
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The displacement under the pressure to start from."""

@@ -34,13 +34,13 @@ def retarded(span, cuts, weights, kernels, xi, whole, response, total):  # type:
 
 
 @_compiled
-def advance(span, cuts, e, before, after, kernels, counted, p0, p1, xi, ends, sums):  # type: ignore[no-untyped-def]
-    """ends = e xi + before p0 + after p1; per row and term the products of p0 and p1 with xi, and of the two with each other."""
+def advance(span, cuts, weights, kernels, counted, p0, p1, xi, ends, sums):  # type: ignore[no-untyped-def]
+    """ends = weights[0] xi + weights[1] p0 + weights[2] p1; per row and term the products of p0 and p1 with xi, and of the two with each other."""
     for row in range(span[0], span[1]):
         first, last = p0[row], p1[row]
-        for k in range(e.size):
-            old, kernel, begin, end = xi[k, row], kernels[k, row], before[k], after[k]
-            new, decay = ends[k, row], e[k]
+        for k in range(weights.shape[1]):
+            old, kernel, new = xi[k, row], kernels[k, row], ends[k, row]
+            decay, begin, end = weights[0, k], weights[1, k], weights[2, k]
             x0, x1, p00, p01, p11 = 0.0, 0.0, 0.0, 0.0, 0.0
             for j in range(cuts[k, row]):
                 weight = counted[j] * kernel[j]
