@@ -44,6 +44,7 @@ def retracted(body: asp.Elastic, speed: float) -> asp.HistoryResult:
     return asp.solve(sphere(body), asp.History([*start, *dwell, *retraction(speed)]), time_steps=COARSE)
 
 
+@pytest.mark.slow
 def test_slow_retraction_is_that_of_the_relaxed_body() -> None:
     slow, relaxed = retracted(RUBBER, 1e-11), retracted(asp.Elastic(RELAXED, 0.5), np.inf)
     np.testing.assert_allclose(pulls(slow)[1:], pulls(relaxed), atol=5e-3 * np.abs(pulls(relaxed)).max())
@@ -79,6 +80,7 @@ def test_virgin_contact_at_once_is_the_first_elastic_one() -> None:
         assert ours.adhesion.elastic_energy == pytest.approx(theirs.adhesion.elastic_energy, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_pull_off_grows_with_the_speed_and_work_is_stored_or_heat() -> None:
     found = [retracted(RUBBER, speed) for speed in (1e-8, 1e-7, 1e-6)]
     off = [float(-pulls(each).min()) for each in found]
@@ -185,3 +187,6 @@ def test_what_is_not_followed_is_named() -> None:
         asp.solve(slipping, asp.Step(LOAD, asp.Shift(1e-9)))
     with refused(asp.InputError, "friction of viscoelastic bodies", "sliding"):
         asp.solve(asp.ContactProblem(GROUND, COATED, friction=asp.Coulomb(0.3)), LOAD)
+    endless = asp.ContactProblem(GROUND, SOFT, boundary=asp.Free(), adhesion=asp.JKRAdhesion(0.05))
+    with refused(asp.InputError, "adhesion of viscoelastic bodies", "JKRAdhesion"):
+        asp.solve(endless, LOAD)

@@ -33,7 +33,7 @@ from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
 from .couplings.stick_slip import StickSlipCoupling
 from .history import History, HistoryResult
-from .laws import Coulomb, LimitByDepth
+from .laws import Coulomb, JKRAdhesion, LimitByDepth
 from .operators import Operator, prepare_operator
 from .operators.creep import OperatorsInTime
 from .problem import (
@@ -317,7 +317,12 @@ class Prepared:
 
 
 def _require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
-    """Refuse shear whose creep is not followed: that of sticking surfaces, and of bodies whose moduli do not all relax alike."""
+    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
+    if isinstance(problem.adhesion, JKRAdhesion):
+        raise InputError(
+            "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
+            "wavelengths. Take ExponentialAdhesion(work, range)."
+        )
     for coupling in couplings:
         if isinstance(coupling, StickSlipCoupling):
             raise InputError(
