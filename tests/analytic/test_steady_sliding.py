@@ -10,6 +10,7 @@ from reference_data import Row, every_row, reference
 from refusals import refused
 
 import asperity as asp
+from asperity.surfaces.characterise.spectrum import power_spectrum, radial_spectrum
 
 PRONY = {
     "sls": (1.0, ((9.0, 1.0),)),
@@ -152,6 +153,54 @@ def test_load_that_reaches_a_position() -> None:
 def test_what_is_refused(make: Callable[[], object], subject: str) -> None:
     with refused(asp.InputError, subject):
         make()
+
+
+# Persson's theory beside it.
+
+
+def error_of_bands(surface: asp.Surface) -> float:
+    """Largest relative error of the moments of order 1 to 3 of the spectrum in bands: friction grows with q when it is fast, with q³ when it is slow."""
+    bands = radial_spectrum(power_spectrum(surface))
+    table = asp.theories.IsotropicSpectrum(bands.q[bands.psd > 0.0], bands.psd[bands.psd > 0.0])
+    wave = np.abs(np.fft.fft2(surface.heights)) ** 2 / surface.heights.size**2
+    qx, qy = (2.0 * np.pi * np.fft.fftfreq(n, surface.dx) for n in surface.heights.shape)
+    q = np.hypot(qx[:, None], qy)
+    found = [
+        float(table.partial_moment(k + 1, table.span[-1:])[0]) / (2.0 * np.pi) / float((wave * q**k).sum())
+        for k in (1, 2, 3)
+    ]
+    return max(abs(ratio - 1.0) for ratio in found)
+
+
+@pytest.mark.parametrize("speed", [1e-4, 3e-3, 3e-2, 1.0])
+def test_persson_beside_a_sliding_surface(speed: float) -> None:
+    """In full contact the mean over directions, to the bands of the spectrum; in partial contact too little area and, with S = 1, too much friction."""
+    waves = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=3e-5, shortest_wavelength=8e-6
+    )
+    ground = asp.generate.gaussian(asp.Grid((64, 64), (1e-6, 1e-6)), waves, seed=2)
+    solid = asp.Viscoelastic.standard_linear(1e6, 1e7, 1e-3, 0.5)
+    full, partial = (asp.slide(over(ground, solid), asp.MeanPressure(p), speed) for p in (6e6, 1e5))
+    theory = full.persson()
+    assert full.normal.area_fraction == 1.0
+    assert theory.area_fraction > 0.999
+    angles = np.arange(4) * np.pi / 4.0
+    all_round = [asp.slide(over(ground, solid), asp.MeanPressure(6e6), speed, direction=a).friction for a in angles]
+    assert theory.friction == pytest.approx(np.mean(all_round), rel=0.01 + error_of_bands(ground))
+    theory = partial.persson()
+    assert 0.6 * partial.normal.area_fraction_corrected < theory.area_fraction < partial.normal.area_fraction_corrected
+    assert 0.5 * partial.friction < theory.friction < 4.0 * partial.friction
+    assert partial.persson(reduction=0.5).friction < theory.friction
+
+
+def test_persson_knows_half_spaces_and_maps_alone() -> None:
+    coated = asp.slide(over(rough(), asp.Layered([asp.Layer(RUBBER, 1e-6)], asp.Elastic(1e9, 0.3))), LOAD, 1e-3)
+    with refused(asp.InputError, "bodies beside Persson's theory"):
+        coated.persson()
+    x = np.arange(32) / 32
+    line = asp.Surface(1e-7 * np.cos(2.0 * np.pi * x)[:, None], 1e-6 / 32, 1e-6, periodic=True)
+    with refused(asp.InputError, "boundary beside Persson's theory"):
+        asp.slide(over(line, RUBBER), LOAD, 1e-3).persson()
 
 
 # Persson's theory of rubber friction.

@@ -28,9 +28,13 @@ from ..core.status import Status
 from ..solids.compliance.creep import complex_compliance
 from ..solids.compliance.halfspace import Compliance
 from ..solids.elastic import Elastic
-from ..solids.layers import Body, materials_of
+from ..solids.layers import Body, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
+from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
+from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
+from ..theories.rough.persson import IsotropicSpectrum
+from ..theories.rough.rubber_friction import RubberFriction, rubber_friction
 from .boundary import Periodic
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import ConstantHardness
@@ -239,6 +243,33 @@ class SteadySliding:
     def heat(self) -> float:
         """Heat per nominal area and time, W/m²."""
         return self.friction_stress * self.speed
+
+    def persson(self, reduction: float = 1.0) -> RubberFriction:
+        """Friction and area by Persson's theory (2001) of the same surface, half-space, speed and load.
+
+        The spectrum is the measured one, up to the shortest wave of the grid; ``reduction`` as of ``theories.rubber_friction``.
+
+        InputError if the problem is no periodic map, a body is layered, or it stands still.
+        """
+        problem = self.normal.problem
+        if not isinstance(problem.boundary, Periodic) or min(problem.grid.shape) < 2:
+            raise InputError(
+                f"boundary beside Persson's theory must be Periodic() on a map, but is {problem.boundary!r} on "
+                f"{problem.grid.shape[0]} x {problem.grid.shape[1]} points."
+            )
+        if any(isinstance(body, Layered) for body in (problem.body, problem.counter_body)):
+            raise InputError("bodies beside Persson's theory must be half-spaces, but one is layered.")
+
+        def modulus(omega: RealArray) -> ComplexArray:
+            return 2.0 / complex_compliance(problem.body, problem.counter_body, np.ones(omega.shape), omega)
+
+        pair = isinstance(problem.counter_surface, Surface)
+        rough = composite(problem.surface, problem.counter_surface) if pair else problem.surface  # type: ignore[arg-type]
+        measured = radial_spectrum(power_spectrum(rough))
+        known = measured.psd > 0.0
+        spectrum = IsotropicSpectrum(measured.q[known], measured.psd[known])
+        pressure = self.normal.mean_pressure
+        return rubber_friction(spectrum, modulus, speed=self.speed, pressure=pressure, reduction=reduction)
 
     @property
     def status(self) -> Status:

@@ -126,8 +126,14 @@ class Hysteresis(Part):
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse what cannot slide steadily."""
+        from ..contact.boundary import Periodic
         from ..contact.steady_sliding import require_slidable
 
+        if not isinstance(problem.boundary, Periodic):
+            raise InputError(
+                f"boundary of steady sliding must be periodic in documents, but is {problem.boundary.name}. Single bodies on free grids slide in Python: "
+                "asp.slide."
+            )
         require_slidable(_bare(problem))
 
     def compute(self, ask: HysteresisSettings, solved: Solved) -> Found:
