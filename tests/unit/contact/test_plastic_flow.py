@@ -217,6 +217,19 @@ def test_stick_and_slip_is_refused() -> None:
         asp.solve(problem(friction=asp.Coulomb(0.3)), asp.Step(asp.MeanPressure(1e8), asp.Shift(1e-9)))
 
 
+def test_laws_follow_from_the_strength_of_the_materials() -> None:
+    """What ``plastic_parts`` makes of a body fits it; a part without a known strength stays elastic, as does a rigid base."""
+    base = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
+    body = asp.Layered([asp.Layer(FILM, 60e-9)], base)
+    flow = asp.PlasticFlow(asp.plastic_parts(body, unknown_is_elastic=True))
+    film, law = flow.laws(body)
+    assert film is None
+    assert law is not None
+    assert law.hardening.yield_stress(np.zeros(1)) == pytest.approx(0.8e9)
+    on_rigid = asp.Layered([asp.Layer(base, 60e-9)], asp.RigidBase())
+    assert [part is None for part in asp.PlasticFlow(asp.plastic_parts(on_rigid)).laws(on_rigid)] == [False, True]
+
+
 def test_a_result_without_it() -> None:
     result = asp.solve(problem(plastic_flow=None), asp.MeanPressure(1e8))
     assert result.plastic_flow is None
