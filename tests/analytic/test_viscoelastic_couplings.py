@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +122,18 @@ def test_adhesion_of_a_viscoelastic_coating(boundary: asp.Free | asp.Periodic) -
     assert held.contact_area == pytest.approx(end.contact_area, rel=0.05)
 
 
+def test_adhesion_with_a_core_beside_creep() -> None:
+    """Lennard-Jones' law, which has no wall: after a long hold attraction and contact are those of the relaxed body."""
+    load, law = asp.Force(1e-5), asp.LennardJonesAdhesion(0.05, 0.25e-6)
+    soft, relaxed = (replace(sphere(body), adhesion=law) for body in (RUBBER, asp.Elastic(RELAXED, 0.5)))
+    held = asp.solve(soft, asp.History([load, asp.Step(load, duration=500.0)]), time_steps=COARSE).last
+    end = asp.solve(relaxed, load)
+    assert held.adhesion is not None
+    assert end.adhesion is not None
+    assert held.adhesion.attractive_force == pytest.approx(end.adhesion.attractive_force, rel=1e-5)
+    assert held.contact_area == pytest.approx(end.contact_area, rel=1e-3)
+
+
 # Friction, menisci, hardness on a rough body.
 
 GROUND = asp.generate.gaussian(
@@ -179,6 +192,20 @@ def test_hardness_menisci_and_friction_together_beside_creep(body: asp.Elastic |
     found = asp.solve(problem, HOLD)
     assert found.last.max_pressure <= 8e5 * (1.0 + 1e-9)
     assert found.last.total_plastic_work >= found.steps[0].total_plastic_work > 0.0
+
+
+@pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
+def test_hardness_of_layers_with_menisci_beside_creep(boundary: asp.Free | asp.Periodic) -> None:
+    """The limit follows the depth of indentation while the coating creeps."""
+    soft = asp.Viscoelastic(16e6, 0.3, strength=asp.Strength(hardness=1.5e6), spectrum=SOFT.spectrum)
+    body = asp.Layered([asp.Layer(soft, 2e-6)], asp.Elastic(1e8, 0.3, strength=asp.Strength(hardness=1e7)))
+    film = asp.LiquidFilm(surface_tension=0.02, thickness=2e-8, meniscus_height=5e-8)
+    problem = asp.ContactProblem(GROUND, body, boundary=boundary, law=asp.LayeredHardness(body), film=film)
+    found = asp.solve(problem, HOLD)
+    assert found.steps[0].total_plastic_work > 0.0
+    assert found.last.total_plastic_work >= found.steps[0].total_plastic_work
+    assert found.last.max_pressure < 2e6
+    assert found.area_fraction_corrected[2] > found.area_fraction_corrected[0]
 
 
 def test_what_is_not_followed_is_named() -> None:
