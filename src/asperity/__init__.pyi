@@ -76,6 +76,7 @@ from .io.stress_files import save_stress
 from .io.surface_files import save_endless, save_gaussian, save_surface
 from .plots.contact import save_path_plots, save_plots, save_surface_plot
 from .plots.surface import save_roughness_plots
+from .report.animation import save_plastic_animation
 from .report.comparison import write_comparison_report
 from .report.roughness import write_roughness_report
 from .report.write import write_report
@@ -309,6 +310,7 @@ __all__ = [
     "save_endless",
     "save_gaussian",
     "save_path_plots",
+    "save_plastic_animation",
     "save_plots",
     "save_roughness_plots",
     "save_stress",

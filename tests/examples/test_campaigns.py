@@ -30,6 +30,7 @@ GOLD = {"gold_film_area": (1000, 12), "gold_film_grid": (4, 11)}
 def test_every_ready_study_is_tested_here():
     assert {path.stem for path in FOLDER.glob("*.toml")} == {
         "coating_thickness",
+        "plastic_coating",
         "area_against_load",
         "head_disk_interface",
         "carbon_on_silicon",
@@ -53,6 +54,17 @@ def test_studies_of_the_gold_film_have_the_cases_of_the_chapter(name, tmp_path):
     first, second = next(paths), next(paths)
     assert len(first) == {"gold_film_area": 12, "gold_film_grid": 4}[name], "loads of one surface are one path"
     assert first[0].key != second[0].key
+
+
+def test_a_hard_film_protects_the_steel(tmp_path):
+    """The thicker film leaves less plastic strain in the steel, and one as soft as the steel flows itself; hard ones stay elastic and bear tension."""
+    data = finished("plastic_coating", tmp_path).dataset()
+    base, film = (np.asarray(data[f"flow_{part}_strain"]) for part in ("base", "layer"))
+    assert base.shape == (3, 3)
+    assert (base[-1] < base[0]).all()
+    assert (film[:, 0] > 0.0).all()
+    assert (film[:, -1] < 0.1 * film[:, 0]).all()
+    assert (np.asarray(data["flow_layer_tension"])[:, -1] > 0.0).all()
 
 
 def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):

@@ -18,6 +18,7 @@ from ..io.atomic import atomic_folder, require_new_files
 from ..io.export import export_csv, export_stress_vtk, export_vtk
 from ..io.stress_files import save_stress
 from ..parts.dynamics import Dynamics
+from ..report.animation import save_plastic_animation
 from ..report.folder import names_in_folder, write_run
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
@@ -69,6 +70,7 @@ FILES = MappingProxyType(
         "vtk": "the fields as a VTK image file (.vti)",
         "stress_vtk": "the stresses in the volume as a VTK file (.vtr)",
         "stress_nc": "the stresses in the volume as a NetCDF file (.nc)",
+        "animation": "the plastic zones of the steps as an animated picture (.gif, .png, .webp)",
     }
 )
 """Single files that can be written."""
@@ -215,6 +217,8 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
     if "vtk" in files:
         export_vtk(outcome.result, files["vtk"], overwrite=force)
     write_volume(outcome, files, force=force)
+    if "animation" in files:
+        save_plastic_animation(outcome, files["animation"], overwrite=force)
     print_problem(outcome, document.title or "Contact")
     print_result(outcome)
     print_files([*([] if out is None else [out / name for name in names_in_folder(outcome)]), *files.values()])

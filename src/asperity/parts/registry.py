@@ -13,7 +13,9 @@ from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .dynamics import Dynamics
 from .film import Friction, Menisci, WetTheory
 from .hysteresis import Hysteresis
+from .indentation import Indentation
 from .part import Part
+from .plastic_flow import PlasticFlow
 from .rolling import Rolling
 from .stick_slip import StickSlip
 from .stress import Stress, Yielding
@@ -30,6 +32,7 @@ BUILT_IN: tuple[Part, ...] = (
     Menisci(),
     WetTheory(),
     Adhesion(),
+    PlasticFlow(),
     LoadPath(),
     Viscoelasticity(),
     Hysteresis(),
@@ -38,6 +41,7 @@ BUILT_IN: tuple[Part, ...] = (
     Stress(),
     Yielding(),
     Dynamics(),
+    Indentation(),
 )
 """The parts of this package in the order in which they are computed and shown."""
 

@@ -24,6 +24,7 @@ from ..parts.adhesion import Adhesion
 from ..parts.contact import STIFFNESS
 from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
+from ..parts.plastic_flow import PlasticFlow
 from ..parts.registry import parts, with_own
 from ..parts.stick_slip import StickSlip
 from ..parts.stress import Stress, Yielding, stress_request
@@ -284,7 +285,7 @@ def _is_wanted(part: Part, wanted: frozenset[str] | None) -> bool:
     return wanted is None or any(not item.costly or item.name in wanted for item in part.quantities)
 
 
-_WHOLE = frozenset({StickSlip.name, Adhesion.name, Viscoelasticity.name})
+_WHOLE = frozenset({StickSlip.name, Adhesion.name, PlasticFlow.name, Viscoelasticity.name})
 """Parts that need all steps of a load path."""
 
 

@@ -1,0 +1,307 @@
+"""One rigid indenter on a body that flows, by axisymmetric finite elements: curve of load, cuts, imprint and tensions of layers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..core.status import Advice, NoProgress, Progress
+from ..fem.history import IndentationStep, SolidFields
+from ..fem.indent import Indentation, Load
+from ..fem.indenters import Cone, Paraboloid
+from ..fem.mesh import Resolution
+from ..solids.elastic import Elastic
+from ..solids.layers import Body, Layered, materials_of
+from ..solids.plasticity import J2, LinearHardening
+from ..solids.strength import flow_stress, plastic_parts
+from ..theories.hardness.unloading import analyse_indentation
+from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN, Detail
+from .part import Found
+from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, zone_table
+
+LEFT = 4.0
+"""How far the cut reaches across and into the body, in radii of the indenter at the surface."""
+
+LEAST_HARDENING = 1e-4
+"""Hardening modulus over Young's modulus that perfectly plastic materials get; it raises forces by some 0.1 % at plastic strains of a per cent."""
+
+
+@dataclass(frozen=True)
+class Indenter:
+    """Rigid body of revolution: a paraboloid of ``radius`` in m, or a cone of ``half_angle`` in rad.
+
+    Attributes
+    ----------
+    radius, half_angle
+        One of them; the other NaN.
+    """
+
+    radius: float = math.nan
+    half_angle: float = math.nan
+
+    @property
+    def is_cone(self) -> bool:
+        """Whether it is a cone."""
+        return math.isnan(self.radius)
+
+    @property
+    def meshed(self) -> Cone | Paraboloid:
+        """As finite elements take it."""
+        return Cone(1.0 / math.tan(self.half_angle)) if self.is_cone else Paraboloid(self.radius)
+
+    def reach(self, depth: float) -> float:
+        """Radius (m) where it is ``depth`` above its tip: contacts are smaller, unless the material piles up."""
+        return depth * math.tan(self.half_angle) if self.is_cone else math.sqrt(2.0 * self.radius * depth)
+
+    def area(self, depth: float) -> float:
+        """Area function π reach² in m² of a contact depth in m."""
+        return math.pi * self.reach(depth) ** 2
+
+    @property
+    def shape(self) -> float:
+        """ε of Oliver and Pharr."""
+        return 0.72 if self.is_cone else 0.75
+
+
+@dataclass(frozen=True)
+class Course:
+    """What the indenter does: ``depth`` in m of the largest approach, numbers of steps in and out, elements across the contact radius."""
+
+    depth: float
+    loading: int = 20
+    unloading: int = 12
+    across: int = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Indented:
+    """What came out.
+
+    Attributes
+    ----------
+    shown
+        Cut at the peak, residual stress, curve and imprint.
+    peak
+        Number of the step with the largest approach.
+    tensions
+        Largest radial stress at the surface and at the bottoms of layers, largest shear and peel of interfaces in Pa, under the peak load and
+        after it.
+    strains
+        (steps, columns, rows) accumulated plastic strain on the cut, for frames.
+    touching
+        Points in contact at the peak.
+    """
+
+    shown: PlasticValues
+    peak: int
+    tensions: dict[str, float]
+    strains: RealArray
+    touching: int
+
+
+def indented(
+    body: Elastic | Layered,
+    indenter: Indenter,
+    course: Course,
+    *,
+    unknown_is_elastic: bool = False,
+    progress: Progress = NoProgress(),
+) -> Indented:
+    """Press ``indenter`` into ``body`` without friction by ``course.depth``, and take it off.
+
+    Raises
+    ------
+    InputError
+        If an interface slips, or a yield stress is not known.
+    ConvergenceError
+        If a step is not found.
+    """
+    depths = _loading_depths(course, cone=indenter.is_cone)
+    resolution = Resolution(across=course.across, per_layer=max(6, course.across // 3))
+    laws = [_law(part) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)]
+    prepared = Indentation.of(body, indenter.meshed, depths, plasticity=laws, resolution=resolution)
+    way_in = prepared.run(depths, keep=range(len(depths)))
+    progress.update(1, 0.5, 0.1)
+    top = way_in.steps[-1].load
+    loads = [Load(top * (1.0 - number / course.unloading)) for number in range(1, course.unloading + 1)]
+    way_out = prepared.run(loads, start=way_in.state, keep=range(len(loads)))
+    progress.update(2, 0.2, 0.1)
+    elastic = Indentation.of(body, indenter.meshed, depths, plasticity=None, resolution=resolution).run(depths, keep=())
+    progress.update(3, 0.05, 0.1)
+    fields = [*(way_in.fields[n] for n in range(len(depths))), *(way_out.fields[n] for n in range(len(loads)))]
+    steps = [*way_in.steps, *way_out.steps]
+    cut = _Cut.of(fields[0], LEFT * indenter.reach(course.depth), body)
+    return cut.found(steps, fields, len(depths), elastic.load, prepared.r)
+
+
+def _loading_depths(course: Course, *, cone: bool) -> list[float]:
+    """Approaches of the steps; of a ball they grow with the depth, so that first yield is seen, a cone yields at once."""
+    even = np.linspace(0.0, 1.0, course.loading + 1)[1:]
+    return [float(depth) for depth in course.depth * (even if cone else even**1.5)]
+
+
+def _law(part: J2 | Elastic) -> J2 | None:
+    """Law of a region, with the least hardening where it has none: Newton's method needs it near collapse."""
+    if not isinstance(part, J2):
+        return None
+    if isinstance(part.hardening, LinearHardening) and part.hardening.modulus == 0.0:
+        least = LEAST_HARDENING * part.elastic.youngs_modulus
+        return replace(part, hardening=LinearHardening(part.hardening.initial, least))
+    return part
+
+
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """Lines of the mesh down to where the cut ends."""
+
+    r: RealArray
+    z: RealArray
+    columns: int
+    interfaces: RealArray
+
+    @classmethod
+    def of(cls, fields: SolidFields, reach: float, body: Elastic | Layered) -> _Cut:
+        r, z = (np.unique(fields.mesh.points[:, axis]) for axis in (0, 1))
+        wide, deep = (max(int(np.searchsorted(line, reach)), 3) for line in (r, z))
+        return cls(r[:wide], z[:deep], len(r) - 1, interfaces_of(body))
+
+    def cells(self, values: RealArray) -> RealArray:
+        """Means over elements (columns, rows) of ``values`` (elements, points)."""
+        found: RealArray = values.mean(axis=1).reshape(self.columns, -1)[: len(self.r) - 1, : len(self.z) - 1]
+        return found
+
+    def found(
+        self, steps: list[IndentationStep], fields: list[SolidFields], peak: int, elastic: RealArray, nodes: RealArray
+    ) -> Indented:
+        """Everything, from the ``steps`` and their fields; ``peak`` steps lead to the largest load."""
+        known = np.full(len(steps) + 1, math.nan)
+        known[: peak + 1] = [0.0, *elastic]
+        curve = {
+            "approach": np.array([0.0, *(step.approach for step in steps)]),
+            "force": np.array([0.0, *(step.load for step in steps)]),
+            "elastic_force": known,
+            "area": np.array([0.0, *(math.pi * step.contact_radius**2 for step in steps)]),
+            "work_lost": np.array([0.0, *(step.plastic_work for step in steps)]),
+        }
+        strains = [self.cells(field.accumulated) for field in fields]
+        loaded, last = fields[peak - 1], fields[-1]
+        shown = PlasticValues(
+            self.r,
+            self.z,
+            strains[peak - 1],
+            self.interfaces,
+            self.cells(last.stress[..., 0]),
+            self.cells(loaded.von_mises),
+            curve,
+            nodes,
+            -steps[-1].surface,
+        )
+        tensions = self._tensions(loaded, "") | self._tensions(last, "residual_")
+        whole = np.stack([np.zeros_like(strains[0]), *strains])
+        return Indented(shown, peak, tensions, whole, int(steps[peak - 1].touching.sum()))
+
+    def _tensions(self, field: SolidFields, prefix: str) -> dict[str, float]:
+        """Largest tension at the surface and at the bottom of layers, shear and peel beside interfaces, in Pa."""
+        radial, shear, normal = (self.cells(field.stress[..., k]) for k in (0, 4, 2))
+        inside = [depth for depth in self.interfaces if depth <= self.z[-1] * (1.0 + 1e-9)]
+        rows = [int(np.argmin(np.abs(self.z - depth))) for depth in inside]
+        found = {f"{prefix}surface_tension": float(radial[:, 0].max())}
+        if rows:
+            found |= {
+                f"{prefix}layer_tension": float(max(radial[:, row - 1].max() for row in rows)),
+                f"{prefix}interface_shear": float(max(np.abs(shear[:, row - 1 : row + 1]).max() for row in rows)),
+                f"{prefix}interface_peel": float(max(normal[:, row - 1 : row + 1].max() for row in rows)),
+            }
+        return {name: max(value, 0.0) for name, value in found.items()}
+
+
+# Values, facts and findings.
+
+
+def _numbers(run: Indented, body: Any, indenter: Indenter) -> dict[str, Any]:
+    """``SCALARS`` but for those of the unloading."""
+    curve, peak, shown = run.shown.curve, run.peak, run.shown
+    area, force = float(curve["area"][peak]), float(curve["force"][peak])
+    known = [flow_stress(material.strength).value for material in materials_of(body)]
+    lowest = min((value for value in known if not math.isnan(value)), default=math.nan)
+    rows = np.flatnonzero((shown.strain > 0.0).any(axis=0))
+    values: dict[str, Any] = {item.name: math.nan for item in SCALARS}
+    return values | {
+        "indent_force": force,
+        "indent_depth": float(curve["approach"][peak]),
+        "indent_radius": indenter.radius,
+        "indent_contact_radius": math.sqrt(area / math.pi),
+        "indent_hardness": force / area,
+        "indent_hardness_ratio": force / area / lowest,
+        "indent_residual_depth": float(curve["approach"][-1]),
+        "indent_plastic_strain": float(shown.strain.max()),
+        "indent_plastic_depth": float(shown.depth[rows[-1] + 1]) if rows.size else 0.0,
+        **{f"indent_{name}": value for name, value in run.tensions.items()},
+    }
+
+
+def found_of(run: Indented, body: Any, indenter: Indenter) -> Found:
+    """Values, facts and findings of a ``run``."""
+    curve, shown, values = run.shown.curve, run.shown, _numbers(run, body, indenter)
+    area = float(curve["area"][run.peak])
+    facts: dict[str, Any] = {"layers": layer_names(body), "axis": "r", "oliver_pharr": None, "cone": indenter.is_cone}
+    zones = zone_table(shown, body)
+    facts["zones"] = [list(zones.headings), [list(row) for row in zones.cells]]
+    findings = list(_findings(run, indenter, body))
+    try:
+        read = analyse_indentation(
+            curve["approach"], curve["force"], indenter.area, shape=indenter.shape, true_area=area
+        )
+    except InputError as error:
+        findings.append(Advice("note", "unloading", f"The unloading cannot be analysed: {error}"))
+    else:
+        fit = read.unloading
+        values |= {
+            "indent_oliver_pharr_hardness": read.hardness,
+            "indent_oliver_pharr_modulus": read.contact_modulus,
+            "indent_unloading_stiffness": fit.stiffness,
+            "indent_unloading_exponent": fit.exponent,
+            "indent_pile_up": read.pile_up,
+            "indent_work": read.loading_work,
+            "indent_dissipated_work": read.dissipated_work,
+        }
+        drawn = np.linspace(max(fit.final_depth, 0.0), fit.peak_depth, 25)
+        facts |= {"oliver_pharr": read.hardness, "unloading": [drawn.tolist(), fit.force(drawn).tolist()]}
+    return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), KEYS)
+
+
+def _findings(run: Indented, indenter: Indenter, body: Body) -> tuple[Advice, ...]:
+    """Strains that are not small, few points in contact, yield stresses from the hardness, no flow at all."""
+    made = list(inferred_strengths(body))
+    radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
+    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
+        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
+        made.append(Advice("warning", "small strain", text))
+    if run.touching < FEW:
+        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
+        made.append(Advice("warning", "mesh of the indentation", text))
+    if not run.shown.strain.max() > 0.0:
+        made.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
+    return tuple(made)
+
+
+def require_depth(depth: float, indenter: Indenter) -> float:
+    """``depth`` in m that small strains allow: a contact radius of at most 0.4 of the radius of a ball.
+
+    Raises
+    ------
+    InputError
+        If it is larger.
+    """
+    if not indenter.is_cone and indenter.reach(depth) > 0.4 * indenter.radius:
+        raise InputError(
+            f"depth of indentation (m) must be at most {0.08 * indenter.radius:.3g}, 0.08 of the radius of the indenter, but is {depth:.3g}. "
+            "Beyond that strains are not small.",
+            subject="depth of indentation (m)",
+        )
+    return depth

@@ -1,0 +1,66 @@
+"""Animated pictures of an outcome: the plastic zones of the steps of its history."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import InputError
+from ..parts.indentation import PREFIX as INDENTED
+from ..parts.part import Found
+from ..parts.plastic_flow import PREFIX as FLOW
+from ..parts.plastic_values import picture_of
+from ..plots.plastic import Cut, save_cuts, step_label
+from ..run.execute import Outcome
+
+
+def save_plastic_animation(outcome: Outcome, path: str | Path, *, overwrite: bool = False) -> Path:
+    """Write the plastic zones of every step of ``outcome`` as an animated picture (.gif, .png or .webp).
+
+    Those of the volume below the rough contact, or where it has none of this, those of its indentation.
+
+    Raises
+    ------
+    InputError
+        If the outcome has no history with plastic flow, or the suffix is another.
+    OutputError
+        If the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    return save_cuts(plastic_cuts(outcome), path, overwrite=overwrite)
+
+
+def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
+    """The cut through the largest plastic strain after every step of ``outcome``; errors as for ``save_plastic_animation``."""
+    found = outcome.found
+    if FLOW in found and outcome.path is not None and len(outcome.path.steps) > 1:
+        return _volume_cuts(outcome, found[FLOW])
+    run = None if INDENTED not in found else found[INDENTED].detail.run
+    if run is None:
+        raise InputError(
+            "outcome of an animation must have a history with plastic flow, but has none. Run a document with a table [plastic_flow] (--plastic) and steps, or "
+            "[indentation] (--indent); a file keeps no steps of an indentation.",
+            subject="outcome of an animation",
+        )
+    shown, curve = picture_of(INDENTED, found[INDENTED].values, found[INDENTED].detail.facts).cut, run.shown.curve
+    return tuple(
+        replace(shown, strain=strain, label=step_label(number, curve["approach"][number], curve["force"][number]))
+        for number, strain in enumerate(run.strains)
+    )
+
+
+def _volume_cuts(outcome: Outcome, found: Found) -> tuple[Cut, ...]:
+    """Cuts of the steps of a history, all with the depth cells of the last."""
+    facts: Mapping[str, Any] = found.detail
+    shown, row, made = picture_of(FLOW, found.values, facts).cut, int(facts["row"]), []
+    assert outcome.path is not None
+    for number, step in enumerate(outcome.path.steps, start=1):
+        strain = np.zeros_like(shown.strain)
+        accumulated = step.require_plastic_flow().accumulated
+        if accumulated.size:
+            strain[:, : accumulated.shape[0]] = accumulated[:, :, row].T
+        made.append(replace(shown, strain=strain, label=step_label(number, step.approach, step.force)))
+    return tuple(made)

@@ -1,0 +1,183 @@
+"""A ball on plastic and on coated plastic solids: the loading to 300 times first yield of Bhushan (1998, fig. 10), and tables of independent finite elements."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from page import Claim, Page, Published, Table, write_page
+
+import asperity as asp
+from asperity import fem
+
+E, NU, R = 200e9, 0.3, 1e-3
+ONSET = 1.6128
+"""Largest Hertz pressure over the yield stress at first yield, ν = 0.3."""
+
+SPHERE = {1.5: (1.828, 1.234), 2.0: (2.776, 1.438), 3.0: (4.938, 1.80), 4.0: (7.37, 2.12), 6.0: (12.82, 2.68)}
+"""δ/δ_y -> P/P_y and a/a_y of an elastic-perfectly plastic half-space: other axisymmetric finite elements, error 0.5 % and 1 %."""
+
+LAYERED = {(2.0, 3.0): 5.72, (2.0, 5.0): 11.06, (4.0, 3.0): 6.472, (4.0, 5.0): 12.05, (0.5, 3.0): 3.79}
+"""E1/E2 = Y1/Y2 and δ/δ_y -> P/P_y with a layer of the thickness a_y: the same elements, error 1 %."""
+
+LOADS = (15.5, 100.6, 200.0, 300.0)
+"""W/W_y of Bhushan (1998), fig. 10."""
+
+
+def yield_scales(Y: float) -> tuple[float, float, float]:
+    """Approach (m), contact radius (m) and force (N) at first yield of a half-space with the yield stress ``Y`` in Pa."""
+    p, modulus = ONSET * Y, E / (1.0 - NU**2)
+    return (
+        R * (math.pi * p / (2.0 * modulus)) ** 2,
+        math.pi * p * R / (2.0 * modulus),
+        math.pi**3 * R**2 * p**3 / (6.0 * modulus**2),
+    )
+
+
+def sphere(across: int) -> tuple[Table, tuple[Claim, ...]]:
+    """Perfectly plastic half-space beside the table."""
+    Y = 1e-3 * E
+    depth, radius, force = yield_scales(Y)
+    steps = [ratio * depth for ratio in (0.8, 1.2, *SPHERE)]
+    law = asp.LinearHardening(Y, 1e-4 * E)
+    found = fem.indentation(
+        asp.Elastic(E, NU), fem.Paraboloid(R), steps, plasticity=law, resolution=fem.Resolution(across=across)
+    )
+    rows, errors = [], []
+    for ratio, step in zip(SPHERE, found.steps[2:], strict=True):
+        ours, theirs = (step.load / force, step.contact_radius / radius), SPHERE[ratio]
+        errors.append([one / other - 1.0 for one, other in zip(ours, theirs, strict=True)])
+        rows.append((f"{ratio:g}", f"{ours[0]:.3f}", f"{theirs[0]:.3f}", f"{ours[1]:.2f}", f"{theirs[1]:.2f}"))
+    head = ("δ/δ_y", "P/P_y: ours", "independent", "a/a_y: ours", "independent")
+    about = "## Elastic-perfectly plastic half-space\n\nApproach, load and contact radius over those at first yield."
+    worst = np.abs(errors).max(axis=0)
+    coarse = 1.0 + 20.0 / across
+    claims = (
+        Claim("largest deviation of the load from the table", float(worst[0]), high=0.01 * coarse),
+        Claim("largest deviation of the contact radius", float(worst[1]), high=0.02 * coarse),
+    )
+    return Table(about, head, tuple(rows)), claims
+
+
+def layered(across: int) -> tuple[Table, tuple[Claim, ...]]:
+    """One layer of the thickness a_y beside the table; stiffer and harder layers bear more and protect the base."""
+    Y = 1e-3 * E
+    depth, radius, force = yield_scales(Y)
+    rows, errors, flowed = [], [], {}
+    for ratio in dict.fromkeys(ratio for ratio, _ in LAYERED):
+        wanted = [deep for one, deep in LAYERED if one == ratio]
+        layer = asp.Elastic(ratio * E, NU)
+        laws = [asp.LinearHardening(ratio * Y, 1e-5 * E), asp.LinearHardening(Y, 1e-5 * E)]
+        body = asp.Layered([asp.Layer(layer, radius)], asp.Elastic(E, NU))
+        steps = [one * depth for one in (1.0, 2.0, *wanted)]
+        resolution = fem.Resolution(across=across)
+        found = fem.indentation(body, fem.Paraboloid(R), steps, plasticity=laws, resolution=resolution)
+        for deep, step in zip(wanted, found.steps[2:], strict=True):
+            ours, theirs = step.load / force, LAYERED[ratio, deep]
+            errors.append(ours / theirs - 1.0)
+            strains = [zone.largest for zone in step.zones]
+            rows.append(
+                (
+                    f"{ratio:g}",
+                    f"{deep:g}",
+                    f"{ours:.3f}",
+                    f"{theirs:.3f}",
+                    f"{100 * strains[0]:.2f} %",
+                    f"{100 * strains[1]:.2f} %",
+                )
+            )
+            flowed[ratio, deep] = (ours, strains[1] / ours)
+    head = ("E₁/E₂ = Y₁/Y₂", "δ/δ_y", "P/P_y: ours", "independent", "largest plastic strain, layer", "base")
+    about = "## One layer of the thickness a_y\n\nOf the homogeneous base material are P_y, a_y and δ_y."
+    coarse = 1.0 + 20.0 / across
+    claims = (
+        Claim("largest deviation of the load from the table, layered", float(np.abs(errors).max()), high=0.02 * coarse),
+        Claim(
+            "base strain per load under the layer of ratio 4 over that of ratio 2, δ = 5 δ_y",
+            flowed[4.0, 5.0][1] / flowed[2.0, 5.0][1],
+            high=1.0,
+        ),
+    )
+    return Table(about, head, tuple(rows)), claims
+
+
+def to_full_plasticity(across: int) -> tuple[Table, tuple[Claim, ...], tuple[Published, ...]]:
+    """Loads of fig. 10 on E/Y = 685, perfectly plastic and hardening with the exponent 0.3."""
+    Y = E / 685.0
+    _, radius, force = yield_scales(Y)
+    laws = {"perfectly plastic": asp.LinearHardening(Y, 3e-4 * E), "n = 0.3": asp.Swift(Y, Y / E, 0.3)}
+    steps = [
+        fem.Load(ratio * force)
+        for ratio in (0.9, 2.0, 5.0, 9.0, LOADS[0], 30.0, 60.0, LOADS[1], 150.0, LOADS[2], 250.0, LOADS[3])
+    ]
+    rows, last = [], {}
+    for name, law in laws.items():
+        found = fem.indentation(
+            asp.Elastic(E, NU), fem.Paraboloid(R), steps, plasticity=law, resolution=fem.Resolution(across=across)
+        )
+        for ratio, step in zip(LOADS, (found.steps[k] for k in (4, 7, 9, 11)), strict=True):
+            (zone,) = step.zones
+            a, mean = step.contact_radius / radius, step.load / (math.pi * step.contact_radius**2) / Y
+            rows.append(
+                (
+                    name,
+                    f"{ratio:g}",
+                    f"{a:.2f}",
+                    f"{mean:.2f}",
+                    f"{zone.bottom / step.contact_radius:.2f}",
+                    f"{zone.top / step.contact_radius:.3f}",
+                )
+            )
+            last[name, ratio] = (a, mean, zone.bottom / step.contact_radius, zone.top / step.contact_radius)
+    head = ("solid", "W/W_y", "a/a_y", "p_m/Y", "depth of the plastic zone / a", "top of the plastic zone / a")
+    about = (
+        "## To full plasticity\n\nLoads of fig. 10 (E/Y = 685). Strains are small and the ball is a paraboloid here; theirs are finite. "
+        "The zone is all that has flowed."
+    )
+    perfect, hard = last["perfectly plastic", LOADS[3]], last["n = 0.3", LOADS[3]]
+    claims = (
+        Claim("the zone reaches the surface at W/W_y = 300: its top over the contact radius", perfect[3], high=0.1),
+        Claim(
+            "mean pressure of the hardening solid over that of the perfectly plastic one", hard[1] / perfect[1], low=1.0
+        ),
+        Claim(
+            "mean pressure over Y grows from W/W_y = 15.5 to 300",
+            perfect[1] - last["perfectly plastic", LOADS[0]][1],
+            low=0.0,
+        ),
+    )
+    source = "Bhushan 1998, sec. 2.3, after Kral, Komvopoulos & Bogy 1993"
+    published = (
+        Published(source, "p_m/Y at full plasticity, W/W_y about 300", "2.5", perfect[1], within=0.1),
+        Published(source, "contact radius over that at first yield, W/W_y = 300, about", "10", perfect[0], within=0.15),
+        Published(
+            source,
+            "depth of the plastic zone over the contact radius, about",
+            "2",
+            hard[2],
+            within=0.25,
+            reason="of the hardening solid, as theirs",
+        ),
+    )
+    return Table(about, head, tuple(rows)), claims, published
+
+
+def compare(across: int = 30) -> Page:
+    """The page, with meshes of so many elements ``across`` the largest contact radius."""
+    one, first = sphere(across)
+    two, second = layered(across)
+    three, third, published = to_full_plasticity(across)
+    return Page(
+        title="Rigid ball on plastic and on coated plastic solids",
+        about=(
+            "Axisymmetric finite elements of `asperity.fem`, frictionless, ν = 0.3. Independent: other axisymmetric finite elements with other meshes and contact. "
+            f"{across} elements across the largest contact radius."
+        ),
+        parts=(one, two, three),
+        claims=(*first, *second, *third),
+        published=published,
+    )
+
+
+if __name__ == "__main__":
+    write_page(compare(), __file__)
