@@ -43,14 +43,15 @@ DOWN = (9.5, 9.0, 8.5, 8.0, 7.5, 7.0, 7.25, 8.0, 9.0, 10.0)
 
 
 def test_the_curve_of_a_sphere() -> None:
-    """Loads within 2 % of an independent computation, contact radii within 3 % (half an element and its scatter)."""
+    """Loads within 2 % of an independent computation, contact radii within half an element and the scatter of the table, 1.5 %."""
     found = sphere((*UP, *DOWN))
     rows = {float(row["delta_over_delta_y"]): row for row in reference("sphere_perfectly_plastic")}
     compared = [number for number, x in enumerate(UP) if x in rows]
     for number in compared:
         row = rows[UP[number]]
         assert found.load[number] / LOAD == pytest.approx(float(row["P_over_Py"]), rel=0.01)
-        assert found.contact_radius[number] / RADIUS == pytest.approx(float(row["a_over_ay"]), rel=0.03)
+        near = 0.5 * found.r[1] / RADIUS + 0.015 * float(row["a_over_ay"])
+        assert found.contact_radius[number] / RADIUS == pytest.approx(float(row["a_over_ay"]), abs=near)
     assert len(compared) >= 5
 
 
@@ -112,7 +113,7 @@ def test_equal_states_in_other_units() -> None:
     np.testing.assert_allclose(other.contact_radius, 21.0 * first.contact_radius, rtol=1e-5)
 
 
-def layered(ratio: float, steps: RealArray, across: int = 24) -> fem.IndentationHistory:
+def layered(ratio: float, steps: RealArray, across: int = 40) -> fem.IndentationHistory:
     body = asp.Layered([asp.Layer(asp.Elastic(ratio * E, NU), RADIUS)], STEEL)
     laws = [LinearHardening(ratio * Y), LinearHardening(Y)]
     return fem.indentation(
@@ -123,14 +124,15 @@ def layered(ratio: float, steps: RealArray, across: int = 24) -> fem.Indentation
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 4.0])
 def test_a_layer(ratio: float) -> None:
-    """Loads within 1.5 % and radii within 3 % of an independent computation; plastic strains, which depend on the mesh, within a quarter where they are large."""
+    """Loads within 1.5 % and radii within half an element and 2 % of an independent computation; plastic strains, which depend on the mesh, within a quarter where they are large."""
     rows = [row for row in reference("sphere_layered_plastic") if row["E1_over_E2"] == ratio]
     steps = np.arange(0.5, max(float(row["delta_over_delta_y"]) for row in rows) + 0.1, 0.5)
     found = layered(ratio, steps)
     for row in rows:
         number = int(np.flatnonzero(steps == row["delta_over_delta_y"])[0])
         assert found.load[number] / LOAD == pytest.approx(float(row["P_over_Py"]), rel=0.015)
-        assert found.contact_radius[number] / RADIUS == pytest.approx(float(row["a_over_ay"]), rel=0.03)
+        near = 0.5 * found.r[1] / RADIUS + 0.02 * float(row["a_over_ay"])
+        assert found.contact_radius[number] / RADIUS == pytest.approx(float(row["a_over_ay"]), abs=near)
         for zone, name in zip(found.steps[number].zones, ("max_eqps_layer", "max_eqps_substrate"), strict=True):
             # the table is for Y/E = 1e-3
             assert zone.largest * 1e-3 * E / Y == pytest.approx(float(row[name]), rel=0.25, abs=3e-4)

@@ -385,3 +385,17 @@ def test_law_of_an_interface():
     expected = math.sqrt(tangent * 20e-4 / 20.0) / (2.0 * math.pi)
     assert left.frequencies["plastic, unloading"] == pytest.approx(expected, rel=1e-6)
     assert left.frequencies["plastic, unloading"] > 1.2 * left.frequencies["plastic, loading"]
+
+
+def test_a_coating_that_bends():
+    """The coating carries more and leaves a shallower imprint; it is pulled beneath the tip from below and beside the contact from above."""
+    left = run("advanced/plot_10_a_coating_that_bends")
+    coated, bare = left.found["coated"], left.found["bare"]
+    assert coated.load[11] > 1.3 * bare.load[11]
+    assert coated.hardness > bare.hardness
+    assert coated.imprint[0] < bare.imprint[0]
+    assert coated.load[12] == bare.load[12] == 0.0
+    under = left.fields.net_axial_force()[:5]
+    np.testing.assert_allclose(under, -coated.load[11], rtol=1e-5)
+    assert left.tension.largest_bottom[1] < 0.6 * coated.contact_radius[11]
+    assert left.tension.largest_top[1] > 0.9 * coated.contact_radius[11]
