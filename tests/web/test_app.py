@@ -15,6 +15,7 @@ import pytest
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
 import asperity as asp
+from asperity.run.document import checked
 
 from .app_server import AppServer
 
@@ -164,6 +165,35 @@ def numbers(file: Path) -> list[list[str]]:
     """Rows of a table of scalars, without what depends on the clock."""
     with file.open(encoding="utf-8", newline="") as source:
         return [row for row in csv.reader(source) if "time" not in row[0] and "memory" not in row[0]]
+
+
+@pytest.mark.slow
+def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Callable[..., Any]) -> None:
+    """Entries of the relaxation and of the times are those of the document, which is complete."""
+    page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
+    go(page, "surface")
+    fill(page, "surface.points", "32 x 32")
+    page.wait_for_timeout(700)
+    go(page, "bodies")
+    page.click('[data-key="body.kind"] >> text=Own constants')
+    choose(page, "body.relaxation.kind", "prony")
+    fill(page, "body.relaxation.relaxed", "1 GPa")
+    fill(page, "body.relaxation.moduli", "10 GPa, 3 GPa")
+    fill(page, "body.relaxation.times", "10 ms, 0.1 s")
+    fill(page, "body.poisson_ratio", "0.4")
+    fill(page, "body.hardness", "10 GPa")
+    page.wait_for_timeout(700)
+    go(page, "load")
+    page.click('[data-key="stress"]')
+    page.click('[data-key="viscoelastic"]')
+    fill(page, "viscoelastic.hold", "0.1 s")
+    fill(page, "viscoelastic.steps", "3")
+    page.wait_for_timeout(700)
+    asked = document(page)
+    relaxation = asked["body"]["relaxation"]
+    assert (relaxation["moduli"], relaxation["times"]) == (["10 GPa", "3 GPa"], ["10 ms", "0.1 s"])
+    assert asked["viscoelastic"]["hold"] == ["0.1 s"]
+    assert checked(asked).body.relaxation is not None
 
 
 @pytest.mark.slow
