@@ -153,6 +153,16 @@ def test_at_once_is_the_first_instant_and_a_finding_says_so() -> None:
     assert "viscoelastic" not in elastic.found
 
 
+def test_steps_of_approach_and_parting_take_the_time_of_the_ramp() -> None:
+    adhesion = {"work": "5 mJ/m**2", "range": "20 nm", "retract": "40 nm", "steps": 4}
+    soft = {"surface": {"kind": "sphere", "points": [24, 24], "size": "2 um", "radius": "5 um"}}
+    table = BALL | soft | {"body": "E=3MPa+10MPa@10ms,nu=0.45", "control": {"approach": "10 nm"}, "adhesion": adhesion}
+    outcome = asp.run(table | {"viscoelastic": {"ramp": "5 ms", "steps": 3}})
+    np.testing.assert_allclose(outcome.found["viscoelastic"].values["step_end"], 5e-3 * np.arange(1, 10))
+    assert outcome.values["viscoelastic_heat"] > 0.0
+    assert outcome.values["pull_off_force"] > 0.0
+
+
 def test_oscillation_is_the_shortcut_of_python() -> None:
     table = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"frequency": "1 Hz", "amplitude": "1 nm"}}
     outcome = asp.run(table)
