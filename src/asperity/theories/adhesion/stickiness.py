@@ -114,7 +114,9 @@ class PastewkaRobbins(Theory):
 
 @dataclass(frozen=True)
 class PerssonTosatti(Theory):
-    """Work of adhesion that full contact of a rough surface leaves: w - U_el/A; there is no full contact where it is negative.
+    """Work of adhesion that full contact of a rough surface leaves; there is no full contact where it is negative.
+
+        w_eff = w - U_el/A,  U_el/A = (E*/4) ∫ q C(q) d²q.
 
     Examples
     --------
