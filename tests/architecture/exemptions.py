@@ -14,6 +14,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "indentation": "independent keyword-only choices of the user, each with a default",
         "Indentation.of": "the same choices as those of the function",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
+        "hertz_pass": "independent keyword-only choices of the user, each with a default",
+        "sliding_pass": "independent keyword-only choices of the user, each with a default",
         "survey": "a compiled pass takes its arrays and numbers one by one",
         "survey_capped": "a compiled pass takes its arrays and numbers one by one",
         "mark_free": "a compiled pass takes its arrays and numbers one by one",

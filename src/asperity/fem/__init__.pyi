@@ -1,3 +1,4 @@
+from .bricks import brick_mesh, bricks
 from .contact import ContactSurface, Equilibrium, Pressed, Target
 from .elements import Elements, axisymmetric, mean_dilatation, plane_strain
 from .far_field import exterior
@@ -14,6 +15,8 @@ from .history import (
 from .indent import Depth, Indentation, Load, indentation
 from .indenters import Cone, FlatPunch, Paraboloid, Sphere
 from .mesh import Mesh, Resolution, layered_mesh, tensor_mesh
+from .pass_fields import PassInterface, RegionFindings, interface_tractions, region_findings
+from .passes import PassHistory, PassState, Track, cylinder_track, hertz_pass, line_load, sliding_pass, sphere_track
 from .solid import Response, Solid
 
 __all__ = [
@@ -32,20 +35,34 @@ __all__ = [
     "Load",
     "Mesh",
     "Paraboloid",
+    "PassHistory",
+    "PassInterface",
+    "PassState",
     "PlasticZone",
     "Pressed",
+    "RegionFindings",
     "Resolution",
     "Response",
     "Solid",
     "SolidFields",
     "Sphere",
     "Target",
+    "Track",
     "axisymmetric",
+    "brick_mesh",
+    "bricks",
+    "cylinder_track",
     "exterior",
+    "hertz_pass",
     "indentation",
+    "interface_tractions",
     "layered_mesh",
+    "line_load",
     "mean_dilatation",
     "plane_strain",
+    "region_findings",
     "ring_areas",
+    "sliding_pass",
+    "sphere_track",
     "tensor_mesh",
 ]
