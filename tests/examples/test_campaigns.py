@@ -57,13 +57,13 @@ def test_studies_of_the_gold_film_have_the_cases_of_the_chapter(name, tmp_path):
 
 
 def test_a_hard_film_protects_the_steel(tmp_path):
-    """The thicker film leaves less plastic strain in the steel, and one as soft as the steel flows itself; hard ones stay elastic and bear tension."""
+    """The thicker film leaves less plastic strain in the steel; the harder it is the less it flows itself, and it bears tension at its bottom."""
     data = finished("plastic_coating", tmp_path).dataset()
     base, film = (np.asarray(data[f"flow_{part}_strain"]) for part in ("base", "layer"))
     assert base.shape == (3, 3)
     assert (base[-1] < base[0]).all()
-    assert (film[:, 0] > 0.0).all()
-    assert (film[:, -1] < 0.1 * film[:, 0]).all()
+    assert (film > 0.0).all()
+    assert (np.diff(film, axis=1) < 0.0).all()
     assert (np.asarray(data["flow_layer_tension"])[:, -1] > 0.0).all()
 
 
