@@ -125,10 +125,18 @@ def test_work_of_adhesion_of_a_pair(run: Runner, tmp_path: Path) -> None:
     document, out = tmp_path / "case.toml", tmp_path / "out"
     document.write_text(dumps(checked(PROBLEM | {"adhesion": None})), encoding="utf-8")
     done = run(
-        "contact", "--from", document, "--adhesion-pair", "PDMS / teflon", "--adhesion-strength", "60kPa", "--out", out
+        "contact",
+        "--from",
+        document,
+        "--adhesion-pair",
+        "polystyrene / paraffin",
+        "--adhesion-strength",
+        "60kPa",
+        "--out",
+        out,
     )
     assert done.exit_code == 0, done.output
-    outcome, pair = load_outcome(out / "result.nc"), asp.work_of_adhesion("PDMS", "PTFE")
+    outcome, pair = load_outcome(out / "result.nc"), asp.work_of_adhesion("polystyrene", "paraffin wax")
     assert outcome.result.adhesion.law == asp.ExponentialAdhesion.of_strength(pair.work, 60e3)
     (words,) = (words for part, words in outcome.sections if part.name == "adhesion")
     assert dict(words.rows)["work of adhesion from"] == "; ".join(pair.sources)
@@ -159,8 +167,8 @@ def test_criteria_stand_beside_a_rough_contact() -> None:
         {"work": "50 nm", "range": "1 nm"},
         {"work": "50 mJ/m**2", "law": "jkr", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "branch": True},
-        {"work": "50 mJ/m**2", "pair": "PDMS/PTFE", "range": "1 nm"},
-        {"pair": "PDMS", "range": "1 nm"},
+        {"work": "50 mJ/m**2", "pair": "polystyrene/wax", "range": "1 nm"},
+        {"pair": "polystyrene", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "jump_tolerance": "0.1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
     ],

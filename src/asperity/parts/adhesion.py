@@ -66,7 +66,7 @@ class AdhesionSettings(Settings):
     pair: str | None = setting(
         None,
         option="--adhesion-pair",
-        help="Two solids whose work of adhesion it is, instead of --adhesion: PDMS/fused silica",
+        help="Two solids whose work of adhesion it is, instead of --adhesion: polystyrene/paraffin wax",
     )
     law: Law = setting("exponential", option="--adhesion-law", help="Attraction as a function of the gap")
     range: Length | None = setting(None, option="--adhesion-range", help="Work over strength: 1nm")
@@ -93,11 +93,11 @@ class AdhesionSettings(Settings):
             gives = "neither" if self.work is None else "both"
             raise InputError(
                 ' must give either the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), or a pair of solids, such as pair = '
-                f'"PDMS/fused silica" (--adhesion-pair), but gives {gives}.'
+                f'"polystyrene/paraffin wax" (--adhesion-pair), but gives {gives}.'
             )
         if self.pair is not None and self.pair.count("/") != 1:
             raise InputError(
-                f'.pair (--adhesion-pair) must be two solids, such as "PDMS/fused silica", but is {self.pair!r}.'
+                f'.pair (--adhesion-pair) must be two solids, such as "polystyrene/paraffin wax", but is {self.pair!r}.'
             )
         given = (self.range is not None) + (self.strength is not None)
         if given and self.law == WITHOUT_RANGE:

@@ -14,15 +14,14 @@ from asperity.solids.surface_energy import solid_surfaces
 
 
 def test_equal_surfaces_take_twice_their_energy():
-    assert asp.work_of_adhesion("natural rubber", "Rubber").work == pytest.approx(0.071, rel=1e-12)
     # A/(12π D0²) is the work of van der Waals' law of the same constant
     law = VanDerWaalsAdhesion.of_hamaker(6.5e-20)
     assert asp.work_of_adhesion("polystyrene", "PS").work == pytest.approx(law.work, rel=1e-12)
 
 
 def test_pairs_are_geometric_means_in_either_order():
-    one, other = (asp.work_of_adhesion(name, name).work for name in ("PTFE", "PDMS"))
-    for pair in (("PTFE", "PDMS"), ("PDMS", "PTFE")):
+    one, other = (asp.work_of_adhesion(name, name).work for name in ("polystyrene", "wax"))
+    for pair in (("polystyrene", "wax"), ("Wax", "polystyrene")):
         found = asp.work_of_adhesion(*pair)
         assert found.work == pytest.approx(math.sqrt(one * other), rel=1e-12)
         assert len(found.sources) == 2
