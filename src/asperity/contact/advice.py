@@ -10,11 +10,13 @@ import numpy as np
 from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
-from ..solids.layers import Layered, materials_of, surface_material
+from ..solids.layers import Layered, RigidBase, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from ..theories.wet.meniscus import wetting_factor
 from .couplings.menisci import Menisci
+from .couplings.plastic_flow import NAME as PLASTIC_FLOW
+from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
 from .laws import LayeredHardness, LimitByDepth
 from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
 from .result import LARGEST_DUALITY_GAP, ContactResult
@@ -85,7 +87,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 
 def review(result: ContactResult) -> tuple[Advice, ...]:
-    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, menisci."""
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, plastic flow, menisci."""
     wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
     return (
         *doubts(result),
@@ -95,6 +97,8 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
         *_seam(result),
         *_plastic(result),
         *_hardness(result),
+        *_flow_settled(result),
+        *(() if result.plastic_flow is None else _flow(result.plastic_flow)),
         *wet,
     )
 
@@ -293,8 +297,11 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
-    law = result.problem.law
-    for body in (result.problem.body, result.problem.counter_body):
+    law, flow = result.problem.law, result.plastic_flow
+    for name_of in ("body", "counter_body"):
+        body = getattr(result.problem, name_of)
+        if flow is not None and flow.of == name_of:
+            continue  # its flow is solved
         if isinstance(law, LayeredHardness) and law.body == body:
             continue  # pressed through its top layer it bears more or less than that layer's hardness
         solid = surface_material(body)
@@ -308,6 +315,44 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
                 f"The maximum pressure {above} the hardness of {name}: it would yield. Use the law Hardness(...) with that hardness "
                 "(--hardness body).",
             )
+
+
+def _flow_settled(result: ContactResult) -> Iterator[Advice]:
+    for check in result.certificate.couplings:
+        if check.name == PLASTIC_FLOW and check.residual > check.tolerance:
+            yield Advice(
+                "warning",
+                "plastic flow",
+                f"The plastic strain is not settled: the return mapping still changes it by {check.residual:.1e} of itself (at most "
+                f"{check.tolerance:g} wanted). {PlasticFlowCoupling.remedy}",
+            )
+
+
+def _flow(flow: PlasticBody) -> Iterator[Advice]:
+    """Strains that are not small, and zones deeper than the cells."""
+    if not flow.small_strain:
+        zone = max(flow.zones, key=lambda item: item.largest_strain)
+        yield Advice(
+            "warning",
+            "small strain",
+            f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {_part(zone.name)}; above "
+            f"{percent(SMALL_STRAIN)} small strains are no longer a good description. Lower the load or smooth sharp summits, or take "
+            "imprint and pressures as qualitative there.",
+        )
+    body = flow.problem.body if flow.of == "body" else flow.problem.counter_body
+    end = float(flow.flowed.edges[-1]) if flow.reaches_end else math.inf
+    on_rigid = isinstance(body, Layered) and isinstance(body.base, RigidBase) and end > (1.0 - 1e-9) * body.thickness
+    if flow.reaches_end and not on_rigid:
+        yield Advice(
+            "warning",
+            "depth of the cells",
+            f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
+            "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
+        )
+
+
+def _part(name: str) -> str:
+    return "the base" if name == "base" else name
 
 
 def _mean_square(profile: Surface, axis: str, order: int) -> float:

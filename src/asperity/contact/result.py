@@ -226,9 +226,10 @@ class ContactResult(Stored):
     plastic_area_fraction
         Area at the pressure cap over real contact area.
     indented_area, plastic_volume
-        Area (m²) of the pixels with permanent indentation, so ever at the cap, and volume (m³) of the indentation.
+        Area (m²) of the pixels with permanent indentation, so ever at the cap; volume (m³) below the surface before of the indentation
+        and of the imprint of plastic flow in the volume.
     max_permanent_indentation
-        Maximum of ``permanent_indentation``, m.
+        Largest depth of both, m.
     normal_stiffness
         d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out (``Keep``); infinite in periodic
         full contact.
@@ -425,13 +426,17 @@ class ContactResult(Stored):
         return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier, self.deflections)
 
     def residual_surface(self, part: Literal["composite", "body", "counter_body"] = "composite") -> Surface:
-        """Surface that is left when the load is taken away: the one before less the permanent indentation.
+        """Surface that is left when the load is taken away: the one before less the permanent indentation and the imprint of plastic flow.
+
+        The imprint is that of the plastic strain so far: what flows in reverse while the load is taken away is not in it. Its zero is that
+        of ``plastic_flow.displacement``, and around it the surface may be piled up.
 
         Parameters
         ----------
         part
             ``"composite"``, the sum of both surfaces, which holds whichever body yields; or the surface of the
-            ``"body"`` or ``"counter_body"`` if that is the softer one, which takes all of the indentation.
+            ``"body"`` or ``"counter_body"`` if that is the softer one, which takes all of the indentation. Of plastic flow in
+            the volume the body that flows takes the imprint, and the other one keeps its surface.
 
         Raises
         ------
@@ -447,7 +452,10 @@ class ContactResult(Stored):
             pair = part == "composite" and isinstance(counter, Surface)
             before = composite(surface, counter) if pair else surface  # type: ignore[arg-type]
         load = f"{self.mean_pressure:.6g} Pa"
-        return before.with_heights(before.heights - self.permanent_indentation, f"indented for good, last load {load}")
+        left: RealArray = before.heights - self.permanent_indentation
+        if self.plastic_flow is not None and part in ("composite", self.plastic_flow.of):
+            left = left - self.plastic_flow.displacement
+        return before.with_heights(left, f"indented for good, last load {load}")
 
 
 def assemble(
@@ -521,7 +529,7 @@ def assemble(
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
         deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
-        **_indentation(problem, before, memories["hardness"]),
+        **_indentation(problem, before, memories["hardness"], outcomes.get("plastic_flow")),
     )
 
 
@@ -541,15 +549,18 @@ def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operato
     return normal_stiffness(operator, result.contact & ~result.plastic)
 
 
-def _indentation(problem: ContactProblem, state: InterfaceState | None, memory: Memory) -> dict[str, Any]:
-    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``."""
+def _indentation(
+    problem: ContactProblem, state: InterfaceState | None, memory: Memory, flow: PlasticBody | None
+) -> dict[str, Any]:
+    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the imprint of ``flow``."""
     permanent, total = memory["indentation"], float(memory["work"])
+    dent = permanent if flow is None else np.maximum(permanent + flow.displacement, 0.0)
     pixel = problem.grid.pixel_area
     return {
         "permanent_indentation": permanent,
         "plastic_work": total - (0.0 if state is None else state.plastic_work),
         "total_plastic_work": total,
         "indented_area": int(np.count_nonzero(permanent)) * pixel,
-        "plastic_volume": float(permanent.sum()) * pixel,
-        "max_permanent_indentation": float(permanent.max()),
+        "plastic_volume": float(dent.sum()) * pixel,
+        "max_permanent_indentation": float(dent.max()),
     }

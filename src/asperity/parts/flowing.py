@@ -222,17 +222,9 @@ def _zone_rows(flow: PlasticBody, body: Body) -> list[Any]:
 
 
 def _findings(flow: PlasticBody, body: Body) -> tuple[Advice, ...]:
-    """Strains that are not small, zones that reach the deepest cell, yield stresses from the hardness, no flow at all."""
+    """Yield stresses from the hardness, no flow at all; the rest is found in the review of the contact."""
     made = list(inferred_strengths(body))
     largest = max(zone.largest_strain for zone in flow.zones)
-    if not flow.small_strain:
-        text = (
-            f"The plastic strain reaches {percent(largest)}. Above 10 % small strains are no longer a good description."
-        )
-        made.append(Advice("warning", "small strain", text))
-    if flow.reaches_end:
-        text = f"Points in the deepest cell flow, at {show(float(flow.flowed.edges[-1]), 'm', 3)}. Give a larger depth (--plastic-depth)."
-        made.append(Advice("warning", "depth of the cells", text))
     if not largest > 0.0:
         made.append(Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic."))
     return tuple(made)

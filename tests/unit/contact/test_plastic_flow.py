@@ -14,6 +14,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.solve import Prepared
 from asperity.core.errors import InputError
+from asperity.core.units import percent
 from asperity.solids.plasticity import J2, LinearHardening, Swift
 
 STEEL, FILM = asp.Elastic(200e9, 0.3), asp.Elastic(400e9, 0.25)
@@ -240,3 +241,73 @@ def test_a_result_without_it() -> None:
 
 def test_one_coupling_is_prepared() -> None:
     assert [coupling.name for coupling in Prepared(problem()).couplings] == ["hardness", "plastic_flow"]
+
+
+def criteria(result: asp.ContactResult) -> set[str]:
+    return {item.criterion for item in asp.review(result)}
+
+
+def test_findings_of_the_review() -> None:
+    """Each on its case with its number, none on a sound one; the hardness of a body whose flow is solved is no finding."""
+    mine = {"small strain", "depth of the cells", "plastic flow", "hardness"}
+    assert not mine & criteria(course().last)
+    shallow = asp.solve(problem(plastic_flow=replace(FLOW, depth=80e-9, cells=8)), asp.MeanPressure(0.25e9))
+    assert mine & criteria(shallow) == {"depth of the cells"}
+    flow = course().last.plastic_flow
+    film, base = flow.zones
+    large = replace(flow, zones=(film, replace(base, largest_strain=0.123)))
+    found = [
+        item for item in asp.review(replace(course().last, couplings={"plastic_flow": large})) if item.criterion in mine
+    ]
+    assert [item.criterion for item in found] == ["small strain"]
+    assert percent(0.123) in found[0].message
+    hard = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9, hardness=0.5e9))
+    soft = J2(hard, LinearHardening(0.8e9, 4e9))
+    for law, told in ((None, True), (asp.PlasticFlow(soft, cells=12), False)):
+        result = asp.solve(problem(body=hard, plastic_flow=law), asp.MeanPressure(0.05e9))
+        assert ("hardness" in criteria(result)) is told
+
+
+def test_findings_of_a_rigid_base() -> None:
+    """A film that flows down to the rigid base it lies on needs no more cells."""
+    body = asp.Layered([asp.Layer(STEEL, 60e-9)], asp.RigidBase())
+    result = asp.solve(problem(body=body, plastic_flow=asp.PlasticFlow((SOFT, None), cells=8)), asp.MeanPressure(0.5e9))
+    assert result.plastic_flow.reaches_end
+    assert "depth of the cells" not in criteria(result)
+
+
+def test_flow_that_is_not_settled_is_told() -> None:
+    """The certificate holds the residual of the coupling, within its tolerance; a run that ended beyond it is a finding."""
+    (check,) = course().last.certificate.couplings
+    assert (check.name, check.tolerance) == ("plastic_flow", 1e-4)
+    assert 0.0 <= check.residual <= check.tolerance
+    result = course().last
+    broken = replace(result.certificate, couplings=(replace(check, residual=3e-3),))
+    unsettled = replace(result, certificate=broken)
+    found = next(item for item in asp.review(unsettled) if item.criterion == "plastic flow")
+    assert "3.0e-03" in found.message
+
+
+def test_residual_surface_has_the_imprint() -> None:
+    """The surface under which the unloaded bodies lie is left; volume and depth are those of what lies below the old one."""
+    result = course().steps[4]
+    imprint = result.plastic_flow.displacement
+    left = result.residual_surface().heights
+    np.testing.assert_allclose(left, rough().heights - imprint, rtol=0.0, atol=1e-18)
+    assert result.max_permanent_indentation == imprint.max() > 0.0
+    assert result.plastic_volume == pytest.approx(imprint[imprint > 0.0].sum() * (25e-9) ** 2)
+    assert result.indented_area == 0.0  # no point was at a cap
+    assert not result.state.permanent_indentation.any()
+    again = asp.solve(problem(surface=result.residual_surface(), plastic_flow=None), asp.MeanPressure(0.1e9))
+    np.testing.assert_allclose(
+        again.pressure, course().steps[3].pressure, atol=0.03 * again.max_pressure
+    )  # elastic on the way back
+
+
+def test_the_body_that_flows_takes_the_imprint() -> None:
+    turned = asp.ContactProblem(rough(), asp.Rigid(), counter_body=BODY, plastic_flow=FLOW)
+    result = asp.solve(turned, asp.MeanPressure(0.25e9))
+    assert result.plastic_flow.of == "counter_body"
+    assert np.array_equal(result.residual_surface("body").heights, rough().heights)
+    assert np.array_equal(result.residual_surface("counter_body").heights, -result.plastic_flow.displacement)
+    assert np.array_equal(result.residual_surface().heights, rough().heights - result.plastic_flow.displacement)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ...core.spectral import thread_count
 from ...solids.eigenstrain.cells import DepthCells, depth_edges, interfaces, stack_of
 from ...solids.eigenstrain.flow import Extrapolation, Flowed, Points, VolumeFlow
 from ...solids.eigenstrain.operator import EigenstrainOperator
-from ...solids.elastic import Elastic
+from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
 from ..boundary import Free
@@ -135,6 +135,11 @@ class PlasticBody:
     def small_strain(self) -> bool:
         """Whether all accumulated plastic strains are below 0.1."""
         return max((zone.largest_strain for zone in self.zones), default=0.0) < SMALL_STRAIN
+
+    @property
+    def of(self) -> Literal["body", "counter_body"]:
+        """Which body of the contact flows."""
+        return "counter_body" if isinstance(self.problem.body, Rigid) else "body"
 
     @property
     def depths(self) -> RealArray:
