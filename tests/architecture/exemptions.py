@@ -13,6 +13,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "app": "one for each option of the command line",
         "indentation": "independent keyword-only choices of the user, each with a default",
         "Indentation.of": "the same choices as those of the function",
+        "StressPlanes.__init__": "independent keyword-only choices of the user, and the stress that a result knows beside its tractions",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "hertz_pass": "independent keyword-only choices of the user, each with a default",
         "sliding_pass": "independent keyword-only choices of the user, each with a default",

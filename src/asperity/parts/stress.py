@@ -15,7 +15,7 @@ from pydantic import model_validator
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
-from ..core.units import show
+from ..core.units import percent, show
 from ..core.values import Choice, Length, NonNegativeLength, Number, Pressure
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
@@ -254,7 +254,8 @@ class Yielding(Part):
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Load factor of the survey."""
         survey = solved.found["stress"].detail
-        return Found({"yield_load_factor": survey.yielding.load_factor}, survey)
+        factor = math.nan if has_flowed(survey) else survey.yielding.load_factor
+        return Found({"yield_load_factor": factor}, survey)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Which part of the body yields first, and when."""
@@ -337,7 +338,9 @@ def stress_words(survey: StressSurvey) -> Words:
 
 
 def yield_words(survey: StressSurvey) -> Words:
-    """Which part of the body yields first, and when."""
+    """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
+    if has_flowed(survey):
+        return Words(flow_sentence(survey))
     table = yield_table(survey)
     return Words(yield_sentence(survey), tables=(("", table),) if table.cells else (), alarming=survey.yielding.yields)
 
@@ -433,6 +436,24 @@ def strength_table(survey: StressSurvey) -> Table:
     return Table(("Largest", "Value", "Strength", "Value / strength", "Depth"), tuple(cells))
 
 
+def has_flowed(survey: StressSurvey) -> bool:
+    """Whether plastic flow of the body in the volume was solved, and some of it has flowed: its stresses are no elastic ones."""
+    flow = getattr(survey.result, "plastic_flow", None)
+    return flow is not None and flow.of == survey.request.of and bool(flow.flowed.points.size)
+
+
+def flow_sentence(survey: StressSurvey) -> str:
+    """Which parts have flowed, and from which load on."""
+    zones = [zone for zone in survey.result.plastic_flow.zones if zone.volume > 0.0]  # type: ignore[attr-defined]
+    parts = " and ".join(
+        f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to {percent(zone.largest_strain)})"
+        for zone in zones
+    )
+    known = [zone.first_yield for zone in zones if math.isfinite(zone.first_yield)]
+    first = f" First yield is found in the step to a mean pressure of {show(min(known), 'Pa', 3)}." if known else ""
+    return f"The body has flowed plastically in {parts}; the stresses hold that plastic strain.{first}"
+
+
 def yield_sentence(survey: StressSurvey) -> str:
     """Which part of the body yields first, and when."""
     report, first = survey.yielding, survey.yielding.first
@@ -462,6 +483,11 @@ def remarks(survey: StressSurvey) -> list[str]:
         "Largest values are those on the planes that were computed; at the surface they are resolved no better than the "
         "pixels are.",
     ]
+    if has_flowed(survey):
+        found[0] = (
+            "The stresses are those by the tractions and by the plastic strain, which is constant in depth within each depth cell: a mean over a "
+            "cell is at most at the yield stress after hardening, single planes may pass it."
+        )
     if survey.result.plastic.any():
         found.append(
             "Pressures are limited by the hardness here, but the stresses are those of an elastic body under these "

@@ -14,7 +14,7 @@ from ..core.errors import InputError
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ..solids.layers import materials_of
 from ..solids.viscoelastic import Viscoelastic, alike
-from .boundaries import FreePlanes, PeriodicPlanes, Reader, require_held
+from .boundaries import FreePlanes, PeriodicPlanes, Reader, Rows, require_held
 from .field import StressField
 from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack
 from .tractions import LoadedBody, Shear, ShearTraction, Sliding, Tractions
@@ -58,6 +58,75 @@ class Planes(Protocol):
         """Displacement of ``plane``."""
 
 
+class Residual(Protocol):
+    """Stress of a body beside that by its tractions, such as by plastic strain."""
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers on it."""
+
+    def at(self, depth: float, *, above: bool, below: bool) -> RealArray:
+        """(6, nx, ny) in Pa at ``depth`` (m), on the asked sides of it, or their mean."""
+
+
+class WithResidual:
+    """Stress by tractions on ``planes`` and the ``residual`` stress, in numbers of the type ``dtype``."""
+
+    def __init__(self, planes: Planes, residual: Residual, dtype: str) -> None:
+        self._planes, self._residual, self._dtype = planes, residual, dtype
+        self._last: tuple[Plane, RealArray] | None = None
+
+    def _added(self, plane: Plane) -> RealArray:
+        """Residual stress (6, nx, ny) on ``plane``; that of the last one is kept."""
+        if self._last is None or self._last[0] != plane:
+            sides = {"above": plane.side in ("above", "inside"), "below": plane.side != "above"}
+            self._last = plane, self._residual.at(plane.depth, **sides).astype(self._dtype)
+        return self._last[1]
+
+    def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
+        """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
+        found = self._planes.stress(plane, out)
+        for component, added in zip(vars(found).values(), self._added(plane), strict=True):
+            component += added
+        return found
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress (Pa) on ``plane`` to ``reader`` some rows at a time."""
+        added = self._added(plane)
+
+        def whole(rows: Rows) -> Rows:
+            for first, part in rows:
+                yield first, part + added[:, first : first + part.shape[1]]
+
+        self._planes.read(plane, lambda rows: reader(whole(rows)))
+
+    def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
+        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …)."""
+        added = self._added(plane)
+        found = zip(self._planes.at(plane, places), places, strict=True)
+        return [field + added[(slice(None), *place.index)] for field, place in found]
+
+    def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
+        """Refused: see ``_require_as_elastic``."""
+        raise _displaced()
+
+
+def _displaced() -> InputError:
+    return InputError(
+        "displacement inside a body must be left out where it has flowed, since that by the plastic strain is known at the surface alone, "
+        "but is asked for. result.plastic_flow.displacement is that of the surface."
+    )
+
+
+def residual_of(result: Any, of: Of, threads: int | None) -> Residual | None:
+    """Residual stress that ``result`` knows of one of its bodies: that of plastic flow in the volume; None without."""
+    flow = getattr(result, "plastic_flow", None)
+    if flow is None or flow.of != of or not flow.flowed.points.size:
+        return None
+    found: Residual = flow.residual(threads)
+    return found
+
+
 def _planes_of(
     result: Loaded | LoadedBody,
     friction: float | Shear | None,
@@ -76,12 +145,14 @@ def _planes_of(
             )
         return result.tractions, result.body
     tractions, body = tractions_on(result, friction, direction, of), getattr(result.problem, of)
-    _require_as_elastic(result, body, displacement=displacement)
+    _require_as_elastic(result, body, of, displacement=displacement)
     return tractions, body
 
 
-def _require_as_elastic(result: Loaded, body: Any, *, displacement: bool) -> None:
-    """Refuse bodies whose stresses depend on what has relaxed: layers that relax differently, or a Poisson's ratio that does."""
+def _require_as_elastic(result: Loaded, body: Any, of: Of, *, displacement: bool) -> None:
+    """Refuse bodies whose stresses depend on what has relaxed (layers that relax differently, a Poisson's ratio that does), and displacements that
+    are not known.
+    """
     materials = materials_of(body)
     if getattr(result, "creep", None) is not None and materials and not alike(materials):
         raise InputError(
@@ -93,6 +164,8 @@ def _require_as_elastic(result: Loaded, body: Any, *, displacement: bool) -> Non
             "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
             "The displacement of the surface is in the result."
         )
+    if displacement and residual_of(result, of, None) is not None:
+        raise _displaced()
 
 
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
@@ -175,10 +248,13 @@ def stress(
     relative to the mean of the surface (or to a rigid base). Free boundary: exact for constant tractions on pixels, to
     rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity
     (free line: at the datum of the contact).
+    Plastic flow in the volume (``result.plastic_flow``): the residual stress of the plastic strain is added, which is constant in depth within each
+    depth cell; yield is required of the mean over a cell, which ``result.plastic_flow.stress`` gives. Displacements are then refused.
     Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel.
     """
     loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
-    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
+    residual = residual_of(result, of, threads)
+    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads, residual=residual)
     return job.whole(displacement=displacement)
 
 
@@ -199,12 +275,13 @@ def stress_planes(
     Arguments and errors as for ``stress``; give the planes to ``save_stress`` or ``export_stress_vtk`` to write a volume.
     """
     loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
-    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads)
+    residual = residual_of(result, of, threads)
+    job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads, residual=residual)
     return job.each(displacement=displacement)
 
 
 class StressPlanes:
-    """Stress under any ``tractions`` on a body, ready to be computed; arguments and errors as for ``stress``."""
+    """Stress under any ``tractions`` on a body, and perhaps a ``residual`` one, ready to be computed; arguments and errors as for ``stress``."""
 
     def __init__(
         self,
@@ -215,16 +292,19 @@ class StressPlanes:
         on: Where = Everywhere(),
         dtype: str = "float64",
         threads: int | None = None,
+        residual: Residual | None = None,
     ) -> None:
         require.one_of(dtype, ("float64", "float32"), "precision of stresses")
         self.planes = planes(body, depths)
         require_held(tractions, body)
         kind = PeriodicPlanes if tractions.boundary == "periodic" else FreePlanes
-        self._source: Planes = kind(tractions, body, dtype=dtype, threads=threads)
+        by_load: Planes = kind(tractions, body, dtype=dtype, threads=threads)
+        self._source = by_load if residual is None else WithResidual(by_load, residual, dtype)
         self.dtype = dtype
         self._grid, self._pressure = tractions.grid, tractions.pressure
         self._place = self.place(on)
-        self.citation_keys = papers(body, tractions.boundary, sheared=tractions.sheared)
+        keys = papers(body, tractions.boundary, sheared=tractions.sheared)
+        self.citation_keys = keys if residual is None else tuple(sorted({*keys, *residual.citation_keys}))
 
     def each(self, *, displacement: bool = False) -> Iterator[StressField]:
         """One field after the other, each of one plane."""

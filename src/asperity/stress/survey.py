@@ -18,7 +18,7 @@ from ..core.status import NoProgress, Progress
 from ..core.tensor import STRESSES, StressTensor
 from ..solids.elastic import Rigid
 from .boundaries import Reader, Rows, require_held
-from .compute import Loaded, StressPlanes, papers, tractions_on
+from .compute import Loaded, StressPlanes, papers, residual_of, tractions_on
 from .criteria import Criterion, VonMises
 from .extremes import Extremes, InterfaceMaxima, RegionMaxima
 from .field import Peak, StressField
@@ -432,7 +432,8 @@ def _job(request: StressRequest, result: Contact, depths: Iterable[float], threa
     own = request.sheared and getattr(result, "stick_slip", None) is not None  # brings its own shear
     friction = None if own else request.friction
     loads = tractions_on(result, friction, request.direction, request.of)
-    return StressPlanes(loads, getattr(result.problem, request.of), values, **options)
+    residual = residual_of(result, request.of, threads)
+    return StressPlanes(loads, getattr(result.problem, request.of), values, residual=residual, **options)
 
 
 _Item = TypeVar("_Item")

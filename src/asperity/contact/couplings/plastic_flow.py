@@ -24,13 +24,13 @@ from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
-from ..boundary import Free
 from ..laws import Coulomb
 from ..laws.plastic_flow import PlasticFlow, plastic_body
 from ..problem import ContactProblem
 from ..solvers.active_set.solver import ActiveSet
 from ..solvers.protocol import FixedOffset, Solver, run
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from .residual_stress import ResidualStress, operator_of
 
 NAME = "plastic_flow"
 
@@ -183,11 +183,9 @@ class PlasticBody:
         operator = operator_of(self.problem, self.flowed.edges, threads)
         return operator.stress(np.ascontiguousarray(self.plastic_strain), pressure, shear)[0]
 
-
-def operator_of(problem: ContactProblem, edges: RealArray, threads: int | None = None) -> EigenstrainOperator:
-    """Operator of the plastic body of ``problem`` with depth cells between ``edges``."""
-    cells = DepthCells(plastic_body(problem.body, problem.counter_body)[0], edges)
-    return EigenstrainOperator.prepared(problem.grid, cells, free=isinstance(problem.boundary, Free), threads=threads)
+    def residual(self, threads: int | None = None) -> ResidualStress:
+        """Stress by the plastic strain alone at any depth; ``stress`` of a result adds it."""
+        return ResidualStress(self, threads)
 
 
 @dataclass

@@ -1,0 +1,147 @@
+"""Stresses of a contact with plastic flow: by tractions and plastic strain together, and what is said of yield then."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from refusals import refused
+
+import asperity as asp
+from asperity.core.errors import InputError
+from asperity.parts.stress import Yielding, remarks, yield_words
+from asperity.solids.eigenstrain.cells import DepthCells, depth_edges
+from asperity.solids.eigenstrain.slices import slice_at
+from asperity.solids.plasticity import J2, LinearHardening
+from asperity.stress.survey import StressRequest, WantedProfile, survey
+
+STEEL = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
+FILM = asp.Elastic(400e9, 0.25, asp.Strength(yield_stress=2e9))
+BODY = asp.Layered([asp.Layer(FILM, 60e-9)], STEEL)
+FLOW = asp.PlasticFlow((J2(FILM, LinearHardening(2e9, 20e9)), J2(STEEL, LinearHardening(0.8e9, 4e9))), cells=14)
+NAMES = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+def problem(**changes: Any) -> asp.ContactProblem:
+    n, m = 24, 20
+    x, y = 2.0 * np.pi * np.arange(n)[:, None] / n, 2.0 * np.pi * np.arange(m)[None, :] / m
+    heights = 1.2e-9 * (np.cos(x + 0.3) * np.cos(y) + 0.4 * np.cos(2 * x - y + 1.0))
+    return replace(asp.ContactProblem(asp.Surface(heights, 25e-9, 25e-9), BODY, plastic_flow=FLOW), **changes)
+
+
+@cache
+def solved(boundary: str = "periodic") -> asp.ContactResult:
+    free = boundary == "free"
+    changes: dict[str, Any] = {"boundary": asp.Free()} if free else {"friction": asp.Coulomb(0.2, direction=0.4)}
+    return asp.solve(problem(**changes), asp.MeanPressure(0.4e9))
+
+
+def planes(field: asp.StressField) -> np.ndarray:
+    return np.stack([getattr(field.tensor, name) for name in NAMES], axis=1)
+
+
+@pytest.mark.parametrize("number", [0, 4, 8])
+def test_means_over_cells_are_those_of_the_flow(number: int) -> None:
+    """Gauss points over a depth cell, from sweeps over other cells; what is beside the stress of the elastic contact."""
+    result = solved()
+    flow = result.plastic_flow
+    assert flow.residual_energy > 0.0
+    edges, (points, weights) = flow.flowed.edges, np.polynomial.legendre.leggauss(4)
+    low, high = edges[number], edges[number + 1]
+    depths = 0.5 * (low + high) + 0.5 * (high - low) * points
+    found = planes(asp.stress(result, depths)) - planes(asp.stress(replace(result, couplings={}), depths))
+    mean = np.tensordot(0.5 * weights, found, (0, 0))
+    wanted = flow.stress()[number]
+    np.testing.assert_allclose(mean, wanted, rtol=0.0, atol=1e-6 * np.abs(wanted).max())
+
+
+def test_flow_takes_the_stress_down_to_the_yield_stress() -> None:
+    """In the middle of the cell that has flowed most; the elastic stress there is far beyond."""
+    flow = solved().plastic_flow
+    zone = max(flow.zones, key=lambda each: each.largest_strain)
+    x, y, depth = zone.place
+    here = asp.DepthProfile(x, y)
+    held = float(asp.stress(solved(), [depth], on=here).von_mises[0])
+    elastic = float(asp.stress(replace(solved(), couplings={}), [depth], on=here).von_mises[0])
+    law = FLOW.plasticity[0 if zone.name == "layer 1" else 1]
+    limit = float(law.hardening.yield_stress(np.array([zone.largest_strain]))[0])
+    assert elastic > 1.15 * limit
+    assert held == pytest.approx(limit, rel=0.05)
+
+
+@pytest.mark.parametrize("boundary", ["periodic", "free"])
+def test_tractions_at_surface_and_interface(boundary: str) -> None:
+    """The surface carries the tractions alone; tractions pass the interface, lateral stresses jump there."""
+    result = solved(boundary)
+    field = asp.stress(result, [0.0, 60e-9])
+    surface, above, below = planes(field)
+    assert np.array_equal(surface[2], -result.pressure)
+    scale = np.abs(above).max()
+    np.testing.assert_allclose(above[[2, 4, 5]], below[[2, 4, 5]], rtol=0.0, atol=2e-4 * scale)
+    assert np.abs(above[0] - below[0]).max() > 0.05 * scale
+    elastic = planes(asp.stress(replace(result, couplings={}), [0.0, 60e-9]))
+    assert np.abs(np.stack([surface, above, below]) - elastic).max() > 0.02 * scale
+
+
+def test_below_the_cells_it_decays() -> None:
+    """Deeper than the last cell the residual stress goes on without a jump, and falls by exp(-q z) of the longest wave or faster."""
+    residual, flow = solved().plastic_flow.residual(), solved().plastic_flow
+    end = float(flow.flowed.edges[-1])
+    inside, outside = (residual.at(end * (1.0 + sign * 1e-5), above=True, below=True) for sign in (-1, 1))
+    np.testing.assert_allclose(inside[2], outside[2], rtol=0.0, atol=1e-3 * np.abs(inside).max())
+    length = solved().problem.grid.size[0]
+    far = residual.at(end + 2.0 * length, above=True, below=True)
+    assert np.abs(far).max() < 1e-3 * np.abs(outside).max()
+
+
+def test_lines_and_sections_are_cut_from_the_planes() -> None:
+    result, depths = solved(), [10e-9, 90e-9]
+    whole = asp.stress(result, depths)
+    section = asp.stress(result, depths, on=asp.Section(y="max"))
+    j = int(np.unravel_index(result.pressure.argmax(), result.pressure.shape)[1])
+    np.testing.assert_allclose(section.tensor.xx, whole.tensor.xx[:, :, j], atol=1e-9 * np.abs(whole.tensor.xx).max())
+
+
+def test_displacements_are_refused() -> None:
+    with refused(InputError, "displacement inside a body"):
+        asp.stress(solved(), [10e-9], displacement=True)
+
+
+def test_yield_is_told_by_the_flow() -> None:
+    """A survey of the same contact without its plastic strain says that the body yields; with it what has flowed, and no factor."""
+    request = StressRequest(friction=0.2, direction=0.4, sections=(), profiles=(WantedProfile("max", "max"),))
+    flowed = survey(request, solved(), threads=1)
+    elastic = survey(request, replace(solved(), couplings={}), threads=1)
+    assert elastic.yielding.yields
+    assert yield_words(elastic).alarming
+    words = yield_words(flowed)
+    assert not words.alarming
+    assert not words.tables
+    assert "base" in words.sentence
+    assert remarks(flowed) != remarks(elastic)
+    for found, known in ((flowed, False), (elastic, True)):
+        stage: Any = SimpleNamespace(found={"stress": SimpleNamespace(detail=found)})
+        assert np.isfinite(Yielding().compute(None, stage).values["yield_load_factor"]) == known
+    assert set(FLOW.citation_keys[:2]) <= set(flowed.citation_keys)
+
+
+def test_slices_hold_interfaces_and_depth() -> None:
+    """At an edge, within a cell, below the last one with an interface between, and at the surface."""
+    body = asp.Layered([asp.Layer(FILM, 1.0), asp.Layer(STEEL, 2.0)], FILM)
+    cells = DepthCells(body, depth_edges(body, 0.8, 0.1, 8))
+    for depth in (0.0, float(cells.edges[2]), 0.33, 2.0, 4.0):
+        cut = slice_at(cells, depth, above=depth > 0.0, below=True)
+        DepthCells(body, cut.edges)  # no cell crosses an interface
+        assert depth in cut.edges
+        for row in cut.rows:
+            assert depth in cut.edges[row : row + 2]
+            assert cut.edges[row + 1] - cut.edges[row] < 1e-4
+        for number, owner in enumerate(cut.owner):
+            middle = 0.5 * (cut.edges[number] + cut.edges[number + 1])
+            inside = middle < cells.edges[-1]
+            assert (owner >= 0) == inside
+            assert not inside or cells.edges[owner] < middle < cells.edges[owner + 1]
