@@ -145,3 +145,42 @@ def test_slices_hold_interfaces_and_depth() -> None:
             inside = middle < cells.edges[-1]
             assert (owner >= 0) == inside
             assert not inside or cells.edges[owner] < middle < cells.edges[owner + 1]
+
+
+def two_layers(load: float) -> asp.ContactResult:
+    body = asp.Layered([asp.Layer(FILM, 60e-9), asp.Layer(STEEL, 30e-9)], FILM)
+    film, steel = FLOW.plasticity
+    return asp.solve(
+        problem(body=body, plastic_flow=asp.PlasticFlow((film, steel, None), cells=14)), asp.MeanPressure(load)
+    )
+
+
+@pytest.mark.parametrize("load", [0.4e9, 1e6])
+def test_faces_of_layers_are_those_of_the_stress_field(load: float) -> None:
+    """Tractions by the sweeps over depth cells and by the transfer functions of stresses; with flow and where nothing flows."""
+    result = two_layers(load)
+    assert bool(result.plastic_flow.flowed.points.size) == (load > 1e8)
+    layers = result.plastic_flow.layers(result.pressure)
+    assert [layer.name for layer in layers] == ["layer 1", "layer 2"]
+    field = planes(asp.stress(result, [0.0, *(layer.bottom for layer in layers)]))  # faces from the surface down
+    scale = np.abs(field).max()
+    for number, layer in enumerate(layers):
+        upper, lower = field[2 * number], field[2 * number + 1]
+        for found, face in ((layer.top_tension, upper), (layer.bottom_tension, lower)):
+            largest = np.linalg.eigvalsh(np.moveaxis(face[[[0, 3], [3, 1]]], (0, 1), (-2, -1))).max()
+            assert found == pytest.approx(largest, abs=2e-3 * scale)
+        np.testing.assert_allclose(layer.normal, lower[2], rtol=0.0, atol=3e-4 * scale)
+        np.testing.assert_allclose(layer.shear, lower[4:6], rtol=0.0, atol=3e-4 * scale)
+        assert layer.largest_shear == pytest.approx(np.hypot(lower[4], lower[5]).max(), abs=3e-4 * scale)
+
+
+def test_interfaces_carry_the_load_and_nothing_without_it() -> None:
+    """Mean tractions balance those at the surface; what remains has no mean, but tension across the interface somewhere."""
+    result, shear = two_layers(0.4e9), np.stack([0.1 * np.ones((24, 20)), -0.2 * np.ones((24, 20))]) * 1e9
+    for layer in result.plastic_flow.layers(result.pressure, shear):
+        assert layer.normal.mean() == pytest.approx(-result.mean_pressure, rel=1e-9)
+        np.testing.assert_allclose(layer.shear.mean(axis=(1, 2)), [-0.1e9, 0.2e9], rtol=1e-9)
+    for layer in result.plastic_flow.layers():
+        assert abs(layer.normal.mean()) < 1e-9 * np.abs(layer.normal).max()
+        assert layer.peel > 0.0
+    assert not asp.solve(problem(), asp.MeanPressure(1e6)).plastic_flow.layers()[0].normal.any()

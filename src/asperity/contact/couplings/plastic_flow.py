@@ -30,7 +30,7 @@ from ..problem import ContactProblem
 from ..solvers.active_set.solver import ActiveSet
 from ..solvers.protocol import FixedOffset, Solver, run
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
-from .residual_stress import ResidualStress, operator_of
+from .residual_stress import LayerStress, ResidualStress, layer_stresses, operator_of
 
 NAME = "plastic_flow"
 
@@ -186,6 +186,16 @@ class PlasticBody:
     def residual(self, threads: int | None = None) -> ResidualStress:
         """Stress by the plastic strain alone at any depth; ``stress`` of a result adds it."""
         return ResidualStress(self, threads)
+
+    def layers(
+        self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
+    ) -> tuple[LayerStress, ...]:
+        """Tension along the faces of each layer and tractions of the interface below it, at the faces themselves.
+
+        Parameters as of ``stress``: without tractions those that remain when the load is gone.
+        """
+        places = interfaces(plastic_body(self.problem.body, self.problem.counter_body)[0])
+        return layer_stresses(self.residual(threads), places, pressure, shear)
 
 
 @dataclass

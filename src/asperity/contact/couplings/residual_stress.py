@@ -1,14 +1,16 @@
-"""Residual stress of the plastic strain at any depth."""
+"""Stress by plastic strain and tractions at any depth: residual stress, and what layers and interfaces bear."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
-from ...solids.eigenstrain.cells import DepthCells
+from ...solids.eigenstrain.cells import DepthCells, interfaces
 from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.eigenstrain.slices import slice_at
 from ..boundary import Free
@@ -43,14 +45,25 @@ class ResidualStress:
         self.citation_keys = body.citation_keys
 
     @cached_property
+    def _edges(self) -> RealArray:
+        """Edges (m) of the depth cells; of one as thick as the first layer or a pixel where nothing has flowed."""
+        problem, edges = self._body.problem, self._body.flowed.edges
+        if edges.size:
+            return edges
+        places = interfaces(plastic_body(problem.body, problem.counter_body)[0])
+        return np.array([0.0, float(places[0]) if places.size else problem.grid.spacing[0]])
+
+    @cached_property
     def _cells(self) -> DepthCells:
-        return cells_of(self._body.problem, self._body.flowed.edges)
+        return cells_of(self._body.problem, self._edges)
 
     @cached_property
     def _spectra(self) -> ComplexArray:
         """Transforms (cells, 6, …) of the plastic strain."""
-        operator = operator_of(self._body.problem, self._body.flowed.edges, self._threads)
+        operator = operator_of(self._body.problem, self._edges, self._threads)
         fields = operator.spectra()
+        if not self._body.flowed.edges.size:
+            return fields
         strain = np.ascontiguousarray(self._body.plastic_strain)
         busy = np.flatnonzero(strain.any(axis=(1, 2, 3)))
         operator.forward(strain, fields, [(int(cell), part) for cell in busy for part in range(6)])
@@ -61,17 +74,86 @@ class ResidualStress:
 
         Just ``above`` it, just ``below`` it, or the mean of both, which differ at interfaces and between cells; of the surface below it.
         """
+        found = self.loaded(depth, above=above, below=below)
+        if depth == 0.0:
+            found[_TRACTIONS] = 0.0
+        return found
+
+    def loaded(
+        self,
+        depth: float,
+        pressure: RealArray | None = None,
+        shear: RealArray | None = None,
+        *,
+        above: bool,
+        below: bool,
+    ) -> RealArray:
+        """As ``at``, with the stress by the tractions ``pressure`` (nx, ny) and ``shear`` (2, nx, ny) in Pa on the body."""
         cut = slice_at(self._cells, depth, above=above, below=below)
         operator = operator_of(self._body.problem, cut.edges, self._threads)
         fields = operator.spectra()
         held = cut.owner >= 0
         fields[held] = self._spectra[cut.owner[held]]
-        operator.respond(np.zeros((3, *operator.spectrum_shape), dtype=complex), fields)
+        none = np.zeros(operator.grid.shape)
+        operator.respond(operator.loads(none if pressure is None else pressure, shear), fields)
         rows = np.array(cut.rows)
         found = np.empty((rows.size, 6, *operator.grid.shape))
         pairs = [(number, part) for number in range(rows.size) for part in range(6)]
         operator.backward(np.ascontiguousarray(fields[rows]), found, pairs)
-        mean: RealArray = found.mean(axis=0)
-        if depth == 0.0:
-            mean[_TRACTIONS] = 0.0
-        return mean
+        return np.asarray(found.mean(axis=0))
+
+
+@dataclass(frozen=True, eq=False)
+class LayerStress:
+    """What may crack or peel one layer.
+
+    Attributes
+    ----------
+    name
+        ``"layer 1"`` and so on from the surface down.
+    top, bottom
+        Depths in m of its faces.
+    top_tension, bottom_tension
+        Largest principal stress in Pa along the upper and the lower face, within the layer: bending and stretch; negative where all of the
+        face is compressed.
+    normal
+        Stress σ_zz (nx, ny) in Pa across the interface below, positive in tension.
+    shear
+        Stresses σ_xz and σ_yz (2, nx, ny) in Pa there.
+    """
+
+    name: str
+    top: float
+    bottom: float
+    top_tension: float
+    bottom_tension: float
+    normal: RealArray
+    shear: RealArray
+
+    @property
+    def peel(self) -> float:
+        """Largest tension in Pa across the interface below; zero where it is pressed together everywhere."""
+        return max(float(self.normal.max()), 0.0)
+
+    @property
+    def largest_shear(self) -> float:
+        """Largest shear traction in Pa of the interface below."""
+        return float(np.hypot(*self.shear).max())
+
+
+def layer_stresses(
+    stress: ResidualStress, places: RealArray, pressure: RealArray | None, shear: RealArray | None
+) -> tuple[LayerStress, ...]:
+    """Faces of the layers between the surface and the interfaces at ``places`` (m), under these tractions on the body."""
+    tops, found = [0.0, *(float(z) for z in places)], []
+    for number, (top, bottom) in enumerate(pairwise(tops), start=1):
+        upper = stress.loaded(top, pressure, shear, above=False, below=True)
+        lower = stress.loaded(bottom, pressure, shear, above=True, below=False)
+        tensions = (_along(upper), _along(lower))
+        found.append(LayerStress(f"layer {number}", top, bottom, *tensions, lower[2], lower[4:6]))
+    return tuple(found)
+
+
+def _along(stress: RealArray) -> float:
+    """Largest principal stress in the plane."""
+    return float((0.5 * (stress[0] + stress[1]) + np.hypot(0.5 * (stress[0] - stress[1]), stress[3])).max())
