@@ -485,8 +485,9 @@ def remarks(survey: StressSurvey) -> list[str]:
     ]
     if has_flowed(survey):
         found[0] = (
-            "The stresses are those by the tractions and by the plastic strain, which is constant in depth within each depth cell: a mean over a "
-            "cell is at most at the yield stress after hardening, single planes may pass it."
+            "The stresses are those by the tractions and by the plastic strain, which is constant in depth within each depth cell. Means over a cell keep "
+            f"to the yield stress after hardening: their largest von Mises stress is {show(_cell_von_mises(survey), 'Pa', 3)}. Single planes may pass it "
+            "by far where cells are coarse against the waves of the surface, most of all at the surface itself: more points and more cells tell."
         )
     if survey.result.plastic.any():
         found.append(
@@ -494,6 +495,19 @@ def remarks(survey: StressSurvey) -> list[str]:
             "pressures: where they pass the yield stress they say that it yields, not how large they really are."
         )
     return found
+
+
+def _cell_von_mises(survey: StressSurvey) -> float:
+    """Largest von Mises stress (Pa) of the means over the depth cells of a body that has flowed, under the tractions of the contact."""
+    import numpy as np
+
+    from ..solids.plasticity import von_mises
+    from ..stress.compute import tractions_on
+
+    loads = tractions_on(survey.result, None, 0.0, survey.request.of)
+    shear = np.stack([loads.shear_x, loads.shear_y]) if loads.sheared else None
+    flow = survey.result.plastic_flow  # type: ignore[attr-defined]
+    return float(von_mises(np.moveaxis(flow.stress(loads.pressure, shear, threads=survey.threads), 1, -1)).max())
 
 
 def _prescribed(survey: StressSurvey) -> bool:

@@ -13,10 +13,11 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
+from asperity.core.units import show
 from asperity.parts.stress import Yielding, remarks, yield_words
 from asperity.solids.eigenstrain.cells import DepthCells, depth_edges
 from asperity.solids.eigenstrain.slices import slice_at
-from asperity.solids.plasticity import J2, LinearHardening
+from asperity.solids.plasticity import J2, LinearHardening, von_mises
 from asperity.stress.survey import StressRequest, WantedProfile, survey
 
 STEEL = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
@@ -122,7 +123,11 @@ def test_yield_is_told_by_the_flow() -> None:
     assert not words.alarming
     assert not words.tables
     assert "base" in words.sentence
-    assert remarks(flowed) != remarks(elastic)
+    pressure = solved().pressure
+    shear = 0.2 * pressure * np.array([np.cos(0.4), np.sin(0.4)])[:, None, None]
+    means = von_mises(np.moveaxis(solved().plastic_flow.stress(pressure, shear), 1, -1))
+    assert show(float(means.max()), "Pa", 3) in remarks(flowed)[0]
+    assert remarks(flowed)[0] != remarks(elastic)[0]
     for found, known in ((flowed, False), (elastic, True)):
         stage: Any = SimpleNamespace(found={"stress": SimpleNamespace(detail=found)})
         assert np.isfinite(Yielding().compute(None, stage).values["yield_load_factor"]) == known
