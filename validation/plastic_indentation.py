@@ -20,6 +20,9 @@ SPHERE = {1.5: (1.828, 1.234), 2.0: (2.776, 1.438), 3.0: (4.938, 1.80), 4.0: (7.
 LAYERED = {(2.0, 3.0): 5.72, (2.0, 5.0): 11.06, (4.0, 3.0): 6.472, (4.0, 5.0): 12.05, (0.5, 3.0): 3.79}
 """E1/E2 = Y1/Y2 and δ/δ_y -> P/P_y with a layer of the thickness a_y: the same elements, error 1 %."""
 
+HARDENS = "of the solid that hardens, as theirs; small strains"
+"""What the numbers of the figure are compared with."""
+
 LOADS = (15.5, 100.6, 200.0, 300.0)
 """W/W_y of Bhushan (1998), fig. 10."""
 
@@ -148,16 +151,15 @@ def to_full_plasticity(across: int) -> tuple[Table, tuple[Claim, ...], tuple[Pub
     )
     source = "Bhushan 1998, sec. 2.3, after Kral, Komvopoulos & Bogy 1993"
     published = (
-        Published(source, "p_m/Y at full plasticity, W/W_y about 300", "2.5", perfect[1], within=0.1),
-        Published(source, "contact radius over that at first yield, W/W_y = 300, about", "10", perfect[0], within=0.15),
         Published(
             source,
-            "depth of the plastic zone over the contact radius, about",
-            "2",
-            hard[2],
-            within=0.25,
-            reason="of the hardening solid, as theirs",
+            "p_m/Y at full plasticity, W/W_y about 300",
+            "2.5",
+            perfect[1],
+            reason=f"of the perfectly plastic solid in small strains; {hard[1]:.2f} of the initial yield stress of the one that hardens",
         ),
+        Published(source, "contact radius over that at first yield, W/W_y = 300, about", "10", hard[0], reason=HARDENS),
+        Published(source, "depth of the plastic zone over the contact radius, about", "2", hard[2], reason=HARDENS),
     )
     return Table(about, head, tuple(rows)), claims, published
 

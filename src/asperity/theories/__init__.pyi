@@ -1,5 +1,7 @@
+from .adhesion.adhesive_shapes import AdhesivePowerLaw, AdhesiveWave
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_parameter
+from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .dynamics.oscillation import (
@@ -134,6 +136,8 @@ __all__ = [
     "FAMILIES",
     "JKR",
     "THEORIES",
+    "AdhesivePowerLaw",
+    "AdhesiveWave",
     "AnisotropicSummits",
     "AnyHeights",
     "BeltStickSlip",
@@ -213,9 +217,11 @@ __all__ = [
     "OliverPharr",
     "OnionsArchard",
     "PartialSlip",
+    "PastewkaRobbins",
     "PearsonHeights",
     "Persson",
     "PerssonFriction",
+    "PerssonTosatti",
     "PinInHole",
     "PlasticityIndex",
     "PointShakedown",

@@ -423,6 +423,8 @@ def test_schema_is_json_and_names_every_table() -> None:
         "film",
         "stress",
         "plastic_load",
+        "plastic_flow",
+        "indentation",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]

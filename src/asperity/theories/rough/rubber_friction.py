@@ -164,6 +164,8 @@ class PerssonFriction(Theory):
 
     The same theory as ``rubber_friction``, for a plane-strain modulus ``relaxed`` + sum of ``moduli`` exp(-t/``times``).
 
+        μ = ½ ∫ q³ C S P ∫ cos φ Im E(qv cos φ)/p̄ dφ dq,  P = erf(1/2√G),  G = ⅛ ∫ q³ C ∫ |E(qv cos φ)/p̄|² dφ dq.
+
     InputError if a parameter is outside its range, moduli and times differ in number, or the spectrum cannot be used.
     """
 
