@@ -350,6 +350,14 @@ def _flow(flow: PlasticBody) -> Iterator[Advice]:
             "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
         )
 
+    if flow.reaches_edge:
+        yield Advice(
+            "warning",
+            "edge of the grid",
+            "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
+            "and imprint too small. Give a grid with a wider margin around the contact.",
+        )
+
 
 def _part(name: str) -> str:
     return "the base" if name == "base" else name

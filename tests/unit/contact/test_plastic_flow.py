@@ -276,6 +276,23 @@ def test_findings_of_a_rigid_base() -> None:
     assert "depth of the cells" not in criteria(result)
 
 
+def test_a_zone_that_reaches_the_edge_of_a_free_grid_is_told() -> None:
+    """On a wide grid the zone ends inside; on a narrow one it is cut off, which bears more load at the same approach."""
+    x = 20e-9 * (np.arange(48) - 24)
+    forces = []
+    for margin, told in ((0, False), (17, True)):
+        kept = slice(margin, 48 - margin)
+        heights = -(x[kept, None] ** 2 + x[None, kept] ** 2) / 2e-6
+        ball = asp.Surface(heights, 20e-9, 20e-9)
+        shape = problem(boundary=asp.Free(), surface=ball)
+        result = asp.solve(shape, asp.Approach(8e-9))
+        assert result.contact_area < 0.8 * (20e-9 * (48 - 2 * margin)) ** 2
+        assert result.plastic_flow.reaches_edge is told
+        assert ("edge of the grid" in criteria(result)) is told
+        forces.append(result.force)
+    assert forces[1] > 1.005 * forces[0]
+
+
 def test_flow_that_is_not_settled_is_told() -> None:
     """The certificate holds the residual of the coupling, within its tolerance; a run that ended beyond it is a finding."""
     (check,) = course().last.certificate.couplings

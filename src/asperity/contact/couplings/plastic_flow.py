@@ -24,6 +24,7 @@ from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
+from ..boundary import Free
 from ..laws import Coulomb
 from ..laws.plastic_flow import PlasticFlow, plastic_body
 from ..problem import ContactProblem
@@ -135,6 +136,15 @@ class PlasticBody:
     def small_strain(self) -> bool:
         """Whether all accumulated plastic strains are below 0.1."""
         return max((zone.largest_strain for zone in self.zones), default=0.0) < SMALL_STRAIN
+
+    @property
+    def reaches_edge(self) -> bool:
+        """Whether points under the edge of a free grid have flowed: what lies beside the grid is held elastic."""
+        if not isinstance(self.problem.boundary, Free) or not self.flowed.points.size:
+            return False
+        nx, ny = self.problem.grid.shape
+        i, j = np.divmod(self.flowed.points % (nx * ny), ny)
+        return bool(np.any((i == 0) | (i == nx - 1) | (j == 0) | (j == ny - 1)))
 
     @property
     def of(self) -> Literal["body", "counter_body"]:
