@@ -13,7 +13,7 @@ from ..core.errors import InputError
 from ..core.units import show
 from ..dynamics.block_motion import BlockRun
 from ..dynamics.sweeps import Branches, StabilityMap
-from ..io.atomic import atomic_file
+from .animation import save_frames
 from .picture import (
     BLACK,
     BLUE,
@@ -307,16 +307,5 @@ def save_animation(run: BlockRun, path: str | Path, *, count: int = 100, overwri
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    from PIL import Image
-
-    target = Path(path)
-    kinds = {".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
-    if target.suffix.lower() not in kinds:
-        raise InputError(f"path of the animation must end in {', '.join(kinds)}, but is {target.name!r}.")
-    if count < 2:
-        raise InputError(f"count of frames must be at least 2, but is {count!r}.")
-    places = np.linspace(0, run.motion.time.size - 1, count).round().astype(int)
-    first, *rest = (Image.open(io.BytesIO(frame)) for frame in frames(run, [int(place) for place in places]))
-    with atomic_file(target, overwrite=overwrite) as file:
-        first.save(file, format=kinds[target.suffix.lower()], save_all=True, append_images=rest, duration=50, loop=0)
-    return target
+    places = [int(place) for place in np.linspace(0, run.motion.time.size - 1, max(count, 2)).round()]
+    return save_frames(path, lambda: frames(run, places), count, pause=50, overwrite=overwrite)

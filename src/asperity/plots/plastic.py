@@ -13,7 +13,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.units import show
-from ..io.atomic import atomic_file
+from .animation import save_frames
 from .maps import Field, Look, plot_map
 from .picture import (
     BLACK,
@@ -418,18 +418,7 @@ def save_cuts(cuts: Sequence[Cut], path: str | Path, *, overwrite: bool = False)
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    from PIL import Image
-
-    target = Path(path)
-    kinds = {".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
-    if target.suffix.lower() not in kinds:
-        raise InputError(f"path of the animation must end in {', '.join(kinds)}, but is {target.name!r}.")
-    if len(cuts) < 2:
-        raise InputError(f"cuts of an animation must be at least 2, but are {len(cuts)}.")
-    first, *rest = (Image.open(io.BytesIO(frame)) for frame in plastic_frames(cuts))
-    with atomic_file(target, overwrite=overwrite) as file:
-        first.save(file, format=kinds[target.suffix.lower()], save_all=True, append_images=rest, duration=200, loop=0)
-    return target
+    return save_frames(path, lambda: plastic_frames(cuts), len(cuts), pause=200, overwrite=overwrite)
 
 
 def step_label(number: int, approach: float, force: float) -> str:
