@@ -55,6 +55,15 @@ GROUND: dict[str, Any] = {
     "control": {"mean_pressure": "0.2 MPa"},
     "hysteresis": {"speed": "1 cm/s"},
 }
+ROLLER: dict[str, Any] = {
+    "version": 2,
+    "surface": BALL["surface"],
+    "body": "rigid",
+    "counter_body": "E=3MPa+3MPa@0.1s,nu=0.5",
+    "boundary": {"kind": "free"},
+    "control": {"force": "1 uN"},
+    "hysteresis": {"speed": "20 um/s"},
+}
 OPTIONS = ("--level", "none", "--body", BALL["body"], "--boundary", "free")
 IN_TIME = ("--ramp", "0s,0.5s", "--hold", "10s", "--time-tolerance", "0.01")
 
@@ -239,6 +248,15 @@ def test_sliding_along_a_line_and_over_a_coating_has_no_theory_beside_it() -> No
         assert math.isnan(values["persson_friction"])
 
 
+def test_a_ball_that_slides_on_a_free_grid() -> None:
+    """Numbers are those of Python; there is no theory of rough surfaces beside it."""
+    outcome = asp.run(ROLLER)
+    found = asp.slide(outcome.result.problem, asp.Force(1e-6), 20e-6)
+    assert outcome.values["hysteresis_friction"] == pytest.approx(found.friction, rel=1e-9)
+    assert found.friction > 0.005
+    assert math.isnan(outcome.values["persson_friction"])
+
+
 def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
     spectrum = GROUND["surface"]["spectrum"] | {"rms_height": "1 mm"}
     steep = GROUND | {"control": {"mean_pressure": "60 MPa"}, "surface": GROUND["surface"] | {"spectrum": spectrum}}
@@ -283,7 +301,11 @@ REFUSED: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
         {"body": RUBBER, "counter_body": "rigid"},
         "surface of a viscoelastic body in steady sliding",
     ),
-    "free boundary": (GROUND, {"boundary": {"kind": "free"}}, "boundary of steady sliding"),
+    "oblique on a free grid": (
+        ROLLER,
+        {"hysteresis": {"speed": "1 mm/s", "direction": "30 deg"}},
+        "direction of sliding (rad)",
+    ),
     "hard rubber": (GROUND, {"law": {"kind": "hardness", "hardness": "5 GPa"}}, "law of steady sliding"),
     "wet": (GROUND, {"film": {"liquid": "water", "humidity": "80 %"}}, "film"),
 }

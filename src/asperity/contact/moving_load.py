@@ -68,7 +68,7 @@ class FreeMovingKernel:
 
         InputError for another direction, and for bodies that flow.
         """
-        axis, sign = _axis_of(direction, problem)
+        axis, sign = axis_of(direction, problem)
         creep = contact_creep(problem.body, problem.counter_body)
         assert creep is not None
         if not np.isfinite(creep.times).all():
@@ -128,8 +128,8 @@ class _StorageOperator(SummedOperator):
         return MultipleOperator(self.whole.coarsened, float(self.kernel.max() / self.whole.kernel.max()))
 
 
-def _axis_of(direction: float, problem: ContactProblem) -> tuple[int, float]:
-    """Axis and sign of a ``direction`` (rad)."""
+def axis_of(direction: float, problem: ContactProblem) -> tuple[int, float]:
+    """Axis and sign of a ``direction`` (rad) on a free grid; InputError if it is along none."""
     quarters = direction / (0.5 * math.pi)
     number = round(quarters)
     line = isinstance(problem.boundary, FreeLine)

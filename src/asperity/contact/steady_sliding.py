@@ -40,7 +40,7 @@ from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import ConstantHardness
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 from .laws import HardWall
-from .moving_load import FreeMovingKernel
+from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
 from .problem import ContactProblem, Control, Unloaded
@@ -257,7 +257,7 @@ class SteadySliding:
                 f"boundary beside Persson's theory must be Periodic() on a map, but is {problem.boundary!r} on "
                 f"{problem.grid.shape[0]} x {problem.grid.shape[1]} points."
             )
-        if any(isinstance(body, Layered) for body in (problem.body, problem.counter_body)):
+        if any(isinstance(body, Layered) and body.reduced.layers for body in (problem.body, problem.counter_body)):
             raise InputError("bodies beside Persson's theory must be half-spaces, but one is layered.")
 
         def modulus(omega: RealArray) -> ComplexArray:
@@ -329,11 +329,11 @@ def slide(
         If pressure and displacement do not agree.
     """
     started = time.perf_counter()
-    require_slidable(problem)
+    angle = require.finite(direction, "direction of sliding (rad)")
+    require_slidable(problem, angle)
     if isinstance(control, Unloaded):
         raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
-    angle = require.finite(direction, "direction of sliding (rad)")
     kernel, operator = _prepared(problem, v, angle)
     profile = problem.profile()
     couplings = ConstantHardness(HardWall()), LagCoupling(kernel, kernel.lags, tolerance)
@@ -407,8 +407,10 @@ def _with_friction(
     )
 
 
-def require_slidable(problem: ContactProblem) -> None:
-    """Refuse with an InputError what is not steady, or has no hysteresis."""
+def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
+    """Refuse with an InputError what is not steady in this ``direction`` (rad), or has no hysteresis."""
+    if not isinstance(problem.boundary, Periodic):
+        axis_of(direction, problem)
     if not isinstance(problem.law, HardWall) or any(
         each is not None for each in (problem.film, problem.friction, problem.adhesion)
     ):

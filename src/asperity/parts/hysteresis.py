@@ -19,14 +19,10 @@ from ..core.values import Angle, Number, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from ..contact.problem import ContactProblem
     from ..contact.steady_sliding import SteadySliding
-    from ..core.arrays import ComplexArray, RealArray
     from ..plots.picture import Figure
     from ..plots.viscoelastic import SpeedPicture
-    from ..theories.rough.persson import IsotropicSpectrum
 
 SlidingSpeed = Annotated[float, Number("speed", above=0.0)]
 Share = Annotated[float, Number(above=0.0, most=1.0)]
@@ -126,15 +122,9 @@ class Hysteresis(Part):
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse what cannot slide steadily."""
-        from ..contact.boundary import Periodic
         from ..contact.steady_sliding import require_slidable
 
-        if not isinstance(problem.boundary, Periodic):
-            raise InputError(
-                f"boundary of steady sliding must be periodic in documents, but is {problem.boundary.name}. Single bodies on free grids slide in Python: "
-                "asp.slide."
-            )
-        require_slidable(_bare(problem))
+        require_slidable(_bare(problem), float(ask.direction))
 
     def compute(self, ask: HysteresisSettings, solved: Solved) -> Found:
         """Friction, area and heat at the speed and along the curve."""
@@ -142,7 +132,7 @@ class Hysteresis(Part):
 
         from ..contact.steady_sliding import slide
 
-        problem, assumed = _bare(solved.problem), beside(solved, float(ask.reduction))
+        problem, reduction = _bare(solved.problem), float(ask.reduction)
         direction: Any = {"direction": float(ask.direction)}
         speeds: Any = ()
         if ask.slowest is not None and ask.fastest is not None and solved.lines:
@@ -153,16 +143,16 @@ class Hysteresis(Part):
             for number, speed in enumerate(speeds, start=1):
                 each = slide(problem, solved.control, float(speed), **direction)
                 rows.append(
-                    (speed, each.friction, each.normal.area_fraction_corrected, each.heat, *assumed(speed, each))
+                    (speed, each.friction, each.normal.area_fraction_corrected, each.heat, *_persson(each, reduction))
                 )
                 progress.update(number, 1.0 - number / len(speeds), 0.0)
         values: dict[str, Any] = _numbers(found) | dict(
-            zip((item.name for item in SCALARS[-2:]), assumed(found.speed, found), strict=True)
+            zip((item.name for item in SCALARS[-2:]), _persson(found, reduction), strict=True)
         )
         values[FIELD.name] = np.asarray(found.normal.pressure)
         if rows:
             values |= {item.name: column for item, column in zip(COLUMNS, np.array(rows).T, strict=True)}
-        facts = {"speed": found.speed, "direction": found.direction, "reduction": float(ask.reduction)}
+        facts = {"speed": found.speed, "direction": found.direction, "reduction": reduction}
         keys = (*found.citation_keys, "Persson2001")
         return Found(values, facts, _findings(values), keys)
 
@@ -215,57 +205,13 @@ def _numbers(found: SteadySliding) -> dict[str, float]:
     return dict(zip((item.name for item in SCALARS), map(float, values), strict=False))
 
 
-def beside(solved: Solved, reduction: float) -> Callable[[float, SteadySliding], tuple[float, float]]:
-    """Friction and area by Persson's theory at a speed; NaN where it does not hold: on layers, on a line, on a smooth surface."""
-    spectrum, modulus = _spectrum(solved.problem), _modulus(solved.problem)
-
-    def assumed(speed: float, found: SteadySliding) -> tuple[float, float]:
-        pressure = found.normal.mean_pressure
-        if spectrum is None or modulus is None or not pressure > 0.0:
-            return math.nan, math.nan
-        from ..theories.rough.rubber_friction import rubber_friction
-
-        theory = rubber_friction(spectrum, modulus, speed=float(speed), pressure=pressure, reduction=reduction)
-        return theory.friction, theory.area_fraction
-
-    return assumed
-
-
-def _spectrum(problem: ContactProblem) -> IsotropicSpectrum | None:
-    """Mean spectrum of the composite surface over all directions; None for a line or a smooth surface."""
-    from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
-    from ..theories.rough.persson import IsotropicSpectrum
-
-    if min(problem.grid.shape) == 1:
-        return None
-    radial = radial_spectrum(power_spectrum(problem.surface.with_heights(problem.profile(), "composite")))
-    holds = radial.psd > 0.0
-    return IsotropicSpectrum(radial.q[holds], radial.psd[holds]) if holds.sum() > 1 else None
-
-
-def _modulus(problem: ContactProblem) -> Callable[[RealArray], ComplexArray] | None:
-    """Complex contact modulus (Pa) at angular frequencies (rad/s); None unless both bodies are homogeneous or rigid."""
-    import numpy as np
-
-    from ..solids.elastic import Elastic
-    from ..solids.layers import Layered
-    from ..solids.viscoelastic import Viscoelastic
-
-    bodies = [body for body in (problem.body, problem.counter_body) if isinstance(body, Elastic | Layered)]
-    if any(isinstance(body, Layered) and body.reduced.layers for body in bodies):
-        return None
-    solids = [body.reduced.base if isinstance(body, Layered) else body for body in bodies]
-
-    def modulus(omega: RealArray) -> ComplexArray:
-        total: Any = 0.0
-        for solid in solids:
-            if isinstance(solid, Viscoelastic):
-                total = total + 1.0 / solid.contact_relaxation.complex_modulus(omega)
-            elif isinstance(solid, Elastic):
-                total = total + 1.0 / solid.plane_strain_modulus
-        return np.asarray(1.0 / total)
-
-    return modulus if all(isinstance(solid, Elastic) for solid in solids) else None
+def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
+    """Friction and area by Persson's theory; NaN where it does not hold: on layers, on a line, on a free grid, on a smooth surface, at rest."""
+    try:
+        theory = found.persson(reduction)
+    except InputError:
+        return math.nan, math.nan
+    return theory.friction, theory.area_fraction
 
 
 def _findings(values: Mapping[str, Any]) -> tuple[Advice, ...]:

@@ -98,11 +98,6 @@ class Case:
         return self.document.solver.threads
 
     @property
-    def chooses_solver(self) -> bool:
-        """Whether the document sets anything of the method."""
-        return any(value is not None for key, value in self.document.solver if key != "threads")
-
-    @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers that its numbers will rest on."""
         asked = [part for part in self.parts if part.name in self.asks]
