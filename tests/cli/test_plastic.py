@@ -15,6 +15,7 @@ from refusals import refused, subject_of
 
 import asperity as asp
 from asperity.core.errors import InputError
+from asperity.io.words import result_rows
 from asperity.report.animation import plastic_cuts
 from asperity.run.stored import load_outcome, save_outcome
 
@@ -77,6 +78,7 @@ def test_a_document_is_what_python_computes() -> None:
         max(zone.largest_strain for zone in flow.zones), rel=1e-6
     )
     assert found.values["flow_base_strain"] > 0.0
+    assert not any(text == "0 J" for _, text in result_rows(found.result)), "work that is solved as plastic flow"
     np.testing.assert_allclose(found.found["plastic_flow"].values["flow_imprint"], flow.displacement, atol=1e-15)
 
 

@@ -348,9 +348,14 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
     return text
 
 
+OF_PRESSURE_LIMIT = ("plastic_work", "total_plastic_work", "plastic_area_fraction", "indented_area")
+"""Scalars that are zero without a hardness, and would contradict the work of plastic flow in the volume."""
+
+
 def result_rows(result: ContactResult) -> Rows:
-    """Every scalar of ``result``."""
-    return [(q.label, scalar_text(q, result)) for q in SCALARS]
+    """Every scalar of ``result``; where plastic flow of the volume was solved, without those of a limit of the pressure."""
+    skipped = () if result.plastic_flow is None else OF_PRESSURE_LIMIT
+    return [(q.label, scalar_text(q, result)) for q in SCALARS if q.name not in skipped]
 
 
 def scalar_text(quantity: Quantity, result: ContactResult) -> str:

@@ -267,11 +267,12 @@ def plot_hardness_depth(shown: PlasticPicture, ax: Axes) -> Axes:
             linestyle="none",
             label="Oliver-Pharr",
         )
+    highest = max(float(np.nanmax(shown.mean_pressure[: peak + 1], initial=0.0)), np.nan_to_num(shown.oliver_pharr))
     ax.set(
         xlabel=f"approach ({metres.symbol})",
         ylabel=f"mean pressure ({pascals.symbol})",
         xlim=(0.0, None),
-        ylim=(0.0, None),
+        ylim=(0.0, 1.1 * float(pascals(highest)) or None),
     )
     return legend_above(ax)
 
