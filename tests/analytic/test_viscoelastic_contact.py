@@ -416,3 +416,14 @@ def test_stresses_only_where_they_do_not_depend_on_the_past() -> None:
         asp.stress(asp.solve(asp.ContactProblem(rough(), coated), course).last, [1e-7])
     with refused(asp.InputError, "displacement inside a body"):
         asp.stress(whole, [1e-7], displacement=True)
+
+
+def test_a_duration_that_is_lost_in_rounding_is_refused() -> None:
+    """After 10²⁴ s a millisecond adds nothing to the time."""
+    grid = asp.Grid((8, 8), (1e-6, 1e-6))
+    ball = asp.generate.sphere(grid, radius=1e-5)
+    rubber = asp.Viscoelastic.standard_linear(1e6, 1e7, 1e-2, 0.4)
+    problem = asp.ContactProblem(ball, rubber, boundary=asp.Free())
+    course = asp.History([asp.Step(asp.Force(1e-8), duration=1e24), asp.Step(asp.Force(2e-8), duration=1e-3)])
+    with refused(asp.InputError, "duration of a step (s)", "0.001"):
+        asp.solve(problem, course)

@@ -171,9 +171,6 @@ def numbers(file: Path) -> list[list[str]]:
 def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Callable[..., Any]) -> None:
     """Entries of the relaxation and of the times are those of the document, which is complete."""
     page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
-    go(page, "surface")
-    fill(page, "surface.points", "32 x 32")
-    page.wait_for_timeout(700)
     go(page, "bodies")
     page.click('[data-key="body.kind"] >> text=Own constants')
     choose(page, "body.relaxation.kind", "prony")

@@ -190,6 +190,10 @@ class March(Protocol):
         """Error that the last of two steps of time adds to the displacement, relative to it."""
 
 
+_RESOLVED = 1e3
+"""Shortest duration over the rounding of the time before it."""
+
+
 def marched(
     begin: Moment, end: Control, duration: float, settings: TimeSteps, march: March
 ) -> tuple[list[Moment], int]:
@@ -199,6 +203,11 @@ def marched(
     """
     if duration == 0.0:
         return [march.advanced(begin, end, 0.0)], 1
+    least = _RESOLVED * float(np.spacing(begin.past.time))
+    if duration < least:
+        raise InputError(
+            f"duration of a step (s) must be at least {least:.3g} after {begin.past.time:.3g} s, since less is lost in rounding, but is {duration:.3g}."
+        )
     moments, length, tries, equal = [begin], settings.first(duration), 0, settings.number is not None
     while tries < settings.most:
         done = moments[-1].past.time - begin.past.time

@@ -49,7 +49,10 @@ def sweep_page(key: str, session: Session, chosen: str = "", beside: str = "") -
 def _form(session: Session, document: Any) -> None:
     """Axis, values and quantities."""
     places = {p.path: p for p in scalars(document) if p.path.rpartition(".")[2] not in NOT_VARIED}
-    usual = next((path for path in places if path.startswith("control.") and session.draft.get(*path.split("."))), None)
+    given = {
+        path: session.draft.get(*(int(key) if key.isdigit() else key for key in path.split("."))) for path in places
+    }
+    usual = next((path for path in places if path.startswith("control.") and given[path]), None)
     known = measures()
 
     def table() -> dict[str, Any]:
@@ -83,7 +86,7 @@ def _form(session: Session, document: Any) -> None:
             "dense data-key=axis"
         )
         with ui.element("div").classes("fields"):
-            current = str(session.draft.get(*usual.split(".")) if usual else "")
+            current = str(given[usual] if usual else "")
             first = ui.input("From", value=current, placeholder="1 MPa").props("dense stack-label data-key=first")
             last = ui.input("To", placeholder="100 MPa").props("dense stack-label data-key=last")
             count = ui.number("Cases", value=8, min=1, precision=0).props("dense data-key=count")
