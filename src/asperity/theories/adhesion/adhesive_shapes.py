@@ -96,7 +96,7 @@ class AdhesivePowerLaw(Theory):
 class AdhesiveWave(Theory):
     """Gap Δ(1 - cos 2πx/λ) with adhesion in the contact alone (Johnson 1995), ψ = πa/λ, p* = πE*Δ/λ.
 
-        p̄/p* = sin²ψ - α sqrt(tan ψ),  α² = 2E*w/(λ p*²).
+        p̄/p* = sin²ψ - α sqrt(tan ψ),  α² = 2E*w/(λ (p*)²).
 
     Pull-off and the jump into full contact lie where 4 sin^(3/2)ψ cos^(5/2)ψ = α; from α = 0.570 on the wave closes without load.
 

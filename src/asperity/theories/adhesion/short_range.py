@@ -118,7 +118,7 @@ class WavyJKR:
 
     With ψ = πa/λ, half-width a, ω = sin²ψ, in units of p* = πE*Δ/λ and of Δ:
 
-        p/p* = sin²ψ - α sqrt(tan ψ),  δ/Δ = ω (1 - ln ω) + α sqrt(tan ψ) ln ω,  α² = 2E*w/(λ p*²).
+        p/p* = sin²ψ - α sqrt(tan ψ),  δ/Δ = ω (1 - ln ω) + α sqrt(tan ψ) ln ω,  α² = 2E*w/(λ (p*)²).
 
     ``alpha`` is α >= 0.
     """
