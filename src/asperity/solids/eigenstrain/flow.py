@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ...core.arrays import ComplexArray, RealArray
 from ..plasticity import J2, WEIGHTS, PlasticState
-from .kernels import exceeding
 from .operator import EigenstrainOperator, shared
 
 Points = NDArray[np.int64]
@@ -203,6 +202,8 @@ class VolumeFlow:
 
     def _deviators(self, loads: ComplexArray) -> RealArray:
         """Deviator (n, 6) in Pa at the points, to which those beyond the yield stress are added."""
+        from .kernels import exceeding
+
         operator, plane = self.operator, self._plane
         operator.press(loads, self.fields)
         ends = np.searchsorted(self.points, np.arange(operator.cells.count + 1) * plane)

@@ -14,7 +14,6 @@ from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, thread_count
 from ..elastic import Elastic
 from .cells import DepthCells
-from .kernels import press, sweep
 from .tables import SweepTable
 
 _ROWS = 8
@@ -71,6 +70,8 @@ def swept(
     threads
         Number of threads.
     """
+    from .kernels import sweep
+
     moved = np.empty((3, *waves.q.shape[1:]), dtype=complex)
     count, columns = fields.shape[0], fields.shape[3]
 
@@ -234,6 +235,8 @@ class EigenstrainOperator:
 
     def press(self, loads: ComplexArray, fields: ComplexArray) -> None:
         """Add the stress by ``loads`` to the ``fields``, and take the mean of xx, yy and zz away: transforms of the deviator remain."""
+        from .kernels import press
+
         added = self.mean.stress(loads[:, 0, 0].real, np.zeros((self.cells.count, 6)))
         added += fields[:, :, 0, 0].real
         added[:, :3] -= added[:, :3].mean(axis=1)[:, None]
