@@ -81,9 +81,7 @@ class AdhesivePowerLaw(Theory):
         """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge."""
         a = checked(contact_radius, "contact radius (m)", lowest=np.finfo(float).tiny)
         n, E = self.exponent, self.E_star
-        kappa = math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * n + 1.0) - math.lgamma(0.5 * n + 0.5))
-        pressed = kappa * self.coefficient * a**n
-        pull, lift = np.sqrt(8.0 * math.pi * E * self.work * a**3), np.sqrt(2.0 * math.pi * a * self.work / E)
+        pressed, pull, lift = self._contact.terms(a)
         load = 2.0 * n / (n + 1.0) * E * a * pressed - pull
         rise = 2.0 * n * E * pressed - 1.5 * pull / a  # dP/da
         along = (n * pressed - 0.5 * lift) / a  # dδ/da
@@ -164,10 +162,8 @@ class AdhesiveWave(Theory):
         share = checked(fraction, "contact fraction", lowest=np.finfo(float).tiny)
         if (share >= 1.0).any():
             raise InputError(f"contact fraction must be below 1, but is {share.max():.6g}.")
-        psi = 0.5 * math.pi * share
-        omega, pull = np.sin(psi) ** 2, self.alpha * np.sqrt(np.tan(psi))
-        approach = omega * (1.0 - np.log(omega)) + pull * np.log(omega)
-        return WaveAnswer(self.full_contact_pressure * (omega - pull), self.amplitude * approach)
+        pressure, approach = self._wave.at(0.5 * math.pi * share)
+        return WaveAnswer(self.full_contact_pressure * pressure, self.amplitude * approach)
 
 
 @dataclass(frozen=True, eq=False)

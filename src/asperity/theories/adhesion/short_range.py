@@ -49,13 +49,16 @@ class PowerLawJKR:
         n = self.exponent
         return n * 0.5 * math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * n) - math.lgamma(0.5 * n + 0.5))
 
+    def terms(self, a: RealArray) -> tuple[RealArray, RealArray, RealArray]:
+        """δ_H in m, and what adhesion takes from load (N) and approach (m), of contact radii ``a`` (m) of any shape, > 0."""
+        pull = np.sqrt(8.0 * np.pi * self.E_star * self.work * a**3)
+        return self._nk * self.coefficient * a**self.exponent, pull, np.sqrt(2.0 * np.pi * a * self.work / self.E_star)
+
     def at_radius(self, radius: float) -> ShortRangeState:
         """The contact of this ``radius`` in m, > 0."""
         a, n = require.positive(radius, "contact radius (m)"), self.exponent
-        indented = self._nk * self.coefficient * math.pow(a, n)
-        load = 2.0 * self.E_star * n / (n + 1.0) * indented * a
-        pull = math.sqrt(8.0 * math.pi * self.E_star * self.work * a**3)
-        return ShortRangeState(a, load - pull, indented - math.sqrt(2.0 * math.pi * a * self.work / self.E_star))
+        indented, pull, lift = map(float, self.terms(np.array(a)))
+        return ShortRangeState(a, 2.0 * self.E_star * n / (n + 1.0) * indented * a - pull, indented - lift)
 
     def _at_power(self, value: float) -> ShortRangeState:
         """The contact of a^(n-1/2) = ``value``/(n² κ B)."""
@@ -133,14 +136,16 @@ class WavyJKR:
 
     def mean_pressure(self, fraction: float) -> float:
         """Mean pressure over p* of a contact ``fraction`` 2a/λ between 0 and 1."""
-        psi = self._psi(fraction)
-        return math.sin(psi) ** 2 - self.alpha * math.sqrt(math.tan(psi))
+        return float(self.at(np.array(self._psi(fraction)))[0])
 
     def approach(self, fraction: float) -> float:
         """Approach over Δ of a contact ``fraction`` 2a/λ between 0 and 1."""
-        psi = self._psi(fraction)
-        omega = math.sin(psi) ** 2
-        return omega * (1.0 - math.log(omega)) + self.alpha * math.sqrt(math.tan(psi)) * math.log(omega)
+        return float(self.at(np.array(self._psi(fraction)))[1])
+
+    def at(self, psi: RealArray) -> tuple[RealArray, RealArray]:
+        """Mean pressure over p* and approach over Δ at ``psi`` of any shape, between 0 and π/2."""
+        omega, pull = np.sin(psi) ** 2, self.alpha * np.sqrt(np.tan(psi))
+        return omega - pull, omega * (1.0 - np.log(omega)) + pull * np.log(omega)
 
     def crest_pressure(self, fraction: float) -> float:
         """Pressure at the crest over p* of a contact ``fraction`` 2a/λ between 0 and 1."""
