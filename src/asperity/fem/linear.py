@@ -12,9 +12,6 @@ from scipy.sparse.linalg import splu
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
 
-DIRECT_LIMIT = 120_000
-"""Unknowns in space beyond which a factorisation takes more memory and time than multigrid."""
-
 
 def without(matrix: sparse.csc_array, prescribed: BoolArray) -> sparse.csc_array:
     """``matrix`` with rows and columns of the ``prescribed`` unknowns replaced by those of a diagonal as large as the others."""
