@@ -17,7 +17,7 @@
 #   make clean        remove the environments and everything that was built
 #
 # PYTHON=/path/to/python chooses the interpreter, VENV=folder the environment, WORKERS=n the test processes,
-# EXTRAS=[fast,dask,fem] the extras, GROUP=test less than all the tools of a developer.
+# EXTRAS=[fast,dask] the extras, GROUP=test less than all the tools of a developer.
 
 VENV    ?= .venv
 WORKERS ?= 2
@@ -53,7 +53,7 @@ test-all: $(DEV_OK)
 
 # Libraries of that age warn of what they use themselves, so warnings are no errors here.
 test-lowest:
-	PIP_CONSTRAINT="$(CURDIR)/.ci/lowest.txt" $(MAKE) VENV=.venv-lowest EXTRAS="[fast,dask,fem]" GROUP=test .venv-lowest/.installed-dev
+	PIP_CONSTRAINT="$(CURDIR)/.ci/lowest.txt" $(MAKE) VENV=.venv-lowest EXTRAS="[fast,dask]" GROUP=test .venv-lowest/.installed-dev
 	$(ONE_THREAD) .venv-lowest/bin/python -m pytest -n $(WORKERS) -m "not slow" -o filterwarnings=ignore
 
 test-plain:

@@ -15,7 +15,7 @@ from surfaces import BODY, self_affine
 
 import asperity as asp
 from asperity.contact.couplings import position
-from asperity.contact.solvers.active_set import entering, linear_system, solver
+from asperity.contact.solvers.active_set import clipping, entering, first_guess, linear_system, solver
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
 
@@ -27,15 +27,18 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
     (solver, "_NEARLY_SETTLED"): [Stopping(x, 8) for x in (0.03, 0.2, 0.3)] + [Stopping(0.1, n) for n in (3, 5, 12)],
     (solver, "_SETTLED_SET"): [Stopping(x, 14) for x in (1e-6, 1e-3, 1e-2)] + [Stopping(1e-4, n) for n in (8, 20, 40)],
+    (solver, "_LAST_STEP"): [0.2, 0.4],
+    (solver, "_LAST_REDUCTION"): [0.02, 0.05],
     (solver, "_MARGIN"): [0.3, 0.5, 1.0],
-    (solver, "LEAST_SHARE"): [0.01, 0.03, 0.3],
+    (clipping, "LEAST_SHARE"): [0.01, 0.03, 0.3],
     (solver, "_MOST_UNSUCCESSFUL"): [0, 1, 4],
     (solver, "_REFRESH"): [1e-3, 1e-4, 1e-7],
-    (solver, "COARSEST"): [32, 128],
-    (solver, "_COARSE_ITERATIONS"): [3, 10, 100],
-    (solver, "_HIDDEN_SHARE"): [0.05, 0.1, 0.2, 1.0],
-    (solver, "_LOOSEST"): [0.01, 0.03, 0.3],
-    (solver, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
+    (first_guess, "COARSEST"): [32, 128],
+    (first_guess, "COARSE_ITERATIONS"): [3, 10, 100],
+    (first_guess, "_HIDDEN_SHARE"): [0.05, 0.1, 0.2, 1.0],
+    (first_guess, "_LOOSEST"): [0.01, 0.03, 0.3],
+    (first_guess, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
+    (first_guess, "_AREA_PER_LOAD"): [1.4, 2.4, 100.0],
     (linear_system, "_STEP_LENGTH"): [0.4, 0.55, 0.85, 1.0],
     (linear_system, "PIXEL_SHARE"): [0.4, 0.5, 0.7, 0.8, 1.0],
     (linear_system, "PIXEL_SHARE_COARSE"): [0.6, 0.7, 1.0],

@@ -12,8 +12,18 @@ from asperity.solids.compliance.halfspace import contact_compliance
 from asperity.theories.adhesion.short_range import CoatedJKR, WavyJKR
 from asperity.theories.adhesion.spheres import maugis_pull_off
 
-TRANSITION = ((0.1157, 96), (0.2, 96), (0.4, 96), (0.7, 96), (1.0, 128), (1.5, 192), (2.5, 384), (3.0, 384))
-"""Maugis' λ and points along a side. Tabor's parameter of a Lennard-Jones surface of the same largest stress is λ/1.157."""
+TRANSITION = (
+    (0.1157, 96, 5.0),
+    (0.2, 96, 5.0),
+    (0.4, 96, 5.0),
+    (0.7, 96, 5.0),
+    (1.0, 128, 5.0),
+    (1.5, 192, 5.0),
+    (2.5, 384, 5.0),
+    (3.0, 384, 5.0),
+    (3.4713, 400, 4.0),
+)
+"""Maugis' λ, points along a side, and its least length in units of the contact radius; the last row takes two minutes on one core. Tabor's parameter of a Lennard-Jones surface of the same largest stress is λ/1.157."""
 
 WAVES = (0.2, 0.4)
 COATED = ((0.25, 0.3, 0.3, 0.5, 2.4), (10.0, 0.25, 0.3, 0.1, 1.2))
@@ -29,14 +39,14 @@ ABOUT = (
 
 
 def page(
-    transition: tuple[tuple[float, int], ...] = TRANSITION,
+    transition: tuple[tuple[float, int, float], ...] = TRANSITION,
     waves: tuple[float, ...] = WAVES,
     wave_points: int = 1024,
     coated: tuple[tuple[float, ...], ...] = COATED,
     coated_points: int = 256,
 ) -> Page:
     """The page, for these numbers and grids."""
-    spheres = [(lam, n, *sphere(lam, n)) for lam, n in transition]
+    spheres = [(lam, n, *sphere(lam, n, least)) for lam, n, least in transition]
     lines = [(alpha, *wave(alpha, wave_points)) for alpha in waves]
     coats = [(row, *coating(row, coated_points)) for row in coated]
     rows = [
@@ -92,15 +102,15 @@ def pulled(problem: asp.ContactProblem, approaches: list[float]) -> tuple[float,
     return -float(min(found.external_force)), found.last.adhesion
 
 
-def sphere(transition: float, points: int) -> tuple[float, float, float]:
-    """Pull-off on the grid and of Maugis' equations over πwR, and pixels in the cohesive length, at λ = ``transition``."""
+def sphere(transition: float, points: int, least: float) -> tuple[float, float, float]:
+    """Pull-off on the grid and of Maugis' equations over πwR, and pixels in the cohesive length, at λ = ``transition``; side ``least`` or more."""
     K = 4.0 / 3.0 * E_STAR
     length = np.cbrt(math.pi * WORK * RADIUS**2 / K)
     unit = length**2 / RADIUS
     strength = 0.5 * transition / np.cbrt(RADIUS / (math.pi * WORK * K**2))
     exact = maugis_pull_off(transition)
     law = asp.DugdaleAdhesion(WORK, WORK / strength, smoothing=0.2)
-    size = max(5.0, 2.6 * math.sqrt(2.0 * (law.range / unit + 1.0))) * length
+    size = max(least, 2.6 * math.sqrt(2.0 * (law.range / unit + 1.0))) * length
     problem = asp.ContactProblem(paraboloid(points, size, RADIUS), isotropic(E_STAR), boundary=asp.Free(), adhesion=law)
     steps = [0.3 * unit, *((float(exact.approach) + step) * unit for step in (0.1, 0.05, 0.0, -0.05))]
     force, found = pulled(problem, steps)

@@ -111,6 +111,26 @@ class Published:
         return self.source, self.what, self.theirs, ours, f"{100.0 * self.deviation:+.1f} %", verdict
 
 
+@dataclass(frozen=True)
+class Stated:
+    """What a publication states in words beside what is found here; ``why``: where they differ, or what the agreement hangs on."""
+
+    text: str
+    ours: str
+    holds: bool
+    why: str = ""
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """Row of a table of statements."""
+        return self.text, self.ours, ("agrees" if self.holds else "differs") + (f": {self.why}" if self.why else "")
+
+
+def statements(about: str, rows: tuple[Stated, ...]) -> Table:
+    """Table of the ``rows``; ``about`` stands above it."""
+    return Table(about, ("stated", "ours", "verdict"), tuple(row.cells for row in rows))
+
+
 PUBLISHED_TITLE = "## Published numbers"
 PUBLISHED_HEAD = ("source", "number", "theirs", "ours", "deviation", "verdict")
 

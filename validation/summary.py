@@ -32,16 +32,16 @@ Made by `python validation/summary.py`, the last step of `make validate`. One sc
 
 ```sh
 python validation/sphere_on_layer.py     # writes validation/sphere_on_layer.md
-make validate                            # all pages (a quarter of an hour of one core), this page, and pictures in validation-pictures/
+make validate                            # all pages (half an hour of one core), this page, and pictures in validation-pictures/
 ```
 
 Each page states what was computed, the source of the published values ("theirs"), whether a parameter was chosen freely, and the deviations found and allowed. Where the
 reference is an independent solution of our own, the page says "independent solution". `tests/validation` runs every script on a smaller grid and checks the bounds.
 """
 
-TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validation/gold_film_grid.py 4096 FOLDER` write their pages from the whole studies and keep the results in
+TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validation/gold_film_grid.py 4096 FOLDER` write their pages from the whole studies, `python validation/layered_sliding.py FOLDER` its own, and keep the results in
 the folder; stored results are not computed again. `python validation/pictures.py FOLDER` draws rough cylinder, rough sphere, scaling laws, layers and stresses as in
-chapter 3 of Peng (2001), and the motions of the sliding block. `python validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its output is not part
+chapter 3 of Peng (2001), the layered solid of its fig. 2.8 under a sliding sphere, and the motions of the sliding block. `python validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its output is not part
 of the repository.
 
 To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see `side_by_side.py`) or a `Page` of tables and

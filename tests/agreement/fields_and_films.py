@@ -5,6 +5,12 @@ from __future__ import annotations
 import numpy as np
 from agreement.matrix import ETA, GW, ROUNDING, SIGMA, Agreement, E, R, apart, make
 
+from asperity.core.tensor import StressTensor
+from asperity.fem import Resolution, cylinder_track, line_load
+from asperity.solids.elastic import Elastic
+from asperity.theories.subsurface.hertz import hertz_normal
+from asperity.theories.subsurface.shakedown import line_shakedown
+
 LOAD, NU = 1e-6, 0.3
 PRESSURES = np.geomspace(1e5, 1e7, 5)
 
@@ -49,6 +55,25 @@ def round_ellipse(off: float) -> float:
     depths = float(make("hertz", E, R).at_load(LOAD).radius) * np.array([0.1, 0.5, 2.0])
     found = make("hertz-ellipse-stress", E, R, R * (1.0 + off)).at_depth(depths, LOAD)
     return stresses_apart(found, make("hertz-stress", E, R).at_depth(depths, LOAD))
+
+
+def rolled_elements(across: float) -> float:
+    """Shakedown limit from the elastic stresses of finite elements below the pressure of Hertz, which pass by along x, against the closed fields."""
+    fine = Resolution(across=int(across), growth=1.3, depth=1.5, distance=200.0)
+    track = cylinder_track(Elastic(1.0, NU), 1.0, (0.0, 0.0), plasticity=None, resolution=fine)
+    push = line_load(track, 0.0, 1.0, 1.0)
+    stress = track.response(track.carry(track.virgin(), push, 0.0 * push)).stress.mean(axis=1)
+    x, z = (np.unique(track.mesh.points[:, axis]) for axis in (0, 1))
+    rows = stress.reshape(len(x) - 1, len(z) - 1, 6).swapaxes(0, 1)[:, np.abs(x[1:] + x[:-1]) < 8.0]
+    found = line_shakedown(StressTensor(*np.moveaxis(rows, -1, 0)), 1.0)
+    return apart(found.limit, make("shakedown-line").peak_over_k)
+
+
+def rolling_shear(_: float) -> float:
+    """Bound of a rolling sphere against one over the largest shear stress σ_xz below the plane of symmetry."""
+    x, z = np.linspace(0.5, 1.2, 701)[:, None], np.linspace(0.2, 0.6, 401)[None]
+    stress = hertz_normal(x, np.zeros_like(x), z, 1.0, shear=1.0, nu=NU).stress
+    return apart(make("shakedown").bound_over_k, 1.0 / np.abs(stress.xz).max())
 
 
 def onset_of_yield(_: float) -> float:
@@ -139,6 +164,60 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         (),
         ROUNDING,
         "the same stresses; at a maximum an error of the position is of second order",
+    ),
+    Agreement(
+        "shakedown-line",
+        "4 k of Johnson (1962)",
+        "pure rolling",
+        lambda _: apart(make("shakedown-line").peak_over_k, 4.0),
+        (),
+        1e-7,
+        "the place along the pass is known to 1/500 of the half-width, and the stress at a maximum to its square",
+    ),
+    Agreement(
+        "shakedown-line",
+        "k / friction at the surface",
+        "friction above 0.367",
+        lambda _: apart(make("shakedown-line", 0.5).peak_over_k, 2.0),
+        (),
+        1e-7,
+        "the traction at the middle of the contact alternates with nothing; the golden section ends at 4e-9",
+    ),
+    Agreement(
+        "shakedown-line",
+        "elastic finite elements under a rolling load",
+        "elements over the half-width to infinity",
+        rolled_elements,
+        (4.0, 8.0, 16.0),
+        0.004,
+        "second order in the element, 1/16² = 0.004 of the half-width squared at the last",
+    ),
+    Agreement(
+        "shakedown",
+        "4.68 k of Hearle, Ponter and Johnson (1985)",
+        "pure rolling, from above",
+        lambda _: apart(make("shakedown").bound_over_k, 4.68),
+        (),
+        0.0011,
+        "their number has three digits",
+    ),
+    Agreement(
+        "shakedown",
+        "1/(largest shear stress along the pass)",
+        "pure rolling, from above",
+        rolling_shear,
+        (),
+        1e-3,
+        "the shear alternates, so that no residual stress lowers it; places along the pass are 0.04 of the radius apart, the error is of second order",
+    ),
+    Agreement(
+        "shakedown",
+        "k / friction at the surface",
+        "friction 1",
+        lambda _: apart(make("shakedown", 1.0).peak_over_k, 1.0),
+        (),
+        1e-3,
+        "the middle of the contact is a place of the search",
     ),
     Agreement(
         "statistical-meniscus",

@@ -103,6 +103,12 @@ def adhesive_cone(work: float) -> float:
     return contacts_apart(found.at_radius([0.1 * R]), expected.at_radius([0.1 * R]))
 
 
+def adhesive_cylinder(work: float) -> float:
+    """Load of an adhesive cylinder against the one without adhesion, at a half-width of R/10."""
+    found, expected = make("jkr-cylinder", E, R, work), make("hertz-line", E, R)
+    return apart(found.at_half_width([0.1 * R]).load, expected.at_half_width([0.1 * R]).load)
+
+
 def adhesive_wave(work: float) -> float:
     """Adhesive wave against Westergaard's, at contact fractions of 0.2 to 0.8."""
     found, expected = make("jkr-wave", E, 1e-8, 1e-5, work), make("westergaard", E, 1e-8, 1e-5)
@@ -564,6 +570,15 @@ MATRIX: tuple[Agreement, ...] = (
         "power-law-indenter",
         "work of adhesion to zero",
         adhesive_cone,
+        (1e-5, 1e-7, 1e-9),
+        5e-3,
+        "goes as the square root of the work",
+    ),
+    Agreement(
+        "jkr-cylinder",
+        "hertz-line",
+        "work of adhesion to zero",
+        adhesive_cylinder,
         (1e-5, 1e-7, 1e-9),
         5e-3,
         "goes as the square root of the work",

@@ -43,8 +43,9 @@ def test_bound_closes_where_the_attraction_is_weak():
         found = asp.solve(sphere(32, 4.0, law), asp.FixedGrips(0.5 * APPROACH))
         bound = asp.energy_bound(found)
         apart.append((bound.energy - bound.lower) / abs(bound.energy))
-    assert apart[0] > apart[1] > apart[2] > apart[3]
-    assert -1e-12 < apart[-1] < 1e-4
+    rounding = 32**2 * np.finfo(float).eps  # of a sum over the grid; reached at the second share
+    assert apart[0] > 1e3 * rounding
+    assert np.abs(apart[1:]).max() < rounding
 
 
 def test_bound_of_two_flats_in_closed_form():

@@ -88,8 +88,14 @@ def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
         assert jump.lost > 0.0
     # over the cycle the jumps lose what the loop encloses; its long steps know where the jumps were to a step
     loop = asp.adhesion_loop(history.steps)
-    blurred = np.abs(np.diff(loop.force) * np.diff(loop.approach))[loop.jumped[1:]].sum()
-    assert sum(jump.lost for jump in jumps) == pytest.approx(loop.hysteresis, abs=0.5 * blurred)
+    closed = loop.closed_in(jumps)
+    lost = sum(jump.lost for jump in jumps)
+    assert lost == pytest.approx(loop.hysteresis, abs=loop.hysteresis_error)
+    assert closed.hysteresis == pytest.approx(lost, rel=1e-9)
+    assert lost == pytest.approx(np.trapezoid(loop.force, loop.approach), abs=loop.hysteresis_error)
+    assert sum(jump.lost_error for jump in jumps) < 0.05 * lost
+    for jump, between in zip(jumps, loop.jump_intervals, strict=True):
+        assert min(between) <= jump.grips <= max(between)
     # from the other side the branch leads back
     back = asp.adhesive_branch(history.steps[24], towards="approaching", deepest=0.0, step=0.2)
     assert [fold.approach for fold in back.folds] == pytest.approx([on.approach, off.approach], abs=2e-3 * APPROACH)

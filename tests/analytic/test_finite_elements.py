@@ -174,27 +174,6 @@ def test_a_layer_of_rigid_base_and_interfaces_of_the_mesh() -> None:
     assert {*grid.region} == {0, 1}
 
 
-def test_multigrid_solves_like_the_factorisation() -> None:
-    pytest.importorskip("pyamg")
-    body, _ = pressed(mesh.Resolution(across=6, distance=8.0, growth=1.3), STEEL)
-    stiffness = body.respond(np.zeros(body.solid.elements.size), body.solid.virgin())[2]
-    matrix = linear.without(stiffness, body.surface.fixed)
-    right = np.where(body.surface.fixed, 0.0, np.random.default_rng(1).standard_normal(matrix.shape[0]))
-    ones = np.zeros((len(right), 1))
-    ones[1::2] = 1.0
-    found = linear.multigrid(matrix, ones)(right)
-    np.testing.assert_allclose(found, linear.factorised(matrix)(right), atol=1e-7 * np.abs(found).max())
-
-
-def test_without_multigrid(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What to install is said."""
-    import sys
-
-    monkeypatch.setitem(sys.modules, "pyamg", None)
-    with refused(InputError, "large meshes in space", "asperity[fem]"):
-        linear.multigrid(scipy.sparse.eye_array(3, format="csc"), np.ones((3, 1)))
-
-
 def test_what_meshes_refuse() -> None:
     with refused(InputError, "distance of the far boundary (contact radii)", "2"):
         mesh.Resolution(distance=2.0)

@@ -372,3 +372,34 @@ def test_a_punch_beyond_collapse() -> None:
             plasticity=LinearHardening(1.0),
             resolution=fem.Resolution(across=6, distance=6),
         )
+
+
+def test_repeated_indentation_with_a_back_stress() -> None:
+    """Bauschinger's effect at 300 times the load at first yield: a back stress (Prager) flows back more as the load is taken off and flows again in every cycle, which all but
+    close; the yield stress that grows by the same slope soon bears the load, and flow falls more than tenfold from cycle to cycle, as it does with either at a tenth of the load."""
+
+    def works(law: J2 | LinearHardening, times: float) -> tuple[float, list[float]]:
+        """Plastic work of the first way out, and of each cycle after it, over that of the first way in."""
+        top, shares = times * LOAD, (0.02, 0.1, 0.25, 0.5, 0.75, 1.0)
+        down = [fem.Load(share * top) for share in (0.75, 0.5, 0.25, 0.0)]
+        up = [fem.Load(share * top) for share in (0.25, 0.5, 0.75, 1.0)]
+        first = [fem.Load(share * top) for share in shares]
+        mesh = fem.Resolution(across=8, growth=1.3, distance=20.0)
+        body = fem.Indentation.of(STEEL, fem.Paraboloid(R), first, plasticity=law, resolution=mesh)
+        run = body.run(first, keep=())
+        loading, state, found = run.state.plastic_work, run.state, []
+        for course in (down, *([*up, *down],) * 3):
+            before, state = state.plastic_work, body.run(course, start=state, keep=()).state
+            found.append((state.plastic_work - before) / loading)
+        return found[0], found[1:]
+
+    isotropic, kinematic = LinearHardening(Y, E / 30.0), J2(STEEL, LinearHardening(Y), kinematic=E / 30.0)
+    back, cycles = works(kinematic, 300.0)
+    plain, growing = works(isotropic, 300.0)
+    assert back > 1.5 * plain > 0.0
+    assert cycles[0] > 4.0 * growing[0]
+    assert cycles[0] > cycles[1] > cycles[2] > 0.9 * cycles[1]
+    assert growing[2] < 0.1 * growing[1] < 0.01 * growing[0]
+    for law in (kinematic, isotropic):
+        _, light = works(law, 30.0)
+        assert light[2] < 0.1 * light[1] < 0.1 * 0.1 * cycles[1]

@@ -13,7 +13,7 @@ from refusals import refused
 import asperity as asp
 from asperity.core.arrays import RealArray
 from asperity.core.errors import ConvergenceError, InputError
-from asperity.fem import Resolution, pass_fields, passes
+from asperity.fem import Resolution, pass_fields, pass_histories, passes
 from asperity.fem.bricks import brick_mesh, bricks
 from asperity.solids.plasticity import J2, LinearHardening
 from asperity.theories.subsurface.hertz import hertz_line_normal, hertz_line_shear, hertz_normal, hertz_shear
@@ -58,7 +58,7 @@ def test_elastic_cylinder() -> None:
     assert state.dissipated == 0.0
     dragged = track.press(track.virgin(), parabola(radius), place=0.0, force=load, friction=0.2)
     np.testing.assert_allclose([dragged.normal.sum(), dragged.tangential.sum()], [load, 0.2 * load], rtol=1e-5)
-    push = passes.line_load(track, 0.0, 1.0, peak)
+    push = pass_histories.line_load(track, 0.0, 1.0, peak)
     assert push.sum() == pytest.approx(load, rel=1e-12)
     slid = track.carry(track.virgin(), push, 0.2 * push)
     depth, stress = track.column(track.response(slid).stress)
@@ -93,11 +93,42 @@ def test_elastic_sphere_that_slides() -> None:
         np.testing.assert_allclose(stress[inside, number] / peak, getattr(field, name)[inside], atol=0.03)
 
 
+def test_pressure_of_hertz_on_a_sphere_track() -> None:
+    """Given forces: their sum and first moment are exact or of second order, stresses below the middle are Hertz's within 3 % of the peak, and no more is left once they are taken off."""
+    fine = Resolution(across=6, growth=1.7, depth=0.8, distance=12.0)
+    track = passes.sphere_track(STEEL, 1.0, (-0.5, 0.5), plasticity=None, resolution=fine)
+    push = pass_histories.point_load(track, 0.25, 1.0, 1.0)
+    assert push.sum() == pytest.approx(math.pi / 3.0, rel=1e-12)
+    assert push @ track.places[:, 0] / push.sum() == pytest.approx(0.25, abs=1e-3)
+    # the pressure of half an ellipsoid acts 3/8 of the radius beside the plane of symmetry
+    assert push @ track.places[:, 1] / push.sum() == pytest.approx(0.375, rel=5e-3)
+    states = list(pass_histories.hertz_steps(track, track.virgin(), 1.0, 1.0, (-0.5, 0.5), steps=4, ramp=2))
+    assert [state.place for state in states] == [-0.5, -0.5, -0.25, 0.0, 0.25, 0.5, 0.5, 0.5]
+    step = float(np.diff(np.unique(track.places[:, 0])).min())
+    depth, stress = track.column(track.response(states[3]).stress, 0.25 * step, 0.25 * step)
+    at = (np.full_like(depth, 0.5 * step), np.full_like(depth, 0.5 * step), depth, 1.0)
+    field, inside = hertz_normal(*at, shear=1.0, nu=NU).stress, (depth > 0.3) & (depth < 2.0)
+    for number, name in enumerate(("xx", "yy", "zz")):
+        np.testing.assert_allclose(stress[inside, number], getattr(field, name)[inside], atol=0.03)
+    assert np.abs(states[-1].displacement).max() < 1e-6 * np.abs(states[3].displacement).max()
+    with refused(InputError, "track of a line load"):
+        pass_histories.line_load(track, 0.0, 1.0, 1.0)
+
+
+def test_pressed_in_place() -> None:
+    """Between equal ends nothing moves: a cylinder is pressed and lifted as often as there are steps of the ramps."""
+    track = coated(None, 1.0)
+    states = list(pass_histories.sliding_steps(track, track.virgin(), parabola(100.0), 1.0, (0.0, 0.0), ramp=3))
+    np.testing.assert_allclose([state.normal.sum() for state in states], [1 / 3, 2 / 3, 1, 2 / 3, 1 / 3, 0], atol=1e-6)
+    with refused(InputError, "track of a point load"):
+        pass_histories.point_load(track, 0.0, 1.0, 1.0)
+
+
 def rolled(law: J2, peak: float, passes_: int, friction: float = 0.0) -> tuple[passes.Track, list[passes.PassState]]:
     track = passes.cylinder_track(STEEL, 1.0, (-3.0, 3.0), plasticity=law, resolution=COARSE)
     states = [track.virgin()]
     for _ in range(passes_):
-        states.append(passes.hertz_pass(track, states[-1], peak * K, 1.0, (-3.0, 3.0), friction=friction).state)
+        states.append(pass_histories.hertz_pass(track, states[-1], peak * K, 1.0, (-3.0, 3.0), friction=friction).state)
     return track, states
 
 
@@ -171,15 +202,19 @@ def test_a_second_pass_of_a_sliding_cylinder() -> None:
     law = LinearHardening(strength, 0.01 * E)  # peak pressure 2.2 Y of the elastic contact
     track = passes.cylinder_track(STEEL, 1.2 * half_width, (-1.5, 1.5), plasticity=law, resolution=COARSE)
     load = math.pi * E_STAR * half_width**2 / (4.0 * radius)
-    first = passes.sliding_pass(track, track.virgin(), parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15)
-    second = passes.sliding_pass(track, first.state, parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15)
+    first = pass_histories.sliding_pass(
+        track, track.virgin(), parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15
+    )
+    second = pass_histories.sliding_pass(
+        track, first.state, parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15
+    )
     sliding = slice(4, 19)
     np.testing.assert_allclose(first.force[sliding], load, rtol=1e-5)
     np.testing.assert_allclose(first.pull[sliding], 0.2 * load, rtol=1e-5)
     assert first.force[-1] == 0.0
     assert np.all(np.diff(first.dissipated) >= -1e-12 * first.dissipated[-1])
     assert second.dissipated[-1] - first.dissipated[-1] < 0.5 * first.dissipated[-1]
-    again = passes.sliding_pass(track, first.state, parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15)
+    again = pass_histories.sliding_pass(track, first.state, parabola(radius), load, (-1.5, 1.5), friction=0.2, steps=15)
     np.testing.assert_array_equal(again.state.displacement, second.state.displacement)
     residual = track.response(first.state).forces.reshape(-1, 2)
     held = np.zeros(len(residual), dtype=bool)
@@ -219,7 +254,7 @@ def test_refusals() -> None:
     with refused(InputError, "load of an indenter"):
         track.press(track.virgin(), parabola(1.0), place=0.0)
     with refused(InputError, "peak pressure (Pa)", "0"):
-        passes.hertz_pass(track, track.virgin(), 0.0, 1.0, (0.0, 1.0))
+        pass_histories.hertz_pass(track, track.virgin(), 0.0, 1.0, (0.0, 1.0))
     with refused(InputError, "ends of the track (m)"):
         passes.cylinder_track(STEEL, 1.0, (1.0, 0.0), plasticity=None)
     soft = passes.cylinder_track(
@@ -229,7 +264,7 @@ def test_refusals() -> None:
         plasticity=LinearHardening(1e-3),
         resolution=Resolution(across=4, growth=1.6, distance=10.0),
     )
-    push = passes.line_load(soft, 0.0, 1.0, 100.0)
+    push = pass_histories.line_load(soft, 0.0, 1.0, 100.0)
     with pytest.raises(ConvergenceError) as stopped:  # far beyond collapse
         soft.carry(soft.virgin(), push, 0.0 * push)
     assert isinstance(stopped.value.result, passes.PassState)
@@ -244,7 +279,7 @@ def coated(law: object, stiff: float, distance: float = 30.0) -> passes.Track:
 def test_interface_and_film_of_a_coating() -> None:
     """Tractions are continuous across the interface; a stiff film is drawn at its lower side under the load; equal layers change nothing."""
     track = coated(None, 4.0)
-    push = passes.line_load(track, 0.0, 1.0, 1.0)
+    push = pass_histories.line_load(track, 0.0, 1.0, 1.0)
     state = track.carry(track.virgin(), push, 0.3 * push)
     above, below = (pass_fields.interface_tractions(track, state, below=side) for side in (False, True))
     near = np.abs(above.places[:, 0]) < 2.0
@@ -273,7 +308,7 @@ def test_equal_layers_are_one_body() -> None:
     for track in (plain, layered):
         now = track.virgin()
         for peak in (1.5, 2.0, 2.3):
-            push = passes.line_load(track, 0.0, 1.0, peak)
+            push = pass_histories.line_load(track, 0.0, 1.0, peak)
             now = track.carry(now, push, 0.0 * push)
         parts = pass_fields.region_findings(track, now)
         found.append((max(part.flow for part in parts), now.dissipated))

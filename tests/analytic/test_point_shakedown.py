@@ -13,6 +13,7 @@ import asperity as asp
 from asperity import theories
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.core.tensor import StressTensor, second_invariant
+from asperity.fem import Resolution, point_load, sphere_track
 from asperity.theories.subsurface.hertz import hertz_line_normal, hertz_line_shear, hertz_normal
 
 FRICTION = (0.0, 0.1, 0.2, 0.35, 0.6, 1.0)
@@ -187,3 +188,20 @@ def test_refusals() -> None:
         asp.shakedown(result, [1e-5], -0.1)
     with refused(InputError, "curves of a shakedown map"):
         asp.shakedown_map([1.0], [])
+
+
+def test_rolling_sphere_by_finite_elements() -> None:
+    """Both bounds from the elastic stresses of finite elements below the pressure of Hertz; four elements to the radius give stresses within 3 % of the peak."""
+    coarse = Resolution(across=4, growth=1.5, depth=1.0, distance=12.0)
+    track = sphere_track(asp.Elastic(1.0, 0.3), 1.0, (0.0, 0.0), plasticity=None, resolution=coarse)
+    push = point_load(track, 0.0, 1.0, 1.0)
+    stress = track.response(track.carry(track.virgin(), push, 0.0 * push)).stress.mean(axis=1)
+    x, y, z = (np.unique(track.mesh.points[:, axis]) for axis in range(3))
+    planes = np.moveaxis(stress.reshape(len(x) - 1, len(y) - 1, len(z) - 1, 6), 2, 0)
+    near = planes[:, np.abs(x[1:] + x[:-1]) < 8.0][:, :, y[1:] + y[:-1] < 4.4]
+    found, exact = (
+        theories.point_shakedown(StressTensor(*np.moveaxis(near, -1, 0)), 1.0),
+        theories.sphere_shakedown(0.0, 0.3),
+    )
+    assert found.limit == pytest.approx(exact.peak_over_k, rel=0.03)
+    assert found.bound == pytest.approx(exact.bound_over_k, rel=0.03)

@@ -12,11 +12,13 @@ RUBBER = asp.Viscoelastic.prony(1.0, ((9.0, 1.0),), 0.0)
 PRESSURE = asp.MeanPressure(0.3 * np.pi * 0.01)
 
 
-def wave(points: int = 64) -> asp.ContactProblem:
-    x = np.arange(points) / points
+def wave(
+    points: int = 64, body: asp.Elastic = RUBBER, moved: float = 0.0, **more: asp.Hardness | asp.ExponentialAdhesion
+) -> asp.ContactProblem:
+    x = np.arange(points) / points - moved
     heights = -0.01 * (1.0 - np.cos(2.0 * np.pi * x))[:, None]
     surface = asp.Surface(heights, 1.0 / points, 1.0, periodic=True)
-    return asp.ContactProblem(surface, asp.Rigid(), counter_body=RUBBER)
+    return asp.ContactProblem(surface, asp.Rigid(), counter_body=body, **more)  # type: ignore[arg-type]
 
 
 def test_sliding_wave_comes_to_its_steady_state() -> None:
@@ -88,6 +90,39 @@ def test_direction_of_a_motion() -> None:
     assert along[-1] > 1e-3
 
 
+LIGHT = asp.MeanPressure(0.1 * np.pi * 0.01)
+STICKY = asp.ExponentialAdhesion(2e-4, 2e-3)
+
+
+@pytest.mark.parametrize(("speed", "modulus", "error"), [(1e6, 10.0, 1e-5), (1e-5, 1.0, 5e-4)])
+def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float, error: float) -> None:
+    """The adhesive contact of the first instant carried along, or that of the relaxed body; without friction in both."""
+    found = asp.slide_in_time(wave(48, adhesion=STICKY), LIGHT, speed, 0.25, steps_per_pixel=1)
+    elastic = asp.solve(wave(48, asp.Elastic(modulus, 0.0), 0.25, adhesion=STICKY), LIGHT)
+    np.testing.assert_allclose(found.last.pressure, elastic.pressure, atol=error * elastic.max_pressure)
+    assert elastic.area_fraction > asp.solve(wave(48, asp.Elastic(modulus, 0.0)), LIGHT).area_fraction
+    assert abs(found.friction[-1]) < 5e-4
+
+
+def test_adhesion_adds_to_hysteretic_friction() -> None:
+    """Work along the motion of pressure and attraction is the heat of the solid, and more than without adhesion."""
+    found = asp.slide_in_time(wave(32, adhesion=STICKY), LIGHT, 0.1, 1.5)
+    assert found.mean_friction(1.0) == pytest.approx(found.mean_loss(1.0), rel=0.01)
+    assert found.mean_friction(1.0) > 1.5 * asp.slide(wave(48), LIGHT, 0.1).friction
+
+
+def test_dents_stay_on_the_body_at_rest() -> None:
+    """After a period there is one groove of the same depth at all points, and pressures stay below the hardness."""
+    hardness = 0.05
+    found = asp.slide_in_time(wave(48, law=asp.Hardness(hardness)), LIGHT, 0.1, 2.0, steps_per_pixel=1)
+    dent = found.last.permanent_indentation
+    assert dent.min() > 0.0
+    assert found.last.max_pressure <= hardness * (1.0 + 1e-9)
+    assert float(found.column("max_pressure").max()) <= hardness * (1.0 + 1e-9)
+    first = asp.solve(wave(48, law=asp.Hardness(hardness)), LIGHT)
+    assert found.records[0, 5] == pytest.approx(first.area_fraction_corrected, rel=1e-9)
+
+
 def test_what_is_refused() -> None:
     x = np.arange(16) / 16
     rough = asp.Surface(0.01 * np.cos(2.0 * np.pi * x)[:, None], 1.0 / 16, 1.0, periodic=True)
@@ -99,10 +134,12 @@ def test_what_is_refused() -> None:
         asp.slide_in_time(wave(16), PRESSURE, 0.0, 1.0)
     with refused(asp.InputError, "control of sliding in time"):
         asp.slide_in_time(wave(16), asp.Unloaded(), 1.0, 1.0)
-    with refused(asp.InputError, "law of sliding in time"):
-        asp.slide_in_time(
-            asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, law=asp.Hardness(1.0)), PRESSURE, 1.0, 1.0
-        )
+    with refused(asp.InputError, "friction of sliding in time"):
+        rubbed = asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, friction=asp.Coulomb(0.2))
+        asp.slide_in_time(rubbed, PRESSURE, 1.0, 1.0)
+    with refused(asp.InputError, "adhesion of viscoelastic bodies", "JKRAdhesion"):
+        sticky = asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, adhesion=asp.JKRAdhesion(1e-4))
+        asp.slide_in_time(sticky, PRESSURE, 1.0, 1.0)
     first = asp.slide_in_time(wave(16), PRESSURE, 1.0, 0.1)
     with refused(asp.InputError, "earlier part of a motion"):
         asp.slide_in_time(wave(16), PRESSURE, 2.0, 0.1, after=first)

@@ -6,6 +6,7 @@ LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "assemble": "one line for each field of the result",
         "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
+        "entering_levels": "what a kernel calls is compiled once more in each of its callers",
         "_down": "what a kernel calls is compiled once more in each of its callers",
         "press": "what a kernel calls is compiled once more in each of its callers",
     },
@@ -16,7 +17,9 @@ LIMITS: dict[str, dict[str, str]] = {
         "StressPlanes.__init__": "independent keyword-only choices of the user, and the stress that a result knows beside its tractions",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "hertz_pass": "independent keyword-only choices of the user, each with a default",
+        "hertz_steps": "the same choices as those of the pass",
         "sliding_pass": "independent keyword-only choices of the user, each with a default",
+        "sliding_steps": "the same choices as those of the pass",
         "survey": "a compiled pass takes its arrays and numbers one by one",
         "survey_capped": "a compiled pass takes its arrays and numbers one by one",
         "mark_free": "a compiled pass takes its arrays and numbers one by one",
@@ -32,6 +35,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "sweep": "a compiled pass takes its arrays and numbers one by one",
         "_down": "a compiled pass takes its arrays and numbers one by one",
         "press": "a compiled pass takes its arrays and numbers one by one",
+        "entering_levels": "a compiled pass takes its arrays and numbers one by one",
         "subtract_deflections": "a compiled pass takes its arrays and numbers one by one",
         "coupled_product": "a compiled pass takes its arrays and numbers one by one",
         "factorise_tensors": "a compiled pass takes its arrays and numbers one by one",
@@ -73,6 +77,7 @@ LIMITS: dict[str, dict[str, str]] = {
 """Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. A reason is why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
+    "asperity.contact.solvers.active_set.linear_system.octaves": "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times",
     "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called needs them",
     "asperity.core.quadrature._rule": "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve",
     "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made needs it",

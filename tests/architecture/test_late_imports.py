@@ -28,7 +28,6 @@ HEAVY = {
     "numpy": "0.1 s: `asperity --help` must answer within 0.2 s",
     "pandas": "0.4 s",
     "pint": "0.2 s",
-    "pyamg": "an extra that may be missing; 0.3 s",
     "pydantic": "0.1 s",
     "pydantic_core": "0.1 s, with pydantic",
     "rich": "0.1 s, only where something is printed",

@@ -47,6 +47,7 @@ def test_the_loop_of_a_command_is_that_of_python(run: Runner, tmp_path: Path) ->
     loop = asp.adhesion_loop(again.steps)
     assert outcome.values["pull_off_force"] == loop.pull_off_force
     assert outcome.values["hysteresis"] == loop.hysteresis
+    assert outcome.values["hysteresis_error"] == loop.hysteresis_error
     np.testing.assert_array_equal(outcome.path.external_force, again.external_force)
     assert {"adhesion_loop", "adhesive_zone", "traction_section"} <= {path.stem for path in (out / "plots").iterdir()}
     assert {"adhesion_loop", "adhesive_zone"} <= {figure.name for figure in outcome.figures["adhesion"]}

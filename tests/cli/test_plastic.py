@@ -18,6 +18,7 @@ from asperity.core.errors import InputError
 from asperity.io.words import result_rows
 from asperity.report.animation import plastic_cuts
 from asperity.run.stored import load_outcome, save_outcome
+from asperity.theories import catalogue
 
 STEEL = "E=200GPa,nu=0.3,Y=400MPa"
 PROBLEM: dict[str, Any] = {
@@ -80,6 +81,29 @@ def test_a_document_is_what_python_computes() -> None:
     assert found.values["flow_base_strain"] > 0.0
     assert not any(text == "0 J" for _, text in result_rows(found.result)), "work that is solved as plastic flow"
     np.testing.assert_allclose(found.found["plastic_flow"].values["flow_imprint"], flow.displacement, atol=1e-15)
+
+
+def test_stresses_keep_to_the_yield_stress_that_the_same_run_enforces() -> None:
+    """Perfectly plastic, rough against the pixels, with friction that only the flow and the stresses feel: largest von Mises stress, the one at a depth
+    itself, tensions of both tables, tractions of the interface."""
+    made = outcome(
+        body=f"{STEEL}:800nm/E=100GPa,nu=0.3",
+        plastic_flow=FLOW | {"unknown_is_elastic": True},
+        stress={},
+        friction={"coefficient": 0.3},
+        control={"mean_pressure": "30 MPa"},
+    )
+    values, stress = made.values, made.found["stress"].values
+    assert made.result.plastic_flow.zones[0].top == 0.0
+    change = 1e-4 * values["flow_largest_strain"]  # at which the strain counts as settled
+    unsettled = 3.0 * 200e9 / 2.6 * change
+    assert stress["layer_max_von_mises"][0] == pytest.approx(0.4e9, abs=unsettled)
+    assert unsettled < 0.01 * 0.4e9
+    assert asp.stress(made.result, [0.0]).von_mises.max() > 2.0 * 0.4e9
+    assert values["flow_surface_tension"] <= stress["layer_max_tension"][0]
+    assert values["flow_layer_tension"] <= stress["layer_max_tension"][0]
+    assert values["flow_interface_shear"] == pytest.approx(values["max_interface_shear"], rel=1e-3)
+    assert values["flow_interface_peel"] == pytest.approx(values["max_interface_peel"], rel=1e-3)
 
 
 def test_unloading_keeps_imprint_and_work() -> None:
@@ -165,6 +189,8 @@ def test_a_study_of_thickness_and_yield_stress(tmp_path: Path) -> None:
         (STEEL, ("--indenter-radius", "10um"), "the indentation"),
         (STEEL, ("--indent", "0nm"), "--indent"),
         (STEEL, ("--indent", "10nm", "--indent-in", "counter_body"), "counter_body"),
+        (STEEL, ("--indent", "10nm", "--indenter-radius", "1um", "--elastic-indenter"), "counter_body"),
+        (STEEL, ("--indent", "10nm", "--indent-friction", "-1"), "--indent-friction"),
     ],
 )
 def test_refusals(run: Runner, matrix: Path, body: str, extra: tuple[str, ...], subject: str) -> None:
@@ -257,6 +283,25 @@ def test_elastic_indentation_is_hertz() -> None:
     assert found.values["indent_residual_depth"] == pytest.approx(0.0, abs=1e-3 * DEPTH_Y)
     assert found.values["indent_oliver_pharr_modulus"] == pytest.approx(E_STAR, rel=0.02)
     assert "indentation" in {finding.criterion for finding in found.findings}
+
+
+def test_an_elastic_indenter_and_friction() -> None:
+    """An indenter of the same elastic constants halves the contact modulus: Hertz's force at one approach, and Oliver and Pharr's modulus; friction does not lower the force."""
+    body, table = "E=200GPa,nu=0.3,Y=40GPa", {"depth": f"{DEPTH_Y!r} m", "radius": "10 um", "elements": 12, "steps": 4}
+    table |= {"unloading_steps": 8}
+    pair = {"body": body, "counter_body": "E=200GPa,nu=0.3,name=ball", "control": {"mean_pressure": "1 MPa"}}
+    soft = outcome(**pair, indentation=table | {"elastic_indenter": True})
+    assert soft.values["indent_force"] == pytest.approx(0.5 * FORCE_Y, rel=0.01)
+    assert soft.values["indent_oliver_pharr_modulus"] == pytest.approx(0.5 * E_STAR, rel=0.02)
+    (words,) = (words for part, words in soft.sections if part.name == "indentation")
+    assert dict(words.rows)["material of the indenter"] == "ball"
+    rigid = outcome(**pair, indentation=table)
+    assert rigid.values["indent_force"] == pytest.approx(FORCE_Y, rel=0.01)
+    rough = outcome(**pair, indentation=table | {"friction": 0.3})
+    sticks = catalogue.theory("sticking-indenter")(E_STAR, 0.5 / RADIUS, 2.0, 2.0 / 7.0).at_load(FORCE_Y)
+    most = (DEPTH_Y / float(sticks.approach)) ** 1.5  # no friction takes more than full stick (Spence 1968)
+    assert 1.0 < rough.values["indent_force"] / rigid.values["indent_force"] < 1.005 * most
+    assert most < 1.05
 
 
 def test_a_hard_film_takes_more_and_is_in_tension(tmp_path: Path) -> None:

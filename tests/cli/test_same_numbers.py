@@ -56,7 +56,7 @@ DOCUMENTS = {
         counter_body="E=3MPa+3MPa@0.1s+10MPa@10ms,nu=0.5,WLF=298K;8.86;101.6K",
         control={"mean_pressure": "1 kPa"},
         viscoelastic={"temperature": "310 K"},
-        hysteresis={"speed": "1 mm/s", "direction": "30 deg"},
+        hysteresis={"speed": "1 mm/s", "direction": "30 deg", "distance": "2 um", "steps_per_pixel": 1},
     ),
     "list of steps": document(
         counter_body=BODY,
@@ -80,6 +80,26 @@ DOCUMENTS = {
     "line": document(surface=LINE, boundary={"kind": "line"}, control={"force": "1 N"}),
     "solver": document(solver={"method": "conjugate_gradient", "tolerance": 1e-8}),
     "plastic load": document(law={"kind": "hardness", "hardness": "0.5 GPa"}, plastic_load={"share": 0.02}),
+    "plastic flow": document(
+        body="E=300GPa,nu=0.25,Y=5GPa:100nm/E=200GPa,nu=0.3,Y=400MPa,hardening=swift(0.2)",
+        plastic_flow={"steps": 1, "cells": 4, "unload": True},
+    ),
+    "indentation": document(
+        body="E=200GPa,nu=0.3,Y=4GPa,hardening=voce(1GPa,20)",
+        indentation={"depth": "5 nm", "radius": "10 um", "elements": 4, "steps": 4, "unloading_steps": 6},
+    ),
+    "passes": document(
+        body="E=200GPa,nu=0.3,Y=400MPa,kinematic=10GPa,recall=50",
+        passes={
+            "count": 1,
+            "radius": "10 um",
+            "line_load": "150 N/m",
+            "friction": 0.1,
+            "elements": 4,
+            "steps": 4,
+            "track": "0.1 um",
+        },
+    ),
 }
 COSTLY = ("normal_stiffness", "statistical_meniscus_force")
 

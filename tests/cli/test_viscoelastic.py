@@ -15,13 +15,14 @@ from study_cases import InProcess, plan
 import asperity as asp
 from asperity.contact.roughness import roughness_of
 from asperity.contact.time_steps import COLUMNS
+from asperity.contact.transient_sliding import COLUMNS as WAY
 from asperity.core.errors import InputError
 from asperity.parts.hysteresis import COLUMNS as SPEED_COLUMNS
 from asperity.parts.hysteresis import SCALARS as SLIDING
 from asperity.parts.viscoelastic import SCALARS, STEPS
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
-from asperity.run.stored import load_outcome
+from asperity.run.stored import load_outcome, save_outcome
 from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
 
@@ -239,6 +240,41 @@ def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> No
     assert words.sentence in " ".join(done.output.split())
 
 
+START: dict[str, Any] = GROUND | {
+    "surface": GROUND["surface"] | {"points": [16, 16]},
+    "hysteresis": {"speed": "1 cm/s", "distance": "1 mm", "steps_per_pixel": 1},
+}
+
+
+def test_start_of_sliding_and_its_files(tmp_path: Path) -> None:
+    """Friction and area along the way are those of Python, in the outcome and its file, with figures and words."""
+    outcome = asp.run(START)
+    found = asp.slide_in_time(build(checked(START)).problem, asp.MeanPressure(0.2e6), 0.01, 1e-3, steps_per_pixel=1)
+    values = outcome.found["sliding_start"].values
+    for item in WAY:
+        np.testing.assert_array_equal(values[f"way_{item.name}"], found.column(item.name))
+    np.testing.assert_array_equal(values["way_friction"], found.friction)
+    assert len(values["way_time"]) == 9
+    assert outcome.values["start_last_friction"] == found.mean_friction(0.25e-3)
+    assert outcome.values["start_last_heat_friction"] == found.mean_loss(0.25e-3)
+    assert outcome.values["start_last_area_fraction"] == found.column("area_fraction")[-1]
+    save_outcome(outcome, tmp_path / "start.nc")
+    again = load_outcome(tmp_path / "start.nc")
+    np.testing.assert_array_equal(again.found["sliding_start"].values["way_friction"], found.friction)
+    names = {"friction_at_start", "area_at_start", "energy_at_start", "pressure_after_start"}
+    assert {figure.name for figure in again.figures["sliding_start"]} == names
+    texts = [next(words for part, words in each.sections if part.name == "sliding_start") for each in (outcome, again)]
+    assert f"(steady: {outcome.values['hysteresis_friction']:.3g})" in texts[0].sentence
+    assert texts[0].sentence == texts[1].sentence
+
+
+def test_start_of_sliding_that_leaves_its_grid_is_a_finding() -> None:
+    table = ROLLER | {"hysteresis": ROLLER["hysteresis"] | {"distance": "2 um", "steps_per_pixel": 1}}
+    assert "edge of the grid" not in {finding.criterion for finding in asp.run(table).findings}
+    far = asp.run(table | {"hysteresis": ROLLER["hysteresis"] | {"distance": "4.5 um", "steps_per_pixel": 1}})
+    assert "edge of the grid" in {finding.criterion for finding in far.findings}
+
+
 def test_sliding_along_a_line_and_over_a_coating_has_no_theory_beside_it() -> None:
     coated = GROUND | {"counter_body": f"{RUBBER}:0.2mm/steel"}
     line = GROUND | {"surface": {"kind": "sinusoid", "points": [32, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}}  # fmt: skip
@@ -265,6 +301,31 @@ def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
     assert "steps of time" in {finding.criterion for finding in asp.run(held).findings}
     fine = asp.run(held | {"viscoelastic": {"hold": "100 s", "tolerance": 0.002}})
     assert "steps of time" not in {finding.criterion for finding in fine.findings}
+
+
+def test_stick_and_slip_in_time() -> None:
+    """Steps along the surfaces take the time of the ramp; numbers are those of Python, and a path keeps its turning points and all shear steps."""
+    rubber = {"body": "E=3MPa+13MPa@10ms,nu=0.45", "counter_body": "rigid", "friction": {"coefficient": 0.4}}
+    surface = BALL["surface"] | {"points": [16, 16]}
+    table = BALL | rubber | {"surface": surface, "control": {"force": "20 uN"}, "shear": {"shift": "100 nm"}}
+    outcome = asp.run(table | {"viscoelastic": {"ramp": "10 ms", "hold": "20 ms", "steps": 2}})
+    load, shift = asp.Force(20e-6), asp.Shift(100e-9)
+    pressed = [asp.Step(load, asp.Shift(), duration=time) for time in (10e-3, 20e-3)]
+    course = [*pressed, *(asp.Step(load, shift, duration=time) for time in (10e-3, 20e-3))]
+    problem = build(checked(table)).problem
+    found = asp.solve(problem, asp.History(course), time_steps=asp.TimeSteps(number=2))
+    assert outcome.values["viscoelastic_heat"] == pytest.approx(
+        sum(step.creep.dissipated for step in found.steps), rel=1e-9
+    )
+    assert outcome.values["total_dissipated"] == pytest.approx(found.last.stick_slip.total_dissipated, rel=1e-9)
+    path = {
+        "control": {"path": {"force": ["10 uN", "20 uN"], "steps": 2}},
+        "shear": {"shift": ["50 nm", "0 nm"], "steps": 2},
+    }
+    legs = asp.run(table | path | {"viscoelastic": {"ramp": "10 ms", "steps": 1}})
+    assert legs.path is not None
+    assert [step.force for step in legs.path.steps[:3]] == pytest.approx([10e-6, 20e-6, 20e-6])
+    assert [step.stick_slip.shift_x for step in legs.path.steps] == pytest.approx([0.0, 0.0, 25e-9, 50e-9, 25e-9, 0.0])
 
 
 def test_documents_keep_their_text() -> None:
@@ -295,6 +356,21 @@ REFUSED: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
         GROUND,
         {"hysteresis": {"speed": "1 m/s", "points": 3}},
         "hysteresis.points (--speed-points)",
+    ),
+    "steps without distance": (
+        GROUND,
+        {"hysteresis": {"speed": "1 m/s", "steps_per_pixel": 3}},
+        "hysteresis.steps_per_pixel (--steps-per-pixel)",
+    ),
+    "too far": (
+        GROUND,
+        {"hysteresis": {"speed": "1 m/s", "distance": "1 km"}},
+        "hysteresis.distance (--sliding-distance)",
+    ),
+    "too near": (
+        GROUND,
+        {"hysteresis": {"speed": "1 m/s", "distance": "1 um"}},
+        "hysteresis.distance (--sliding-distance)",
     ),
     "rough rubber": (
         GROUND,

@@ -12,7 +12,10 @@ from study_cases import plan
 
 import asperity as asp
 
+FLOWS = ("--body", "E=200GPa,nu=0.3,Y=400MPa")
 RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
+ON_RUBBER = ("--body", "rigid", "--counter", RUBBER[1], *LOAD, "--sliding-speed", "1mm/s")
+COATED_RUBBER = ("--body", f"{RUBBER[1]}:1um/steel", *LOAD)
 STRESS: tuple[tuple[str, ...], ...] = (
     ("--friction", "-0.1"),
     ("--direction", "90"),
@@ -83,6 +86,14 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*RUBBER, *LOAD, "--oscillation-amplitude", "1nm"),
     (*RUBBER, *LOAD, "--slowest", "1mm/s"),
     (*RUBBER, *LOAD, "--sliding-speed", "1mm/s"),
+    (*RUBBER, *LOAD, "--sliding-distance", "1mm"),
+    (*ON_RUBBER, "--steps-per-pixel", "3"),
+    (*ON_RUBBER, "--sliding-distance", "1nm"),
+    (*ON_RUBBER, "--sliding-distance", "1km"),
+    (*ON_RUBBER, "--slowest", "1m/s", "--fastest", "1mm/s"),
+    (*ON_RUBBER, "--speed-points", "3"),
+    (*ON_RUBBER, "--adhesion", "50mJ/m**2", "--adhesion-range", "1nm"),
+    (*COATED_RUBBER, "--friction", "0.3", "--shift", "5nm"),
     ("--body", "moduli=none.csv,nu=0.3", *LOAD),
     ("--body", "E=1GPa,power=0.1,shortest=1e-300s,longest=1e300s,nu=0.3", *LOAD),
     (*BODY, *LOAD, "--tolerance", "2"),
@@ -132,6 +143,18 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*BODY, *LOAD, "--materials-file", "none.toml", "--body", "DLC"),
     ("--body", "DLC:5nm~/steel", *LOAD, "--friction", "0.1"),
     ("--body", "DLC:5nm/rigid", *LOAD, "--depths", "1um"),
+    ("--body", "steel", *LOAD, "--plastic"),
+    ("--body", "steel", *LOAD, "--indent", "1nm", "--indenter-radius", "1um"),
+    (*FLOWS, *LOAD, "--plastic", "--hardness", "1GPa"),
+    (*FLOWS, *LOAD, "--indent", "1um", "--indenter-radius", "1um"),
+    (*FLOWS, *LOAD, "--indent", "1nm", "--indent-in", "counter_body"),
+    (*FLOWS, *LOAD, "--indenter-radius", "1um"),
+    (*FLOWS, *LOAD, "--passes", "2"),
+    (*FLOWS, *LOAD, "--pass-peak", "1GPa"),
+    (*FLOWS, *LOAD, "--passes", "2", "--pass-peak", "1GPa", "--pass-in", "counter_body"),
+    (*FLOWS, *LOAD, "--passes", "2", "--pass-peak", "500GPa", "--pass-radius", "1um"),
+    (*FLOWS, *LOAD, "--passes", "2", "--pass-peak", "1GPa", "--pass-radius", "1um", "--pass-track", "1mm"),
+    ("--body", "steel", *LOAD, "--passes", "2", "--pass-peak", "1GPa"),
     *((*BODY, *LOAD, *options) for options in (*STRESS, *PREPARATION)),
 )
 """Options of ``asperity contact`` on a matrix of stated size."""

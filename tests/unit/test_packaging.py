@@ -13,7 +13,7 @@ REQUIREMENT = re.compile(r"([\w-]+)(?:\[[\w,]+\])?>=([\d.]+)")
 
 def test_the_constraints_are_the_lowest_versions_that_are_admitted() -> None:
     extras = PROJECT["optional-dependencies"]
-    stated = [*PROJECT["dependencies"], *extras["fast"], *extras["dask"], *extras["fem"]]
+    stated = [*PROJECT["dependencies"], *extras["fast"], *extras["dask"]]
     lowest = dict(match.groups() for text in stated if (match := REQUIREMENT.fullmatch(text)))
     assert len(lowest) == len(stated), "every dependency states one lowest version and no other condition"
     lines = (ROOT / ".ci" / "lowest.txt").read_text(encoding="utf-8").splitlines()

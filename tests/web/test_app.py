@@ -52,6 +52,13 @@ def choose(page: Any, key: str, word: str) -> None:
     page.click(f'.q-menu .q-item:has-text("{word}") >> nth=0')
 
 
+def put(page: Any, file: Path) -> None:
+    """Choose a ``file`` in the area on which files are dropped."""
+    with page.expect_file_chooser() as chooser:
+        page.click(".drop")
+    chooser.value.set_files(str(file))
+
+
 def document(page: Any) -> dict[str, Any]:
     """The document as the page copies it."""
     page.click("text=Copy as")
@@ -191,6 +198,34 @@ def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Cal
     assert (relaxation["moduli"], relaxation["times"]) == (["10 GPa", "3 GPa"], ["10 ms", "0.1 s"])
     assert asked["viscoelastic"]["hold"] == ["0.1 s"]
     assert checked(asked).body.relaxation is not None
+
+
+@pytest.mark.slow
+def test_moduli_are_dropped_on_a_measured_relaxation(
+    demo: AppServer, open_page: Callable[..., Any], tmp_path: Path
+) -> None:
+    """A sound table becomes that of the body; one with a wrong unit is refused in words, under the name that it was given."""
+    sound, wrong = tmp_path / "rubber.csv", tmp_path / "wrong.csv"
+    rubber = asp.Viscoelastic.prony(3e6, ((10e6, 0.01),), 0.5)
+    frequency = np.geomspace(0.1, 1e3, 12)
+    moduli = rubber.complex_modulus(2 * np.pi * frequency) / 1e6
+    rows = "\n".join(f"{f},{e.real},{e.imag}" for f, e in zip(frequency, moduli, strict=True))
+    sound.write_text(f"frequency (Hz), storage modulus (MPa), loss modulus (MPa)\n{rows}\n")
+    wrong.write_text(f"frequency (kg), storage modulus (MPa), loss modulus (MPa)\n{rows}\n")
+    page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
+    go(page, "bodies")
+    page.click('[data-key="body.kind"] >> text=Own constants')
+    choose(page, "body.relaxation.kind", "measured")
+    fill(page, "body.poisson_ratio", "0.5")
+    page.wait_for_timeout(700)
+    put(page, wrong)
+    page.wait_for_selector("text=wrong.csv")
+    assert "moduli_file" not in document(page)["body"]["relaxation"]
+    with page.expect_navigation():
+        put(page, sound)
+    page.wait_for_selector("h1")
+    relaxation = document(page)["body"]["relaxation"]
+    assert (relaxation["kind"], relaxation["moduli_file"]) == ("measured", "rubber.csv")
 
 
 @pytest.mark.slow

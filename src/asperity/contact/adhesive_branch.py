@@ -234,6 +234,11 @@ class Jump:
         """Energy in J that the jump loses."""
         return self.after.require_adhesion().dissipated
 
+    @property
+    def lost_error(self) -> float:
+        """Bound of the error of that energy in J."""
+        return self.after.require_adhesion().dissipated_error
+
 
 def adhesive_jumps(history: HistoryResult, tolerance: float) -> tuple[Jump, ...]:
     """Jumps of a history of grips, each closed in to a ``tolerance`` (m, > 0) of the approach of the grips.

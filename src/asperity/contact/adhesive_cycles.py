@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from ..core.errors import InputError
 from ..core.quantity import Quantity
 from .problem import FixedGrips
 from .result import ContactResult
+
+if TYPE_CHECKING:
+    from .adhesive_branch import Jump
 
 ADHESION_SCALARS = (
     Quantity("attractive_force", "N", "force of the attraction"),
@@ -34,6 +38,7 @@ LOOP_SCALARS = (
     Quantity("pull_off_force", "N", "pull-off force, the largest tensile force on the way"),
     Quantity("pull_off_approach", "m", "approach at the pull-off force"),
     Quantity("hysteresis", "J", "energy dissipated along the path"),
+    Quantity("hysteresis_error", "J", "bound of the error of that energy by the length of the steps"),
     Quantity("effective_work_of_adhesion", "J/m**2", "work to part the surfaces from zero load / nominal area"),
 )
 """Every scalar of a path of adhesive contacts, in the order of tables."""
@@ -94,6 +99,12 @@ class AdhesionLoop:
         Approach of the bodies (m) and external force (N, negative pulls) after each step.
     energy
         Elastic energy and that of the interface (J) after each step.
+    lost, error
+        Energy (J) that each step lost of the solids, without the liquid, and the bound of its error.
+    menisci
+        Force (N) of the menisci after each step, zero without a film.
+    grips
+        Approach (m) of the machine that holds the bodies after each step.
     jumped
         Whether the contact jumped in each step.
     margin
@@ -105,6 +116,10 @@ class AdhesionLoop:
     approach: RealArray
     force: RealArray
     energy: RealArray
+    lost: RealArray
+    error: RealArray
+    menisci: RealArray
+    grips: RealArray
     jumped: RealArray
     margin: RealArray
     area: float
@@ -126,9 +141,10 @@ class AdhesionLoop:
 
     @cached_property
     def work(self) -> RealArray:
-        """∫F dδ (J) up to each step, by the trapezoidal rule."""
-        mean = 0.5 * (self.force[1:] + self.force[:-1])
-        return np.concatenate([[0.0], np.cumsum(mean * np.diff(self.approach))])
+        """∫F dδ (J) up to each step: what the solids store and lose, less what the menisci do, that by the trapezoidal rule."""
+        liquid = 0.5 * (self.menisci[1:] + self.menisci[:-1]) * np.diff(self.approach)
+        done = np.diff(self.energy) + self.lost[1:] - liquid
+        return np.concatenate([[0.0], np.cumsum(done)])
 
     @property
     def dissipated(self) -> RealArray:
@@ -140,6 +156,24 @@ class AdhesionLoop:
     def hysteresis(self) -> float:
         """Energy (J) lost along the whole path; over a closed cycle that is ∮F dδ."""
         return float(self.dissipated[-1])
+
+    @property
+    def hysteresis_error(self) -> float:
+        """Bound (J) of the error of the energy lost: of each step, and of the menisci half of the change of their force over it."""
+        liquid = 0.5 * np.abs(np.diff(self.menisci) * np.diff(self.approach))
+        return float(self.error[1:].sum() + liquid.sum())
+
+    @property
+    def jump_intervals(self) -> tuple[tuple[float, float], ...]:
+        """Approaches (m) of the grips between which each jump begins, in the order of the path."""
+        return tuple((float(self.grips[k - 1]), float(self.grips[k])) for k in np.flatnonzero(self.jumped))
+
+    def closed_in(self, jumps: Sequence[Jump]) -> AdhesionLoop:
+        """The same with the energies of ``jumps`` that were closed in on (``adhesive_jumps``), which are better known."""
+        lost, error = self.lost.copy(), self.error.copy()
+        for jump in jumps:
+            lost[jump.step], error[jump.step] = jump.lost, jump.lost_error
+        return replace(self, lost=lost, error=error)
 
     @property
     def effective_work(self) -> float:
@@ -161,6 +195,18 @@ class AdhesionLoop:
         return float(work) / self.area
 
 
+def loop_numbers(loop: AdhesionLoop) -> dict[str, float]:
+    """Values of ``LOOP_SCALARS`` of ``loop``."""
+    values = (
+        loop.pull_off_force,
+        loop.pull_off_approach,
+        loop.hysteresis,
+        loop.hysteresis_error,
+        loop.effective_work,
+    )
+    return dict(zip((item.name for item in LOOP_SCALARS), values, strict=True))
+
+
 def adhesion_loop(steps: Sequence[ContactResult]) -> AdhesionLoop:
     """Loop of the ``steps`` of a history of an adhesive contact, ``HistoryResult.steps``.
 
@@ -171,6 +217,10 @@ def adhesion_loop(steps: Sequence[ContactResult]) -> AdhesionLoop:
         approach=np.array([step.approach for step in steps]),
         force=np.array([step.external_force for step in steps]),
         energy=np.array([item.elastic_energy + item.interface_energy for item in found]),
+        lost=np.array([item.dissipated for item in found]),
+        error=np.array([item.dissipated_error for item in found]),
+        menisci=np.array([0.0 if step.menisci is None else step.menisci.meniscus_force for step in steps]),
+        grips=np.array([item.grips for item in found]),
         jumped=np.array([item.jumped for item in found]),
         margin=np.array([item.margin for item in found]),
         area=steps[0].problem.grid.area,

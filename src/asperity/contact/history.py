@@ -327,8 +327,9 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         force - history.external_force,
     )
     shear, along = _shear_works(history), _tangential_works(history)
-    elastic = elastic + [
-        0.0 if step.stick_slip is None else step.stick_slip.tangential_energy for step in history.steps
+    elastic = elastic + [  # that stored in viscoelastic bodies has it
+        0.0 if step.stick_slip is None or step.creep is not None else step.stick_slip.tangential_energy
+        for step in history.steps
     ]
     start = history.start
     adhesion = history.steps[0].adhesion is not None
@@ -377,8 +378,11 @@ def _tangential_works(history: HistoryResult) -> RealArray:
         if before is not None:
             moved = moved - [before.shift_x, before.shift_y, before.twist]
             traction, displacement = traction - before.traction, displacement - before.tangential_displacement
-        works[0, number] = np.array([now.force_x, now.force_y, now.torque]) @ moved
-        works[1, number] = now.dissipated
-        works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
+        works[1, number], creep = now.dissipated, result.creep
+        if creep is None:
+            works[0, number] = np.array([now.force_x, now.force_y, now.torque]) @ moved
+            works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
+        else:
+            works[0, number], works[2, number] = creep.tangential_work, creep.step_work
         before = now
     return works

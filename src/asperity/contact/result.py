@@ -24,7 +24,7 @@ from .couplings.protocol import Contact, Deflections, Memory
 from .couplings.sliding import GrossSliding
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Control
-from .solvers.active_set.linear_system import normal_stiffness
+from .solvers.active_set.stiffness import normal_stiffness
 from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, least_length, level_of
 from .state import InterfaceState
 

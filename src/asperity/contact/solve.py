@@ -14,26 +14,26 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
-from ..solids.compliance.creep import AnyCreep, SharedCreep, contact_creep
-from ..solids.layers import deformable, materials_of
-from ..solids.viscoelastic import alike
-from . import measure
+from ..solids.compliance.creep import contact_creep
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
-from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time, require_adhesion
-from .couplings.creep import CreepCoupling, Past, Remembering, SharedPast, TimeWeights, remembering
+from .couplings.adhesion import AdhesionCoupling, require_adhesion
+from .couplings.balance import balances, settle_forces
+from .couplings.creep import CreepCoupling, Remembering, remembering
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
 from .couplings.menisci import MeniscusCoupling
 from .couplings.plastic_flow import PlasticFlowCoupling
-from .couplings.protocol import Contact, Coupling, Memory, Posed
+from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
 from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
 from .couplings.stick_slip import StickSlipCoupling
+from .cut_steps import in_parts
 from .history import History, HistoryResult
-from .laws import Coulomb, JKRAdhesion, LimitByDepth
+from .in_time import InTime, require_followed
+from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
 from .operators.creep import OperatorsInTime
 from .problem import (
@@ -50,9 +50,9 @@ from .problem import (
 )
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
-from .solvers.protocol import ContactQP, FixedOffset, Solution, Solver, SolverState
+from .solvers.protocol import Solver
 from .state import InterfaceState
-from .time_steps import Creeping, Moment, TimeSteps, marched
+from .time_steps import Creeping, Moment, TimeSteps
 
 
 @dataclass(frozen=True)
@@ -213,11 +213,13 @@ class Prepared:
         self.profile, self.time_steps = problem.profile(), time_steps
         creep = contact_creep(problem.body, problem.counter_body)
         self.remembering: Remembering | None = None
+        self.in_time: InTime | None = None
         if creep is not None:
-            _require_followed(self.couplings, creep, problem)
+            require_followed(self.couplings, creep, problem)
             self.remembering = remembering(creep, self.operator)
             self.operators = OperatorsInTime(creep, self.operator)
             self.couplings = (*self.couplings, CreepCoupling())
+            self.in_time = InTime(self, self.remembering)
 
     def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
         """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter."""
@@ -243,7 +245,7 @@ class Prepared:
             require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded | Pull | FixedGrips):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
-        scale = _height_scale(self.profile, control, self.operator)
+        scale = height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
         lift: RealArray | float = 0.0
         if retarded is not None:
@@ -253,15 +255,22 @@ class Prepared:
         posed = Posed(operator, self.profile, dented, control, scale, start, earlier, tangential, lift, known, ahead)
         memories = {} if state is None else state.memory
         joined = self.couplings if couplings is None else couplings
-        return settle(posed, joined, memories, self.solver, rounds=self.rounds, progress=self.progress)
+        way = settle_forces if balances(joined, posed) else settle
+        return way(posed, joined, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""
         started = time.perf_counter()
-        if self.remembering is not None:
-            return InTime(self, self.remembering).step(step, state)
-        settled = self.settled(step, state)
-        return self.result(settled, state, time.perf_counter() - started)
+        if self.in_time is not None:
+            return self.in_time.step(step, state)
+        result = self.result(self.settled(step, state), state, time.perf_counter() - started)
+        if result.converged or self.problem.plastic_flow is None:
+            return result
+
+        def solved(control: Control, at: InterfaceState | None) -> ContactResult:
+            return self.result(self.settled(Step(control, step.tangential), at), at, time.perf_counter() - started)
+
+        return in_parts(step.normal, state, result, solved)
 
     def result(
         self,
@@ -314,181 +323,6 @@ class Prepared:
             wall_time=seconds,
         )
         return replace(found, couplings=settled.checks, rounds=settled.rounds)
-
-
-def _require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
-    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
-    if isinstance(problem.adhesion, JKRAdhesion):
-        raise InputError(
-            "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
-            "wavelengths. Take ExponentialAdhesion(work, range)."
-        )
-    for coupling in couplings:
-        if isinstance(coupling, StickSlipCoupling):
-            raise InputError(
-                "friction of viscoelastic bodies must be None or Coulomb friction of surfaces that slide everywhere, but here they stick "
-                "and slip (coupling stick_slip), and how shear makes them creep is not followed. Leave it out."
-            )
-        if isinstance(coupling, SlidingCoupling) and coupling.feedback:
-            materials = [m for solid, _ in deformable(problem.body, problem.counter_body) for m in materials_of(solid)]
-            if not isinstance(creep, SharedCreep) or not alike(tuple(materials)):
-                raise InputError(
-                    "friction of viscoelastic bodies must be None, or their moduli must all relax alike, but here they do not, and how shear "
-                    "makes them creep (coupling sliding) is not followed. Leave it out, or write Coulomb(mu, coupled=False)."
-                )
-
-
-class InTime:
-    """Steps of time of a prepared problem with viscoelastic bodies."""
-
-    def __init__(self, prepared: Prepared, remembering: Remembering) -> None:
-        self.prepared, self.remembering = prepared, remembering
-
-    @property
-    def area(self) -> float:
-        """Nominal area, m²."""
-        return self.prepared.problem.grid.area
-
-    def step(self, step: Step, state: InterfaceState | None) -> ContactResult:
-        """Result at the end of ``step``, started from ``state``."""
-        started, prepared = time.perf_counter(), self.prepared
-        begin = self.begin(state)
-        moments, tries = marched(begin, step.normal, step.duration, prepared.time_steps, self)
-        if not moments:
-            raise ConvergenceError(
-                f"None of {tries} tries was within the tolerance {prepared.time_steps.tolerance:g} of the steps of time. "
-                "Allow more of them, or a larger tolerance."
-            )
-        last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
-        settled = self._ended(last, begin.past.time + step.duration, tries)
-        creeping = _creeping(begin, moments, tries)
-        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last))
-        if before is not state:  # the work since the step began, not since the last moment
-            vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
-        return result
-
-    def _ended(self, last: Moment, end: float, tries: int) -> Settled:
-        """What settled in the ``last`` moment; not converged if the ``end`` (s) was not reached."""
-        settled = last.settled
-        assert settled is not None
-        if not settled.status.converged or last.past.time >= end * (1.0 - 1e-9):
-            return settled
-        message = f"{tries} steps of time led to {last.past.time:.6g} s of the {end:.6g} s at the end of the step."
-        remedy = "Allow more steps of time, or a larger tolerance of theirs."
-        return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
-
-    def begin(self, state: InterfaceState | None) -> Moment:
-        """What the interface is before a step, from its ``state``."""
-        past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
-        profile = self.prepared.profile
-        mean, approach, gap = past.place
-        if np.isnan(gap):
-            past = replace(past, place=(mean, approach, float(profile.max() - profile.mean())))
-        force = float(past.pressure.sum()) * self.prepared.problem.grid.pixel_area
-        fraction = np.count_nonzero(past.pressure > 0.0) / profile.size
-        largest = float(past.pressure.max())
-        record = np.array(
-            [past.time, *past.place[:1], force, *past.place[1:], fraction, largest, 0.0, past.dissipated, 0.0]
-        )
-        if state is not None:
-            state = replace(state, earlier=None)  # of a moment within the step before, which is not kept
-        return Moment(None, past, state, record)
-
-    def advanced(self, moment: Moment, control: Control, length: float) -> Moment:
-        """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
-        prepared, problem = self.prepared, self.prepared.problem
-        weights = TimeWeights.of(self.remembering.times, length)
-        retarded = self.remembering.lift(moment.past, weights)
-        operator = prepared.operators.at(weights.after, self.remembering.summed(weights))
-        ahead = length / moment.length if moment.length else None
-        couplings = self._couplings(operator, moment.past, weights)
-        settled = self._apart(control, moment.state, operator, retarded) or prepared._settled(
-            Step(control), moment.state, operator, retarded, ahead, couplings
-        )
-        contact = settled.contact
-        ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in couplings if c.name in settled.exchanges}
-        menisci = next(
-            (outcome for outcome in (end[1] for end in ends.values()) if hasattr(outcome, "external_force")), None
-        )
-        area, wraps = problem.grid.area, problem.boundary.wraps
-        external = contact.force if menisci is None else max(float(menisci.external_force), 0.0)
-        approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
-        traction, deflection = contact.pressure, contact.solution.state.deflection
-        adhesive = ends["adhesion"][1] if "adhesion" in ends else None
-        if isinstance(adhesive, AdhesiveContact):
-            traction = traction - adhesive.attraction
-            deflection = deflection - operator.apply(adhesive.attraction)
-            external = adhesive.external_force
-        held = adhesive.grips if isinstance(adhesive, AdhesiveContact) else approach
-        place = (external / area, held, gap)
-        past, stored = self.remembering.after(moment.past, weights, traction, deflection, place)
-        if isinstance(adhesive, AdhesiveContact):
-            heat = past.dissipated - moment.past.dissipated
-            ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
-        memories = {name: memory for name, (memory, _) in ends.items() if memory}
-        earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
-        state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
-        fraction = measure.corrected_area(contact.touching, problem.grid, wraps=wraps) / area
-        force = external if isinstance(adhesive, AdhesiveContact) else contact.force
-        top = contact.pressure.max()
-        numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
-        return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends)
-
-    def _couplings(self, operator: Operator, past: Past, weights: TimeWeights) -> tuple[Coupling, ...]:
-        """Couplings of the problem with the ``operator`` of the step, and shear with what the ``past`` left."""
-        found: list[Coupling] = []
-        for coupling in self.prepared.couplings:
-            if isinstance(coupling, AdhesionCoupling):
-                found.append(replace(coupling, operator=operator))
-            elif isinstance(coupling, SlidingCoupling) and coupling.feedback:
-                assert isinstance(self.remembering, SharedPast)
-                growth = 1.0 + float(self.remembering.creep.shares @ weights.after)
-                found.append(coupling.in_time(growth, self.remembering.held(past, weights)))
-            else:
-                found.append(coupling)
-        return tuple(found)
-
-    def _apart(
-        self, control: Control, state: InterfaceState | None, operator: Operator, retarded: RealArray
-    ) -> Settled | None:
-        """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
-        prepared = self.prepared
-        if not isinstance(control, Approach | MeanGap) or not retarded.any() or prepared.problem.adhesion is not None:
-            return None
-        dented = prepared.profile - retarded
-        if state is not None:
-            dented = dented - state.permanent_indentation
-        top = float(prepared.profile.max())
-        offset = top - control.value if isinstance(control, Approach) else control.value + float(dented.mean())
-        if float(dented.max()) > offset:
-            return None
-        none, scale = np.zeros_like(dented), _height_scale(prepared.profile, control, prepared.operator)
-        posed = Posed(operator, prepared.profile, dented, control, scale, retarded=retarded)
-        qp = ContactQP(operator, dented, np.inf, FixedOffset(offset), scale)
-        status = Status(Outcome.CONVERGED, "The surfaces lie apart: nothing to solve.")
-        contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
-        memories = {} if state is None else state.memory
-        exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in prepared.couplings}
-        return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
-
-    def error(self, first: Moment, second: Moment, third: Moment) -> float:
-        """Error that the last of two steps of time adds to the displacement, relative to it."""
-        weights = TimeWeights.of(self.remembering.times, third.past.time - second.past.time)
-        return self.remembering.curvature((first.past, second.past, third.past), weights)
-
-
-def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:
-    """What happened through the ``moments`` after ``begin``."""
-    records, last = np.stack([begin.record, *(moment.record for moment in moments)]), moments[-1]
-    force, approach = records[:, 2], records[:, 3]
-    return Creeping(
-        records,
-        np.broadcast_to(last.retarded, last.past.pressure.shape),
-        last.stored,
-        last.past.dissipated - begin.past.dissipated,
-        float((0.5 * (force[1:] + force[:-1]) * np.diff(approach)).sum()),
-        tries,
-    )
 
 
 def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:
@@ -563,19 +397,6 @@ def doubted(status: Status, certificate: Certificate) -> Status:
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
     return Status(Outcome.STAGNATED, message, "Use a smaller tolerance, and numbers that are not extreme.")
-
-
-def _height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:
-    """Rms height (m); for flat bodies the length by which they deform, for there is no other."""
-    rms = float(virgin.std())
-    if rms > 0.0:
-        return rms
-    if isinstance(control, Approach | MeanGap):
-        return control.value
-    if isinstance(control, Unloaded | Pull | FixedGrips):
-        return 1.0
-    uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
-    return float(np.abs(operator.apply(uniform)).max()) or 1.0
 
 
 def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:

@@ -14,7 +14,8 @@ from ..core.errors import InputError
 from ..core.quantity import Quantity
 from .couplings.creep import Past
 from .couplings.protocol import Memory
-from .problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded
+from .problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
+from .tangential import Shift, Tangential, TangentialForce
 
 if TYPE_CHECKING:
     from .couplings.driver import Settled
@@ -104,6 +105,9 @@ class Creeping:
         Work of the force between the solids over the approach in this step, J, by trapezia through the steps of time.
     tries
         Solves, those of rejected steps of time included.
+    tangential_work, step_work
+        Of surfaces that stick and slip: work of tangential force and torque in this step, and what of it the length of implicit steps of
+        time takes, as of ``EnergyBalance``, J.
     """
 
     records: RealArray
@@ -112,6 +116,8 @@ class Creeping:
     dissipated: float
     work: float
     tries: int
+    tangential_work: float = 0.0
+    step_work: float = 0.0
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -138,7 +144,8 @@ class Creeping:
 @dataclass(frozen=True, eq=False)
 class Moment:
     """Contact after one step of time: what settled, the past then, the state to go on from, its record, its displacement by the past,
-    its stored energy (J), the length (s) of the step, zero where none is known, and what the couplings remember and found."""
+    its stored energy (J), the length (s) of the step, zero where none is known, what the couplings remember and found, and the work of
+    tangential force and torque in this step of time with the part that implicit steps take (J)."""
 
     settled: Settled | None
     past: Past
@@ -148,6 +155,7 @@ class Moment:
     stored: float = 0.0
     length: float = 0.0
     ends: Mapping[str, tuple[Memory, object]] = field(default_factory=dict)
+    shear_works: tuple[float, float] = (0.0, 0.0)
 
 
 def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:
@@ -176,6 +184,28 @@ def control_at(end: Control, share: float, place: tuple[float, float, float], ar
     return kind(value) if value > 0.0 else Unloaded()
 
 
+def step_at(end: Step, share: float, begin: Moment, area: float) -> Step:
+    """Step to the controls after a ``share`` of a ramp from ``begin`` to those of ``end``, on an ``area`` (m²)."""
+    normal = control_at(end.normal, share, begin.past.place, area)
+    memory = {} if begin.state is None else begin.state.memory.get("stick_slip", {})
+    return Step(normal, _tangential_at(end.tangential, share, memory, area))
+
+
+def _tangential_at(end: Tangential | None, share: float, memory: Memory, area: float) -> Tangential | None:
+    """Shift or tangential force after a ``share`` of a ramp from what is in the ``memory`` to ``end``."""
+    if end is None or share >= 1.0:
+        return end
+    if isinstance(end, Shift):
+        start = memory["shift"] if memory else np.zeros(3)
+        x, y, twist = start + share * (np.array([end.x, end.y, end.twist]) - start)
+        return Shift(float(x), float(y), float(twist))
+    first = np.zeros(2)
+    if memory:
+        first = area * np.array([memory["traction_x"].mean(), memory["traction_y"].mean()])
+    x, y = first + share * (np.array([end.x, end.y]) - first)
+    return TangentialForce(float(x), float(y))
+
+
 class March(Protocol):
     """What steps of time are taken of."""
 
@@ -183,7 +213,7 @@ class March(Protocol):
     def area(self) -> float:
         """Nominal area, m²."""
 
-    def advanced(self, moment: Moment, control: Control, length: float) -> Moment:
+    def advanced(self, moment: Moment, control: Control | Step, length: float) -> Moment:
         """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
@@ -194,13 +224,12 @@ _RESOLVED = 1e3
 """Shortest duration over the rounding of the time before it."""
 
 
-def marched(
-    begin: Moment, end: Control, duration: float, settings: TimeSteps, march: March
-) -> tuple[list[Moment], int]:
-    """Moments through a ramp of this ``duration`` (s) to the control ``end``, and the number of solves tried.
+def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tuple[list[Moment], int]:
+    """Moments through a ramp to the controls of ``end`` in its duration, and the number of solves tried.
 
     The error of a step is that of the curvature of the pressure over it and the one before; the first two steps are one try.
     """
+    duration = end.duration
     if duration == 0.0:
         return [march.advanced(begin, end, 0.0)], 1
     least = _RESOLVED * float(np.spacing(begin.past.time))
@@ -212,7 +241,7 @@ def marched(
     while tries < settings.most:
         done = moments[-1].past.time - begin.past.time
         step, share = _next(done, duration, length, len(moments) / settings.number if settings.number else None)
-        now = march.advanced(moments[-1], control_at(end, share, begin.past.place, march.area), step)
+        now = march.advanced(moments[-1], step_at(end, share, begin, march.area), step)
         tries += 1
         if now.settled is None or not now.settled.status.converged:
             return [*moments[1:], now], tries

@@ -16,6 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import ComplexArray, RealArray
 from ..core.errors import ConvergenceError, InputError
+from ..core.grid import Grid
 from ..core.quantity import Quantity
 from ..core.spectral import RealTransform
 from ..core.status import NoProgress, Progress
@@ -24,10 +25,9 @@ from ..solids.viscoelastic import Viscoelastic
 from ..surfaces.surface import Surface
 from .boundary import Periodic
 from .couplings.driver import Rounds
-from .laws import HardWall
 from .problem import ContactProblem, Control, Unloaded
 from .result import ContactResult
-from .solve import InTime, Keep, Prepared
+from .solve import Keep, Prepared
 from .time_steps import Creeping, Moment
 
 COLUMNS = (
@@ -99,7 +99,8 @@ class TransientSliding:
         return float(self.column("friction_force")[part].mean() / self.column("force")[part].mean())
 
     def mean_loss(self, last: float) -> float:
-        """The same from the heat over the ``last`` distance (m): in a steady state the two are equal."""
+        """The same from the heat of the solids over the ``last`` distance (m): in a steady state the two are equal, but for what jumps of
+        adhesive contacts and dents take."""
         part = self._part(last)
         heat, way = self.column("dissipated")[part], self.distance[part]
         return float((heat[-1] - heat[0]) / (way[-1] - way[0]) / self.column("force")[part].mean())
@@ -134,8 +135,9 @@ def slide_in_time(
     Parameters
     ----------
     problem
-        Contact with a hard wall, without film, friction and adhesion, one body of which relaxes; the surface of the other one moves. A
-        rough surface that slides: ``ContactProblem(rough, Rigid(), counter_body=rubber)``. A rough body that rolls: its shape
+        Contact without friction, one body of which relaxes; the surface of the other one moves. Adhesion of finite range, whose attraction
+        pulls along the motion too, films, whose menisci act by their normal force, and a hardness, whose dents stay on the body that relaxes, stand
+        beside it as under any load. A rough surface that slides: ``ContactProblem(rough, Rigid(), counter_body=rubber)``. A rough body that rolls: its shape
         alone as this surface, and the roughness of both bodies as that of the viscoelastic one.
     control
         ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``, held throughout. At the start it is applied at once.
@@ -158,14 +160,13 @@ def slide_in_time(
     Raises
     ------
     InputError
-        If nothing, or everything, relaxes, a number is out of range, or the problem holds another physics.
+        If nothing, or everything, relaxes, a number is out of range, or the problem holds friction or plastic flow.
     ConvergenceError
         If a step is not solved.
     """
     v = require.positive(speed, "sliding speed (m/s)")
     angle = require.finite(direction, "direction of sliding (rad)")
-    require.integer(steps_per_pixel, 1, "steps of time per pixel")
-    step = min(d for d, n in zip(problem.grid.spacing, problem.grid.shape, strict=True) if n > 1) / steps_per_pixel
+    step = step_length(problem.grid, steps_per_pixel)
     number = max(round(require.positive(distance, "distance to move (m)") / step), 1)
     motion = _Motion(problem, control, v, angle, step, rounds)
     if after is not None and (after.step != step or (after.speed, after.direction) != (v, angle)):
@@ -174,6 +175,12 @@ def slide_in_time(
             f"{after.step:g} m, {after.speed:g} m/s and {after.direction:g} rad."
         )
     return motion.over(number, after, progress or NoProgress())
+
+
+def step_length(grid: Grid, steps_per_pixel: int) -> float:
+    """Distance (m) moved in a step of time."""
+    require.integer(steps_per_pixel, 1, "steps of time per pixel")
+    return min(d for d, n in zip(grid.spacing, grid.shape, strict=True) if n > 1) / steps_per_pixel
 
 
 class _Motion:
@@ -188,8 +195,8 @@ class _Motion:
         assert isinstance(moving, Surface)
         self.moving, self.heights = moving, np.asarray(moving.heights, dtype=float)
         self.prepared = Prepared(problem, rounds=rounds, keep=Keep(stiffness=False))
-        assert self.prepared.remembering is not None
-        self.in_time = InTime(self.prepared, self.prepared.remembering)
+        assert self.prepared.in_time is not None
+        self.in_time = self.prepared.in_time
         self.at_rest = self.prepared.profile - self.heights
 
     def over(self, number: int, after: TransientSliding | None, progress: Progress) -> TransientSliding:
@@ -302,11 +309,13 @@ def _derivative(heights: RealArray, axis: int, spacing: float) -> RealArray:
 
 def _moving(problem: ContactProblem, control: Control) -> str:
     """Name of the surface that moves, opposite the body that relaxes."""
-    if not isinstance(problem.law, HardWall) or any(
-        each is not None for each in (problem.film, problem.friction, problem.adhesion)
-    ):
+    if problem.friction is not None:
         raise InputError(
-            "law of sliding in time must be HardWall(), and film, friction and adhesion None: the friction found is that of hysteresis alone."
+            "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+        )
+    if problem.plastic_flow is not None:
+        raise InputError(
+            "plastic_flow of sliding in time must be None, since what flows would have to move with the surface."
         )
     if isinstance(control, Unloaded):
         raise InputError("control of sliding in time must be a load or position, but is Unloaded().")

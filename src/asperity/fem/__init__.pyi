@@ -16,7 +16,8 @@ from .indent import Depth, Indentation, Load, indentation
 from .indenters import Cone, FlatPunch, Paraboloid, Sphere
 from .mesh import Mesh, Resolution, layered_mesh, tensor_mesh
 from .pass_fields import PassInterface, RegionFindings, interface_tractions, region_findings
-from .passes import PassHistory, PassState, Track, cylinder_track, hertz_pass, line_load, sliding_pass, sphere_track
+from .pass_histories import hertz_pass, hertz_steps, line_load, point_load, sliding_pass, sliding_steps
+from .passes import PassHistory, PassState, Track, cylinder_track, sphere_track
 from .solid import Response, Solid
 
 __all__ = [
@@ -54,15 +55,18 @@ __all__ = [
     "cylinder_track",
     "exterior",
     "hertz_pass",
+    "hertz_steps",
     "indentation",
     "interface_tractions",
     "layered_mesh",
     "line_load",
     "mean_dilatation",
     "plane_strain",
+    "point_load",
     "region_findings",
     "ring_areas",
     "sliding_pass",
+    "sliding_steps",
     "sphere_track",
     "tensor_mesh",
 ]

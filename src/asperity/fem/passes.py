@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..solids.elastic import Elastic
@@ -35,6 +34,9 @@ LATE, FAR = 6, 0.02
 """After so many iterations an unbalanced force beyond this part of the load is that of a step too long."""
 
 MOST_CUTS = 6
+
+RISE = 1e-2
+"""Tolerance of the displacement by a unit rise of the indenter: what it misses is multiplied by how far the indenter still moves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -366,7 +368,7 @@ class _Step:
             raise ConvergenceError("No point of the surface bears the force.")
         stiffness = response.stiffness
         assert stiffness is not None
-        rise = self._solve(response, np.zeros_like(left), touching, np.ones(int(touching.sum())))
+        rise = self._solve(response, np.zeros_like(left), touching, np.ones(int(touching.sum())), tolerance=RISE)
         places = self.normal[touching]
         stiff, gained = float((stiffness @ rise)[places].sum()), float((stiffness @ found)[places].sum())
         # forces of touching points change by K du; those that leave take theirs along
@@ -374,7 +376,14 @@ class _Step:
         self.u += found + further * rise
         return further
 
-    def _solve(self, response: Response, left: RealArray, held: BoolArray, known: RealArray) -> RealArray:
+    def _solve(
+        self,
+        response: Response,
+        left: RealArray,
+        held: BoolArray,
+        known: RealArray,
+        tolerance: float | None = None,
+    ) -> RealArray:
         assert response.stiffness is not None
         places, along = self.normal[held], self.along[held]
 
@@ -384,7 +393,7 @@ class _Step:
             return found
 
         symmetric = self.track.solid.symmetric and (self.friction == 0.0 or not held.any())
-        tolerance = min(1e-2, max(1e-8, 0.1 * self.error))
+        tolerance = tolerance or min(1e-2, max(1e-8, 0.1 * self.error))
         prepared = self.track.prepared
         return prepared.solve(response.stiffness, left, held, known, tolerance, rows=None if symmetric else rows)
 
@@ -466,100 +475,3 @@ def sphere_track(
         & (here[:, 1] <= 1.25 * radius)
     )
     return Track(solid, mesh, surface[near], areas[near], fixed.ravel(), 0.6 / resolution.distance)
-
-
-# Histories.
-
-
-def line_load(track: Track, place: float, half_width: float, peak: float) -> RealArray:
-    """Forces (points,) in N/m of the pressure peak sqrt(1 - (x - place)²/a²) on |x - place| < a = ``half_width``, exactly those of its elements.
-
-    Raises
-    ------
-    InputError
-        If the track is not one of line contacts.
-    """
-    if track.dimension != 2:
-        raise InputError("track of a line load must be that of a cylinder, but is that of a sphere.")
-    x = (track.places[:, 0] - place) / half_width
-    s = np.clip(x, -1.0, 1.0)
-    whole, first = 0.5 * (s * np.sqrt(1.0 - s**2) + np.arcsin(s)), -((1.0 - s**2) ** 1.5) / 3.0
-    length = np.diff(x)
-    later = (np.diff(first) - x[:-1] * np.diff(whole)) / length
-    found = np.append(np.diff(whole) - later, 0.0) + np.append(0.0, later)
-    forces: RealArray = peak * half_width * found
-    return forces
-
-
-def hertz_pass(
-    track: Track,
-    start: PassState,
-    peak: float,
-    half_width: float,
-    ends: tuple[float, float],
-    *,
-    friction: float = 0.0,
-    steps: int = 36,
-    ramp: int = 3,
-) -> PassHistory:
-    """One pass of the Hertz pressure with ``peak`` in Pa and the traction ``friction`` times it: put on at the first of the ``ends`` in ``ramp`` steps, moved to the other in ``steps``, taken off.
-
-    Raises
-    ------
-    InputError
-        If the peak or the half-width is not positive, or a number of steps less than one.
-    ConvergenceError
-        If a step does not converge.
-    """
-    require.positive(peak, "peak pressure (Pa)")
-    require.positive(half_width, "half-width of a line load (m)")
-    require.integer(steps, 1, "steps of a pass")
-    shares = [(ends[0], share) for share in np.linspace(0.0, 1.0, require.integer(ramp, 1, "steps of a ramp") + 1)[1:]]
-    shares += [(place, 1.0) for place in np.linspace(*ends, steps + 1)[1:]]
-    shares += [(ends[1], share) for share in np.linspace(1.0, 0.0, ramp + 1)[1:]]
-    now, states = start, []
-    for place, share in shares:
-        push = share * line_load(track, place, half_width, peak)
-        now = track.carry(replace(now, place=place), push, friction * push, place)
-        states.append(now)
-    return track.history(states)
-
-
-def sliding_pass(
-    track: Track,
-    start: PassState,
-    indenter: Callable[[RealArray], RealArray],
-    force: float,
-    ends: tuple[float, float],
-    *,
-    friction: float = 0.0,
-    steps: int = 12,
-    ramp: int = 4,
-) -> PassHistory:
-    """One pass of a rigid ``indenter``: pressed at the first of the ``ends`` up to ``force`` in N (N/m) in ``ramp`` steps, slid to the other in ``steps``, lifted in ``ramp`` steps.
-
-    ``indenter`` and ``friction`` as for ``Track.press``; pressing and lifting are without friction. The force on a sphere is that on the half body.
-
-    Raises
-    ------
-    InputError
-        If the force is not positive or a number of steps less than one.
-    ConvergenceError
-        If a step does not converge.
-    """
-    require.positive(force, "force of an indenter")
-    require.integer(steps, 1, "steps of a pass")
-    loads = np.linspace(0.0, force, require.integer(ramp, 1, "steps of a ramp") + 1)
-    now, states = replace(start, place=ends[0], approach=math.nan), []
-    for load in loads[1:]:
-        now = track.press(now, indenter, place=ends[0], force=float(load))
-        states.append(now)
-    for place in np.linspace(*ends, steps + 1)[1:]:
-        now = track.press(now, indenter, place=float(place), force=force, friction=friction)
-        states.append(now)
-    for load in loads[-2:0:-1]:
-        now = track.press(now, indenter, place=ends[1], force=float(load))
-        states.append(now)
-    nothing = np.zeros(len(track.surface))
-    states.append(track.carry(now, nothing, nothing, ends[1]))
-    return track.history(states)

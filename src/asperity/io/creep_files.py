@@ -27,6 +27,8 @@ NUMBERS = (
     Quantity("dissipated", "J", "heat of the step"),
     Quantity("work", "J", "work of the force in the step"),
     Quantity("tries", "1", "solves, rejected steps of time included"),
+    Quantity("tangential_work", "J", "work of the tangential force in the step"),
+    Quantity("step_work", "J", "part of it that the length of implicit steps of time takes"),
 )
 
 _PREFIX = "creep_"

@@ -19,6 +19,7 @@ from ..contact.history import HistoryResult
 from ..contact.laws import Coulomb
 from ..contact.problem import ContactProblem
 from ..contact.result import AREA_ERROR, WET_SCALARS, Certificate, ContactResult
+from ..contact.rolling import RollingContact
 from ..contact.state import InterfaceState
 from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest
@@ -42,17 +43,22 @@ from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in
 from .description import describe, provenance, rebuild, software, surface_provenance
 from .flow_files import FLOW, flow_columns, flow_found, flow_from
 from .memory_files import memories_of, memory_in, memory_node
+from .old_files import grouped
+from .rolling_files import ROLLING, rolling_in, rolling_node
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
-from .words import ALL_SCALARS, CERTIFICATE, FIELDS
+from .words import ALL_SCALARS, CERTIFICATE, FIELDS, WET_FIELDS
 
 if TYPE_CHECKING:
     import xarray
 
+    from ..fem.history import IndentationState
+    from ..fem.passes import PassState
+
 _STORED = tuple(item for item in ALL_SCALARS if item is not AREA_ERROR)  # the error follows from the fields
 
-Result: TypeAlias = ContactResult | HistoryResult | StressField
+Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressField | IndentationState | PassState"
 """What result files hold."""
 
 PARTS = ("body", "counter_body", "boundary", "law", "control")
@@ -105,12 +111,6 @@ MAPS = {
 }
 """Maps of the laws of friction; any other map of a law is one of the hardness."""
 
-WET_FIELDS = (
-    Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
-    Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
-)
-"""Fields of a wet contact."""
-
 
 def save(result: Result, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
     """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
@@ -130,7 +130,8 @@ def save(result: Result, path: str | Path, *, document: str | None = None, overw
 def load(path: str | Path) -> Any:
     """The result in the file ``path``, equal to the one that was saved: same fields to the bit, same problem.
 
-    A ``ContactResult``, ``HistoryResult`` or ``StressField``; of the outcome of a document the contact.
+    A ``ContactResult``, ``HistoryResult``, ``RollingContact`` or ``StressField``, or a state of finite elements from which a history goes on; of the
+    outcome of a document the contact.
 
     Raises
     ------
@@ -171,7 +172,7 @@ def stored_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
         As for ``load``.
     """
     tree = read_tree(path, without=without)
-    return _grouped(tree) if tree.attributes["asperity_format"] == 1 else tree
+    return grouped(tree) if tree.attributes["asperity_format"] == 1 else tree
 
 
 def document_in(path: str | Path) -> str | None:
@@ -196,14 +197,15 @@ def document_in(path: str | Path) -> str | None:
 
 
 def contact_of(result: Any) -> ContactResult:
-    """The contact of a ``result``: of a load path that at its end.
+    """The contact of a ``result``: of a load path that at its end, of a rolling contact the normal one.
 
     Raises
     ------
     InputError
-        If it is a stress field.
+        If it is a stress field or a state of finite elements.
     """
     found = result.last if isinstance(result, HistoryResult) else result
+    found = found.normal if isinstance(found, RollingContact) else found
     if not isinstance(found, ContactResult):
         raise InputError(f"result file must hold a contact for this, but holds a {type(result).__name__}.")
     return found
@@ -225,6 +227,10 @@ def result_in(tree: Node, path: str | Path) -> Any:
             )
         if "contact" not in groups and "field" in groups:
             return field_from(groups["field"])
+        if any(name.endswith("_state") for name in groups):
+            from .fem_files import state_in
+
+            return state_in(groups)
         if "path" in groups and "control" not in groups["path"]:
             raise FileFormatError(
                 f"load path in {path} must be read with open_tree: files of format 1 hold no whole results."
@@ -232,6 +238,8 @@ def result_in(tree: Node, path: str | Path) -> Any:
         result = contact_from(groups["contact"], *map(groups.get, ("film", "memory", STICK_SLIP, CREEP)))
         if "path" in groups and "of_outcome" not in tree.attributes:
             return path_from(groups["path"], result)
+        if ROLLING in groups:
+            return rolling_in(groups[ROLLING], result)
         if "film" in groups and "stored_rounds" in groups["film"].attributes:
             return _with_film(groups["film"], result)
         return result
@@ -276,8 +284,16 @@ def result_tree(result: Result, *, document: str | None = None) -> Node:
         memories = {name: memory_node(memory) for name, memory in result.memory.items() if name not in FOLLOWING}
         groups |= {"memory": Node((), {}, memories)} if memories else {}
         return Node((), root_attributes(result, document), groups)
+    if isinstance(result, RollingContact):
+        groups = result_tree(result.normal).children
+        own = {ROLLING: rolling_node(result, grid_lines(result.normal))}
+        return Node((), root_attributes(result.normal, document), {**groups, **own})
+    from .fem_files import FemState, state_tree
+
+    if isinstance(result, FemState):
+        return state_tree(result)
     raise InputError(
-        f"result to save must be a result of solve, a load path or a stress field, but is {type(result).__name__}."
+        f"result to save must be a result of solve or roll, a load path, a stress field or a state of finite elements, but is {type(result).__name__}."
     )
 
 
@@ -535,33 +551,6 @@ def status_attributes(status: Status) -> dict[str, str]:
 def status_from(attributes: Mapping[str, Any]) -> Status:
     """The status that ``attributes`` of a group hold."""
     return Status(Outcome(attributes["status_outcome"]), attributes["status_message"], attributes["status_remedy"])
-
-
-def _grouped(old: Node) -> Node:
-    """Tree of a file of format 1, which had all variables in one group."""
-    attributes = dict(old.attributes)
-    if "plane" in old.dims():
-        return Node((), attributes, {"field": old})
-    wet = {name: value for name, value in attributes.items() if name.startswith("wet_")}
-    shared = {name: value for name, value in attributes.items() if name not in wet}
-    if "step" in old.dims():
-        fixed = [item for item in old.values if "step" not in item.quantity.dims and item.quantity.name not in "xy"]
-        lines = [item for item in old.values if item.quantity.name in ("x", "y")]
-        along = [item for item in old.values if "step" in item.quantity.dims]
-        surfaces = Node((*lines, *fixed), attributes)
-        return Node(
-            (), shared, {"contact": surfaces, "path": Node((*lines, *along), {"controls": attributes["controls"]})}
-        )
-    if not wet:
-        return Node((), shared, {"contact": Node(old.values, shared)})
-    names = {item.name for item in (*WET_FIELDS, *WET_SCALARS)}
-    lines = [item for item in old.values if item.quantity.name in ("x", "y")]
-    film = [item for item in old.values if item.quantity.name in names]
-    dry = tuple(item for item in old.values if item.quantity.name not in names)
-    renamed = {"wet_outcome": "status_outcome", "wet_message": "status_message", "wet_remedy": "status_remedy"}
-    renamed |= {"wet_film": "film", "wet_control": "control", "wet_regime": "regime"}
-    described = {renamed.get(name, name.replace("wet_", "stored_")): value for name, value in wet.items()}
-    return Node((), shared, {"contact": Node(dry, shared), "film": Node((*lines, *film), described)})
 
 
 def _checks(certificate: Certificate) -> dict[str, Any]:

@@ -41,6 +41,12 @@ FIELDS = (
 )
 """Fields (nx, ny) that a result stores."""
 
+WET_FIELDS = (
+    Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
+    Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
+)
+"""Fields of a wet contact."""
+
 OFFSET = Quantity("offset", "m", "rigid-body position: gap = offset + displacement - profile + permanent indentation")
 """The scalar from which fields follow, not in the table for people."""
 

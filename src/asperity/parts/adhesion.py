@@ -232,17 +232,21 @@ class Adhesion(Part):
         import numpy as np
 
         from ..contact.adhesive_branch import adhesive_jumps
-        from ..contact.adhesive_cycles import LOOP_SCALARS, adhesion_loop, adhesion_numbers
+        from ..contact.adhesive_cycles import LOOP_SCALARS, adhesion_loop, adhesion_numbers, loop_numbers
 
         found = solved.result.require_adhesion()
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
         values: dict[str, Any] = adhesion_numbers(solved.result) | _criteria(solved.problem)
-        numbers = (math.nan,) * 4
-        if loop is not None:
-            numbers = (loop.pull_off_force, loop.pull_off_approach, loop.hysteresis, loop.effective_work)
-        values |= dict(zip((item.name for item in LOOP_SCALARS), numbers, strict=True)) | energy_values(solved)
-        keys, findings = (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001"), _findings(solved)
         table = getattr(ask, "settings", None)
+        jumps: tuple[Jump, ...] = ()
+        if loop is not None and solved.path is not None and table is not None and table.jump_tolerance is not None:
+            jumps = adhesive_jumps(solved.path, float(table.jump_tolerance))
+            loop = loop.closed_in(jumps)
+        values |= dict.fromkeys((item.name for item in LOOP_SCALARS), math.nan)
+        if loop is not None:
+            values |= loop_numbers(loop)
+        values |= energy_values(solved)
+        keys, findings = (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001"), _findings(solved)
         if table is not None and table.pair is not None:
             values |= {SOURCES.name: np.array(table.of_pair().sources)}
         if loop is None or table is None:
@@ -250,9 +254,6 @@ class Adhesion(Part):
         if table.branch:
             branch, stopped = branch_of(solved, -float(table.retract))
             values, findings, keys = values | branch_values(branch), (*findings, *stopped), (*keys, "Feng2000")
-        jumps: tuple[Jump, ...] = ()
-        if table.jump_tolerance is not None and solved.path is not None:
-            jumps = adhesive_jumps(solved.path, float(table.jump_tolerance))
         return Found(values, Looped(loop, jumps), findings, keys)
 
     def citations(self, ask: Asked, problem: ContactProblem) -> tuple[str, ...]:
@@ -368,7 +369,8 @@ def adhesion_sentence(result: ContactResult) -> str:
 def loop_sentence(loop: AdhesionLoop) -> str:
     """One sentence on pull-off and hysteresis."""
     jumps = int(loop.jumped.sum())
-    lost = f"{show(loop.hysteresis, 'J')} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
+    error = f" (to {show(loop.hysteresis_error, 'J', 2)})" if loop.hysteresis_error > 0.0 else ""
+    lost = f"{show(loop.hysteresis, 'J')}{error} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
     return (
         f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of {show(loop.pull_off_approach, 'm')}; "
         f"{lost}."
@@ -422,13 +424,14 @@ def criteria_rows(values: Mapping[str, Any]) -> Rows:
 
 
 def jump_table(loop: AdhesionLoop) -> Table:
-    """Force and approach before and after every jump."""
+    """Where every jump begins and ends, the forces there, and what it loses with its error."""
     import numpy as np
 
     cells = []
-    lost = np.diff(loop.dissipated, prepend=0.0)
-    for step in np.flatnonzero(loop.jumped):
-        ends = (max(int(step) - 1, 0), int(step))
-        forces = [show(float(loop.force[k]), "N") for k in ends]
-        cells.append((f"{step + 1}", show(float(loop.approach[step]), "m"), *forces, show(float(lost[step]), "J")))
-    return Table(("Step", "Approach", "Force before", "Force after", "Energy lost"), tuple(cells))
+    for step, between in zip(np.flatnonzero(loop.jumped), loop.jump_intervals, strict=True):
+        forces = [show(float(loop.force[k]), "N") for k in (step - 1, step)]
+        interval = [show(end, "m") for end in between]
+        lost = show(float(loop.lost[step]), "J"), show(float(loop.error[step]), "J", 2)
+        cells.append((f"{step + 1}", *interval, *forces, *lost))
+    heads = ("Step", "Begins after", "Ends before", "Force before", "Force after", "Energy lost", "To within")
+    return Table(heads, tuple(cells))

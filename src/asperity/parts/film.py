@@ -46,7 +46,7 @@ Law = Annotated[str, Choice({name: name for name in LAWS})]
 
 
 class FrictionSettings(Settings):
-    """Friction of the contact; stresses, menisci and, if it is ``coupled``, the pressure take it from here.
+    """Friction of the contact; stresses, menisci, plastic flow in the volume and, if it is ``coupled``, the pressure take it from here.
 
     Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else all points slide.
     """
@@ -112,7 +112,7 @@ def rolls(document: Any) -> bool:
 
 
 class Friction(Part):
-    """Shear traction that changes the pressure."""
+    """Shear traction that changes the pressure or makes the body flow."""
 
     name = "friction"
     title = "Friction"
@@ -125,8 +125,11 @@ class Friction(Part):
         table: FrictionSettings = document.friction
         if rolls(document):
             return None
-        sheared = sticks(document)
-        return friction_law(table, sheared=sheared) if sheared or (table.coupled and table.coefficient) else None
+        sheared, flow = sticks(document), getattr(document, "plastic_flow", None)
+        felt = table.coupled or (
+            flow is not None and flow.active
+        )  # shear makes the body flow, whether or not it changes the pressure
+        return friction_law(table, sheared=sheared) if sheared or (felt and table.coefficient) else None
 
     def coupling(self, ask: FrictionLaw) -> Mapping[str, Any]:
         """Sliding, or stick and slip, joins the solve."""

@@ -120,7 +120,7 @@ def _shown(flow: PlasticBody, solved: Solved) -> tuple[PlasticValues, dict[str, 
     residual, peak = flow.stress(threads=solved.threads), _peak(solved)
     under = peak.require_plastic_flow()
     loaded = under.stress(*_tractions(peak), threads=solved.threads)
-    tensions = _tensions(loaded, under, interfaces, "") | _tensions(residual, flow, interfaces, "residual_")
+    tensions = _tensions(under, _tractions(peak), "", solved) | _tensions(flow, (None, None), "residual_", solved)
     shown = PlasticValues(
         across,
         flow.flowed.edges,
@@ -153,23 +153,18 @@ def _tractions(result: ContactResult) -> tuple[RealArray, RealArray | None]:
     )
 
 
-def _tensions(stress: RealArray, flow: PlasticBody, interfaces: RealArray, prefix: str) -> dict[str, float]:
-    """Largest tension along the surface and at the bottoms of layers, shear and peel of the cells beside interfaces, in Pa."""
-    xx, yy, zz, xy, xz, yz = (stress[:, k] for k in range(6))
-    edges = flow.flowed.edges
-    rows = [int(np.argmin(np.abs(edges - depth))) for depth in interfaces if depth < edges[-1] * (1.0 + 1e-9)]
-
-    def along(row: int) -> float:
-        mean, half = 0.5 * (xx[row] + yy[row]), 0.5 * (xx[row] - yy[row])
-        return float((mean + np.hypot(half, xy[row])).max())
-
-    found = {"surface_tension": along(0)}
-    if rows:
-        beside = [cell for row in rows for cell in (row - 1, row) if cell < len(edges) - 1]
+def _tensions(
+    flow: PlasticBody, tractions: tuple[RealArray | None, RealArray | None], prefix: str, solved: Solved
+) -> dict[str, float]:
+    """Largest tension along the surface and at the bottoms of layers, shear and peel of interfaces under these tractions, in Pa."""
+    layers = flow.layers(*tractions, threads=solved.threads)
+    surface = layers[0].top_tension if layers else flow.surface_tension(*tractions, threads=solved.threads)
+    found = {"surface_tension": surface}
+    if layers:
         found |= {
-            "layer_tension": max(along(row - 1) for row in rows),
-            "interface_shear": max(float(np.hypot(xz[cell], yz[cell]).max()) for cell in beside),
-            "interface_peel": max(float(zz[cell].max()) for cell in beside),
+            "layer_tension": max(layer.bottom_tension for layer in layers),
+            "interface_shear": max(layer.largest_shear for layer in layers),
+            "interface_peel": max(layer.peel for layer in layers),
         }
     return {f"flow_{prefix}{name}": max(value, 0.0) for name, value in found.items()}
 

@@ -15,7 +15,7 @@ from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.status import Advice
 from ..core.units import percent, show
-from ..core.values import Angle, Number, Whole
+from ..core.values import Angle, Length, Number, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
@@ -38,7 +38,10 @@ APART = 0.2
 
 
 class HysteresisSettings(Settings):
-    """Steady sliding of the rough body over the flat viscoelastic one at a ``speed``; with ``slowest`` and ``fastest`` a curve against speed."""
+    """Steady sliding of the rough body over the flat viscoelastic one at a ``speed``; with ``slowest`` and ``fastest`` a curve against speed.
+
+    With a ``distance`` also the start of the motion at this speed, in steps of time from the load at once.
+    """
 
     speed: SlidingSpeed | None = setting(
         None, option="--sliding-speed", help="Of the rough body over the viscoelastic one, steadily: 1cm/s"
@@ -49,6 +52,13 @@ class HysteresisSettings(Settings):
     points: Annotated[int, Whole(2, 1000)] = setting(USUAL_POINTS, option="--speed-points", help="Speeds of the curve")
     reduction: Share = setting(
         0.5, option="--reduction", help="Of the deformation in partial contact, gamma of Persson's theory, 1 for none"
+    )
+
+    distance: Length | None = setting(
+        None, option="--sliding-distance", help="From the first load on, for the start of sliding in time: 2mm"
+    )
+    steps_per_pixel: Annotated[int, Whole(1, 100)] | None = setting(
+        None, option="--steps-per-pixel", help="Steps of time in which the rough body moves by a pixel; 2 by default"
     )
 
     @model_validator(mode="after")
@@ -64,6 +74,10 @@ class HysteresisSettings(Settings):
         if self.slowest is None and self.points != USUAL_POINTS:
             raise InputError(
                 ".points (--speed-points) must be given together with slowest and fastest, but is given without."
+            )
+        if self.distance is None and self.steps_per_pixel is not None:
+            raise InputError(
+                ".steps_per_pixel (--steps-per-pixel) must be given together with the distance (--sliding-distance), but is given without."
             )
         return self
 
@@ -124,7 +138,7 @@ class Hysteresis(Part):
         """Refuse what cannot slide steadily."""
         from ..contact.steady_sliding import require_slidable
 
-        require_slidable(_bare(problem), float(ask.direction))
+        require_slidable(bare(problem), float(ask.direction))
 
     def compute(self, ask: HysteresisSettings, solved: Solved) -> Found:
         """Friction, area and heat at the speed and along the curve."""
@@ -132,7 +146,7 @@ class Hysteresis(Part):
 
         from ..contact.steady_sliding import slide
 
-        problem, reduction = _bare(solved.problem), float(ask.reduction)
+        problem, reduction = bare(solved.problem), float(ask.reduction)
         direction: Any = {"direction": float(ask.direction)}
         speeds: Any = ()
         if ask.slowest is not None and ask.fastest is not None and solved.lines:
@@ -181,7 +195,7 @@ class Hysteresis(Part):
         return dict(stored.facts)
 
 
-def _bare(problem: ContactProblem) -> ContactProblem:
+def bare(problem: ContactProblem) -> ContactProblem:
     """``problem`` without friction that does not change its pressure."""
     from ..contact.laws import Coulomb
 

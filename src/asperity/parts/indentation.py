@@ -1,4 +1,4 @@
-"""Indentation: one rigid indenter pressed into the body and taken off, by finite elements; hardness, zones, residual stress, Oliver and Pharr's numbers."""
+"""Indentation: one indenter pressed into the body and taken off, by finite elements; hardness, zones, residual stress, Oliver and Pharr's numbers."""
 
 from __future__ import annotations
 
@@ -14,14 +14,13 @@ from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.units import percent, show
-from ..core.values import Choice, Length, Number, Whole
+from ..core.values import Choice, Length, NonNegative, Number, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 from .plastic_quantities import quantities_of, tension_table
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
     from ..plots.picture import Figure
-    from ..solids.layers import Body
     from .indenting import Indented, Indenter
 
 Shape = Annotated[str, Choice({name: name for name in ("sphere", "cone")})]
@@ -38,11 +37,11 @@ PREFIX = "indentation"
 
 
 class IndentationSettings(Settings):
-    """A rigid indenter that goes into the body by ``depth`` without friction and comes off again, beside the contact of the surfaces.
+    """An indenter that goes into the body by ``depth`` and comes off again, beside the contact of the surfaces.
 
     ``radius`` is that of a sphere, taken as a paraboloid, by default the mean radius of the summits of the surface; ``half_angle`` that of a cone,
-    by default the one of Berkovich's area, 70.3 degrees. Layers and base flow at their yield stress with their hardening. The body is axisymmetric,
-    and strains are small.
+    by default the one of Berkovich's area, 70.3 degrees. It is rigid, or with ``elastic_indenter`` of the material of the other body, which stays elastic.
+    Layers and base flow at their yield stress with their hardening. The body is axisymmetric, and strains are small.
     """
 
     depth: Length | None = setting(None, option="--indent", help="Depth of an indentation by finite elements: 100nm")
@@ -57,6 +56,10 @@ class IndentationSettings(Settings):
     )
     elements: Annotated[int, Whole(4, 100)] = setting(
         20, option="--indent-elements", help="Elements across the largest contact radius"
+    )
+    friction: NonNegative = setting(0.0, option="--indent-friction", help="Coefficient under the indenter")
+    elastic_indenter: bool = setting(
+        False, option="--elastic-indenter", help="The indenter is of the material of the other body, and elastic"
     )
     inside: Inside = setting("body", option="--indent-in", help="body or counter_body")
     unknown_is_elastic: bool = setting(
@@ -118,7 +121,7 @@ class Detail:
 
 
 class Indentation(Part):
-    """A rigid indenter in the body, by finite elements."""
+    """An indenter in the body, by finite elements."""
 
     name = "indentation"
     title = "Indentation"
@@ -141,16 +144,18 @@ class Indentation(Part):
 
         require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
+        _of_indenter(ask, problem)
 
     def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
         """Way in and out, hardness and zones."""
         from .indenting import Course, found_of, indented
 
         body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
-        course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements)
+        pair = (_of_indenter(ask, solved.problem), float(ask.friction))
+        course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
         with solved.stage("indentation") as progress:
             run = indented(body, indenter, course, unknown_is_elastic=ask.unknown_is_elastic, progress=progress)
-        return found_of(run, body, indenter)
+        return found_of(run, body, indenter, course)
 
     def citations(self, ask: IndentationSettings, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of the method."""
@@ -182,23 +187,33 @@ KEYS = ("SimoTaylor1985", "Oliver1992")
 
 
 def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
-    """The body that is indented.
+    """The body that is indented; InputError if it is rigid."""
+    from .plastic_values import meshed_body
+
+    return meshed_body(problem, ask.inside, "indentation", "--indent-in")
+
+
+def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
+    """What the indenter is made of: rigid, or as the other body.
 
     Raises
     ------
     InputError
-        If it is rigid.
+        If it is to be elastic and the other body is rigid.
     """
+    from ..solids.elastic import Rigid
     from ..solids.layers import materials_of
 
-    body: Body = getattr(problem, ask.inside)
-    if not materials_of(body):
-        other = "counter_body" if ask.inside == "body" else "body"
+    if not ask.elastic_indenter:
+        return Rigid()
+    other = "counter_body" if ask.inside == "body" else "body"
+    found = getattr(problem, other)
+    if not materials_of(found):
         raise InputError(
-            f'{ask.inside} must be elastic for an indentation, but is rigid. Give a material, or indentation.inside = "{other}" (--indent-in {other}).',
-            subject=ask.inside,
+            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave indentation.elastic_indenter (--elastic-indenter) out.",
+            subject=other,
         )
-    return body
+    return found
 
 
 def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
@@ -209,23 +224,15 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     InputError
         If the surface has no summits, or the strains are not small.
     """
-    from ..contact.roughness import roughness_of
     from .indenting import Indenter, require_depth
+    from .plastic_values import summit_radius
 
     if ask.indenter == "cone":
         return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
     if ask.radius is not None:
         found = Indenter(float(ask.radius))
     else:
-        try:
-            surface = problem.surface.with_heights(problem.profile(), "composite")
-            summits = roughness_of(surface).summits
-            found = Indenter(summits.mean_radius if summits is not None else math.nan)
-        except InputError as error:
-            raise InputError(
-                f"radius of the indenter must be given where the surface has no summits ({error}). Give indentation.radius (--indenter-radius 10um).",
-                subject="radius of the indenter",
-            ) from None
+        found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
     require_depth(float(ask.depth or 0.0), found)
     return found
 
@@ -233,7 +240,7 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
 # In words and tables.
 
 REMARK = (
-    "The indenter is rigid, of revolution and without friction, the strains are small, and layers are bonded. Oliver and Pharr's hardness is what an instrument would "
+    "The indenter is of revolution and does not flow, the strains are small, and layers are bonded. Oliver and Pharr's hardness is what an instrument would "
     "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""
@@ -248,7 +255,9 @@ def indentation_words(found: Found) -> Words:
         (
             "indenter",
             "cone" if facts["cone"] else f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}",
-        )
+        ),
+        ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
+        ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
     ]
     tension = [item for item in SCALARS if "_tension" in item.name or "interface" in item.name]
     for item in SCALARS:

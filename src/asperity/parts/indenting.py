@@ -1,9 +1,9 @@
-"""One rigid indenter on a body that flows, by axisymmetric finite elements: curve of load, cuts, imprint and tensions of layers."""
+"""One indenter on a body that flows, by axisymmetric finite elements: curve of load, cuts, imprint and tensions of layers."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,20 +15,17 @@ from ..fem.history import IndentationStep, SolidFields
 from ..fem.indent import Indentation, Load
 from ..fem.indenters import Cone, Paraboloid
 from ..fem.mesh import Resolution
-from ..solids.elastic import Elastic
+from ..plots.plastic import step_label
+from ..solids.elastic import Elastic, Rigid
 from ..solids.layers import Body, Layered, materials_of
-from ..solids.plasticity import J2, LinearHardening
-from ..solids.strength import flow_stress, plastic_parts
+from ..solids.strength import flow_stress
 from ..theories.hardness.unloading import analyse_indentation
 from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN, Detail
 from .part import Found
-from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, zone_table
+from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, meshed_laws, zone_table
 
 LEFT = 4.0
 """How far the cut reaches across and into the body, in radii of the indenter at the surface."""
-
-LEAST_HARDENING = 1e-4
-"""Hardening modulus over Young's modulus that perfectly plastic materials get; it raises forces by some 0.1 % at plastic strains of a per cent."""
 
 
 @dataclass(frozen=True)
@@ -70,12 +67,14 @@ class Indenter:
 
 @dataclass(frozen=True)
 class Course:
-    """What the indenter does: ``depth`` in m of the largest approach, numbers of steps in and out, elements across the contact radius."""
+    """What the indenter does: ``depth`` in m of the largest approach, numbers of steps in and out, elements across the contact radius; what it is made ``of``, and its ``friction``."""
 
     depth: float
     loading: int = 20
     unloading: int = 12
     across: int = 20
+    of: Elastic | Layered | Rigid = Rigid()
+    friction: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +102,13 @@ class Indented:
     strains: RealArray
     touching: int
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What each of the ``strains`` shows."""
+        curve = self.shown.curve
+        steps = zip(curve["approach"], curve["force"], strict=True)
+        return tuple(step_label(number, *step) for number, step in enumerate(steps))
+
 
 def indented(
     body: Elastic | Layered,
@@ -112,7 +118,7 @@ def indented(
     unknown_is_elastic: bool = False,
     progress: Progress = NoProgress(),
 ) -> Indented:
-    """Press ``indenter`` into ``body`` without friction by ``course.depth``, and take it off.
+    """Press ``indenter`` into ``body`` by ``course.depth``, and take it off.
 
     Raises
     ------
@@ -123,15 +129,16 @@ def indented(
     """
     depths = _loading_depths(course, cone=indenter.is_cone)
     resolution = Resolution(across=course.across, per_layer=max(6, course.across // 3))
-    laws = [_law(part) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)]
-    prepared = Indentation.of(body, indenter.meshed, depths, plasticity=laws, resolution=resolution)
+    laws = meshed_laws(body, unknown_is_elastic=unknown_is_elastic)
+    pair: Any = {"counter_body": course.of, "friction": course.friction, "resolution": resolution}
+    prepared = Indentation.of(body, indenter.meshed, depths, plasticity=laws, **pair)
     way_in = prepared.run(depths, keep=range(len(depths)))
     progress.update(1, 0.5, 0.1)
     top = way_in.steps[-1].load
     loads = [Load(top * (1.0 - number / course.unloading)) for number in range(1, course.unloading + 1)]
     way_out = prepared.run(loads, start=way_in.state, keep=range(len(loads)))
     progress.update(2, 0.2, 0.1)
-    elastic = Indentation.of(body, indenter.meshed, depths, plasticity=None, resolution=resolution).run(depths, keep=())
+    elastic = Indentation.of(body, indenter.meshed, depths, plasticity=None, **pair).run(depths, keep=())
     progress.update(3, 0.05, 0.1)
     fields = [*(way_in.fields[n] for n in range(len(depths))), *(way_out.fields[n] for n in range(len(loads)))]
     steps = [*way_in.steps, *way_out.steps]
@@ -143,16 +150,6 @@ def _loading_depths(course: Course, *, cone: bool) -> list[float]:
     """Approaches of the steps; of a ball they grow with the depth, so that first yield is seen, a cone yields at once."""
     even = np.linspace(0.0, 1.0, course.loading + 1)[1:]
     return [float(depth) for depth in course.depth * (even if cone else even**1.5)]
-
-
-def _law(part: J2 | Elastic) -> J2 | None:
-    """Law of a region, with the least hardening where it has none: Newton's method needs it near collapse."""
-    if not isinstance(part, J2):
-        return None
-    if isinstance(part.hardening, LinearHardening) and part.hardening.modulus == 0.0:
-        least = LEAST_HARDENING * part.elastic.youngs_modulus
-        return replace(part, hardening=LinearHardening(part.hardening.initial, least))
-    return part
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,11 +242,12 @@ def _numbers(run: Indented, body: Any, indenter: Indenter) -> dict[str, Any]:
     }
 
 
-def found_of(run: Indented, body: Any, indenter: Indenter) -> Found:
+def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Found:
     """Values, facts and findings of a ``run``."""
     curve, shown, values = run.shown.curve, run.shown, _numbers(run, body, indenter)
     area = float(curve["area"][run.peak])
     facts: dict[str, Any] = {"layers": layer_names(body), "axis": "r", "oliver_pharr": None, "cone": indenter.is_cone}
+    facts |= {"of_indenter": " on ".join(layer_names(course.of)), "friction": course.friction}
     zones = zone_table(shown, body)
     facts["zones"] = [list(zones.headings), [list(row) for row in zones.cells]]
     findings = list(_findings(run, indenter, body))

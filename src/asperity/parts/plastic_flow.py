@@ -65,12 +65,12 @@ SCALARS = (
     Quantity("flow_mean_contact_pressure", "Pa", "force / contact area under the largest load"),
     Quantity("flow_surface_tension", "Pa", "largest tension along the surface under load"),
     Quantity("flow_layer_tension", "Pa", "largest tension at the bottom of a layer under load"),
-    Quantity("flow_interface_shear", "Pa", "largest shear beside an interface under load"),
-    Quantity("flow_interface_peel", "Pa", "largest peel stress beside an interface under load"),
+    Quantity("flow_interface_shear", "Pa", "largest shear of an interface under load"),
+    Quantity("flow_interface_peel", "Pa", "largest peel stress of an interface under load"),
     Quantity("flow_residual_surface_tension", "Pa", "largest residual tension along the surface"),
     Quantity("flow_residual_layer_tension", "Pa", "largest residual tension at the bottom of a layer"),
-    Quantity("flow_residual_interface_shear", "Pa", "largest residual shear beside an interface"),
-    Quantity("flow_residual_interface_peel", "Pa", "largest residual peel stress beside an interface"),
+    Quantity("flow_residual_interface_shear", "Pa", "largest residual shear of an interface"),
+    Quantity("flow_residual_interface_peel", "Pa", "largest residual peel stress of an interface"),
 )
 """Numbers of plastic flow; NaN where there is no layer or nothing flows."""
 

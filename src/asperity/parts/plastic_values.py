@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.roughness import roughness_of
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.status import Advice
@@ -17,10 +18,16 @@ from ..io.words import material_name
 from ..plots.plastic import Cut, PlasticPicture
 from ..solids.elastic import Elastic
 from ..solids.layers import Body, Layered, materials_of
-from ..solids.plasticity import J2
+from ..solids.plasticity import J2, LinearHardening
 from ..solids.strength import flow_stress, plastic_parts
 from .part import Table
 from .plastic_quantities import CUT, IMPRINT
+
+if TYPE_CHECKING:
+    from ..contact.problem import ContactProblem
+
+LEAST_HARDENING = 1e-4
+"""Hardening modulus over Young's modulus that perfectly plastic materials get in finite elements; it raises forces by some 0.1 % at plastic strains of a per cent."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,3 +171,64 @@ def inferred_strengths(body: Body) -> tuple[Advice, ...]:
             f"The yield stress is the hardness over 2.8 where no other is known ({'; '.join(texts)}). Give Y where it matters.",
         ),
     )
+
+
+# What is meshed, and by what it is pressed.
+
+
+def meshed_body(problem: ContactProblem, inside: str, table: str, option: str) -> Elastic | Layered:
+    """The body of ``problem`` that a ``table`` of a document names with its key ``inside``, or a command with an ``option``.
+
+    Raises
+    ------
+    InputError
+        If it is rigid.
+    """
+    body: Body = getattr(problem, inside)
+    if not materials_of(body) or not isinstance(body, Elastic | Layered):
+        other = "counter_body" if inside == "body" else "body"
+        raise InputError(
+            f'{inside} must be elastic for {table}, but is rigid. Give a material, or {table}.inside = "{other}" ({option} {other}).',
+            subject=inside,
+        )
+    return body
+
+
+def meshed_laws(body: Body, *, unknown_is_elastic: bool) -> list[J2 | None]:
+    """Law of each layer of ``body`` and of its base for finite elements; perfect plasticity with the least hardening, which Newton's method needs near collapse.
+
+    Raises
+    ------
+    InputError
+        If a yield stress is not known.
+    """
+    return [_with_hardening(part) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)]
+
+
+def _with_hardening(part: J2 | Elastic) -> J2 | None:
+    if not isinstance(part, J2):
+        return None
+    if isinstance(part.hardening, LinearHardening) and part.hardening.modulus == 0.0:
+        least = LEAST_HARDENING * part.elastic.youngs_modulus
+        return replace(part, hardening=LinearHardening(part.hardening.initial, least))
+    return part
+
+
+def summit_radius(problem: ContactProblem, fix: str) -> float:
+    """Mean radius in m of the summits of the surface of ``problem``, for an indenter whose radius is not given.
+
+    Raises
+    ------
+    InputError
+        If it has no summits; the ``fix`` says what to give.
+    """
+    try:
+        summits = roughness_of(problem.surface.with_heights(problem.profile(), "composite")).summits
+        if summits is None or not 0.0 < summits.mean_radius < math.inf:
+            raise InputError("it is flat")
+    except InputError as error:
+        raise InputError(
+            f"radius of the indenter must be given where the surface has no summits ({error}). {fix}",
+            subject="radius of the indenter",
+        ) from None
+    return float(summits.mean_radius)

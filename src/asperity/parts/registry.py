@@ -15,8 +15,10 @@ from .film import Friction, Menisci, WetTheory
 from .hysteresis import Hysteresis
 from .indentation import Indentation
 from .part import Part
+from .passes import Passes
 from .plastic_flow import PlasticFlow
 from .rolling import Rolling
+from .sliding_start import SlidingStart
 from .stick_slip import StickSlip
 from .stress import Stress, Yielding
 from .viscoelastic import Viscoelasticity
@@ -36,12 +38,14 @@ BUILT_IN: tuple[Part, ...] = (
     LoadPath(),
     Viscoelasticity(),
     Hysteresis(),
+    SlidingStart(),
     Plasticity(),
     PlasticLoad(),
     Stress(),
     Yielding(),
     Dynamics(),
     Indentation(),
+    Passes(),
 )
 """The parts of this package in the order in which they are computed and shown."""
 

@@ -312,7 +312,7 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
         if lost > COARSE:
             text = (
                 f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat. Take more steps "
-                "(shear.steps, --cycle-steps) where slip reverses or turns."
+                "(shear.steps, --cycle-steps; of time, --time-steps) where slip reverses or turns."
             )
             made.append(Advice("note", "length of the steps", text))
     return tuple(made)

@@ -485,9 +485,8 @@ def remarks(survey: StressSurvey) -> list[str]:
     ]
     if has_flowed(survey):
         found[0] = (
-            "The stresses are those by the tractions and by the plastic strain, which is constant in depth within each depth cell. Means over a cell keep "
-            f"to the yield stress after hardening: their largest von Mises stress is {show(_cell_von_mises(survey), 'Pa', 3)}. Single planes may pass it "
-            "by far where cells are coarse against the waves of the surface, most of all at the surface itself: more points and more cells tell."
+            "The stresses are those by the tractions and by the plastic strain. In layers that may flow they are means over the depth cells, which keep to the "
+            f"yield stress after hardening; the first cell is {show(_first_cell(survey), 'm', 3)} thick, and what changes within it at the surface is not resolved."
         )
     if survey.result.plastic.any():
         found.append(
@@ -497,17 +496,9 @@ def remarks(survey: StressSurvey) -> list[str]:
     return found
 
 
-def _cell_von_mises(survey: StressSurvey) -> float:
-    """Largest von Mises stress (Pa) of the means over the depth cells of a body that has flowed, under the tractions of the contact."""
-    import numpy as np
-
-    from ..solids.plasticity import von_mises
-    from ..stress.compute import tractions_on
-
-    loads = tractions_on(survey.result, None, 0.0, survey.request.of)
-    shear = np.stack([loads.shear_x, loads.shear_y]) if loads.sheared else None
-    flow = survey.result.plastic_flow  # type: ignore[attr-defined]
-    return float(von_mises(np.moveaxis(flow.stress(loads.pressure, shear, threads=survey.threads), 1, -1)).max())
+def _first_cell(survey: StressSurvey) -> float:
+    """Thickness (m) of the depth cell at the surface of a body that has flowed."""
+    return float(survey.result.plastic_flow.flowed.edges[1])  # type: ignore[attr-defined]
 
 
 def _prescribed(survey: StressSurvey) -> bool:

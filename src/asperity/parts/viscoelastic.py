@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -98,10 +99,17 @@ class InTime:
     slides: bool = False
 
     def turning(self, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
-        """The steps of ``controls`` that end at a turning point."""
-        if self.first:
-            return controls[:: self.every]
-        return controls[self.every - 1 :: self.every]
+        """The steps of ``controls`` that end at a turning point of the load, and all that move the surfaces along each other."""
+        pressed = tuple(itertools.takewhile(_rests, controls))
+        return (*pressed[0 if self.first else self.every - 1 :: self.every], *controls[len(pressed) :])
+
+
+def _rests(control: Step | Control) -> bool:
+    """Whether nothing moves along the surfaces in the step ``control``."""
+    from ..contact.problem import as_step
+    from ..contact.tangential import Shift, TangentialForce
+
+    return as_step(control).tangential in (None, Shift(), TangentialForce())
 
 
 STEP, MOMENT = "load_step", "moment"

@@ -1,83 +1,24 @@
-"""Layer 3: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files."""
+"""Layer 3: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files. A module is imported on first use of one of its names.
 
-from .campaign import (
-    plot_convergence,
-    plot_curves,
-    plot_running_mean,
-    plot_samples,
-    plot_sensitivities,
-    plot_transitions,
-)
-from .contact import (
-    PATH_PLOTS,
-    PLASTIC_PLOTS,
-    PLOTS,
-    plot_area_loop,
-    plot_energies,
-    plot_gap_histogram,
-    plot_load_loop,
-    plot_pressure_histogram,
-    plot_section,
-    save_path_plots,
-    save_plots,
-    save_surface_plot,
-)
-from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
-from .picture import Plot, render, style
-from .shakedown import plot_shakedown_curve, plot_shakedown_map
-from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
-from .surface import (
-    SURFACE_PLOTS,
-    plot_autocorrelation,
-    plot_height_distribution,
-    plot_material_ratio,
-    plot_scale_dependence,
-    plot_spectrum,
-    plot_summits,
-    plot_surface_view,
-    save_roughness_plots,
-)
+The stub beside this file lists the names and their modules, for type checkers too.
+"""
 
-__all__ = [
-    "PATH_PLOTS",
-    "PLASTIC_PLOTS",
-    "PLOTS",
-    "SURFACE_PLOTS",
-    "Plot",
-    "plot_area_loop",
-    "plot_autocorrelation",
-    "plot_contact",
-    "plot_convergence",
-    "plot_curves",
-    "plot_energies",
-    "plot_gap",
-    "plot_gap_histogram",
-    "plot_height_distribution",
-    "plot_heights",
-    "plot_indentation",
-    "plot_load_loop",
-    "plot_material_ratio",
-    "plot_pressure",
-    "plot_pressure_histogram",
-    "plot_residual",
-    "plot_running_mean",
-    "plot_samples",
-    "plot_scale_dependence",
-    "plot_section",
-    "plot_sensitivities",
-    "plot_shakedown_curve",
-    "plot_shakedown_map",
-    "plot_spectrum",
-    "plot_stress_map",
-    "plot_stress_profile",
-    "plot_stress_section",
-    "plot_summits",
-    "plot_surface_view",
-    "plot_transitions",
-    "render",
-    "save_path_plots",
-    "save_plots",
-    "save_roughness_plots",
-    "save_surface_plot",
-    "style",
-]
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..core.late import LateNames, names_of_stub
+
+_find = LateNames(__name__, names_of_stub(Path(__file__).with_suffix(".pyi")))
+
+__all__ = sorted(_find.home)
+
+
+def __getattr__(name: str) -> Any:
+    value = globals()[name] = _find(name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

@@ -43,6 +43,19 @@ class SpeedPicture:
     curve: Mapping[str, RealArray] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, eq=False)
+class StartPicture:
+    """What figures of the start of sliding are drawn from: pressure (nx, ny) after the distance, direction (rad), columns of all steps of
+    time, and friction and area of the steady state, NaN where there is none."""
+
+    problem: ContactProblem
+    pressure: RealArray
+    direction: float
+    columns: Mapping[str, RealArray]
+    friction: float
+    area_fraction: float
+
+
 def relaxing_solids(problem: ContactProblem) -> tuple[Viscoelastic, ...]:
     """The viscoelastic materials of both bodies that relax, each once."""
     found: dict[str, Viscoelastic] = {}
@@ -126,15 +139,15 @@ def plot_complex_moduli(shown: TimePicture, ax: Axes) -> Axes:
     return legend_above(ax)
 
 
-def sliding_pressure(shown: SpeedPicture) -> Field:
-    """Pressure of the steadily sliding contact; no contact is blank."""
+def sliding_pressure(shown: SpeedPicture | StartPicture) -> Field:
+    """Pressure of the sliding contact; no contact is blank."""
     values = np.where(shown.pressure > 0.0, shown.pressure, np.nan)
     look = Look("Pa", "contact pressure", PRESSURE_MAP, blank="no contact", blank_value=0.0, reduced="max")
     return Field(values, shown.problem.grid, look)
 
 
-def plot_sliding_pressure(shown: SpeedPicture, ax: Axes) -> Axes:
-    """Draw the pressure of the steadily sliding contact on ``ax``, with an arrow along which the rough body moves."""
+def plot_sliding_pressure(shown: SpeedPicture | StartPicture, ax: Axes) -> Axes:
+    """Draw the pressure of the sliding contact on ``ax``, with an arrow along which the rough body moves."""
     plot_map(sliding_pressure(shown), ax)
     if min(shown.problem.grid.shape) > 1:
         step = 0.16 * np.array([np.cos(shown.direction), np.sin(shown.direction)])
@@ -164,6 +177,37 @@ def plot_area_by_speed(shown: SpeedPicture, ax: Axes) -> Axes:
     return _against_speed(shown, ax, ("area_fraction", "persson_area_fraction"), "real contact area / nominal area")
 
 
+def _along_the_way(shown: StartPicture, ax: Axes, name: str, steady: float, label: str) -> Axes:
+    """Column ``name`` against the distance moved, with the ``steady`` value as a line."""
+    in_m = scale(shown.columns["distance"], "m")
+    ax.plot(in_m(shown.columns["distance"]), shown.columns[name], color=BLUE, label="start of sliding")
+    if np.isfinite(steady):
+        ax.axhline(steady, color=ORANGE, linestyle="--", label="steady sliding")
+    ax.set(xlabel=f"distance moved ({in_m.symbol})", ylabel=label, xlim=(0.0, None))
+    return legend_above(ax)
+
+
+def plot_friction_at_start(shown: StartPicture, ax: Axes) -> Axes:
+    """Draw the coefficient of friction against the distance moved on ``ax``, that of steady sliding beside it."""
+    return _along_the_way(shown, ax, "friction", shown.friction, "coefficient of friction")
+
+
+def plot_area_at_start(shown: StartPicture, ax: Axes) -> Axes:
+    """Draw the real over nominal contact area against the distance moved on ``ax``, that of steady sliding beside it."""
+    return _along_the_way(shown, ax, "area_fraction", shown.area_fraction, "real contact area / nominal area")
+
+
+def plot_energy_at_start(shown: StartPicture, ax: Axes) -> Axes:
+    """Draw stored energy and heat against time on ``ax``."""
+    in_s = scale(shown.columns["time"], "s")
+    in_j = scale(np.concatenate([shown.columns["stored_energy"], shown.columns["dissipated"]]), "J")
+    curves = (("stored_energy", "stored in the solids", BLUE), ("dissipated", "heat", VERMILLION))
+    for name, words, colour in curves:
+        ax.plot(in_s(shown.columns["time"]), in_j(shown.columns[name]), color=colour, label=words)
+    ax.set(xlabel=f"time ({in_s.symbol})", ylabel=f"energy ({in_j.symbol})", xlim=(0.0, None))
+    return legend_above(ax)
+
+
 TIME_PLOTS = (
     Plot("area_in_time", "Contact area against time", "Real over nominal contact area at every step of time; thin lines: ends of the steps of the load.", plot_area_in_time),
     Plot("approach_in_time", "Approach against time", "Approach from first touch at every step of time.", plot_approach_in_time),
@@ -191,3 +235,11 @@ SPEED_PLOTS = (
     Plot("area_by_speed", "Contact area against speed", "Real over nominal contact area of steady sliding; Persson's theory beside it where it holds.", plot_area_by_speed),
 )  # fmt: skip
 """Figures against speed."""
+
+START_PLOTS = (
+    Plot("friction_at_start", "Friction at the start of sliding", "Coefficient of friction, by the slope of what moves, against the distance moved since the load came at once; dashed: steady sliding.", plot_friction_at_start),
+    Plot("area_at_start", "Contact area at the start of sliding", "Real over nominal contact area against the distance moved; dashed: steady sliding.", plot_area_at_start),
+    Plot("energy_at_start", "Energies at the start of sliding", "Energy stored in the solids, and heat since the virgin state, against time.", plot_energy_at_start),
+    Plot("pressure_after_start", "Pressure after the start of sliding", "Pressure after the distance; the rough body moves along the arrow.", plot_sliding_pressure, "map", shows=sliding_pressure),
+)  # fmt: skip
+"""Figures of the start of sliding."""

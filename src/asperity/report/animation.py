@@ -12,6 +12,7 @@ import numpy as np
 from ..core.errors import InputError
 from ..parts.indentation import PREFIX as INDENTED
 from ..parts.part import Found
+from ..parts.passes import PREFIX as PASSED
 from ..parts.plastic_flow import PREFIX as FLOW
 from ..parts.plastic_values import picture_of
 from ..plots.plastic import Cut, save_cuts, step_label
@@ -21,7 +22,7 @@ from ..run.execute import Outcome
 def save_plastic_animation(outcome: Outcome, path: str | Path, *, overwrite: bool = False) -> Path:
     """Write the plastic zones of every step of ``outcome`` as an animated picture (.gif, .png or .webp).
 
-    Those of the volume below the rough contact, or where it has none of this, those of its indentation.
+    Those of the volume below the rough contact, or where it has none of this, those of its repeated passes or of its indentation.
 
     Raises
     ------
@@ -38,17 +39,16 @@ def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
     found = outcome.found
     if FLOW in found and outcome.path is not None and len(outcome.path.steps) > 1:
         return _volume_cuts(outcome, found[FLOW])
-    run = None if INDENTED not in found else found[INDENTED].detail.run
-    if run is None:
-        raise InputError(
-            "outcome of an animation must have a history with plastic flow, but has none. Run a document with a table [plastic_flow] (--plastic) and steps, or "
-            "[indentation] (--indent); a file keeps no steps of an indentation.",
-            subject="outcome of an animation",
-        )
-    shown, curve = picture_of(INDENTED, found[INDENTED].values, found[INDENTED].detail.facts).cut, run.shown.curve
-    return tuple(
-        replace(shown, strain=strain, label=step_label(number, curve["approach"][number], curve["force"][number]))
-        for number, strain in enumerate(run.strains)
+    for name in (PASSED, INDENTED):
+        run = found[name].detail.run if name in found else None
+        if run is not None:
+            shown = picture_of(name, found[name].values, found[name].detail.facts).cut
+            frames = zip(run.strains, run.labels, strict=True)
+            return tuple(replace(shown, strain=strain, label=label) for strain, label in frames)
+    raise InputError(
+        "outcome of an animation must have a history with plastic flow, but has none. Run a document with a table [plastic_flow] (--plastic) and steps, "
+        "[passes] (--passes) or [indentation] (--indent); a file keeps no steps of these two.",
+        subject="outcome of an animation",
     )
 
 

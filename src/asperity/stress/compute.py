@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
@@ -24,6 +25,9 @@ Direction: TypeAlias = float | tuple[float, float]
 
 Of: TypeAlias = Literal["body", "counter_body"]
 """Which of the two bodies of a contact."""
+
+_ROWS = 64
+"""Rows of a stress in memory that are read at a time."""
 
 
 class Loaded(Protocol):
@@ -68,6 +72,15 @@ class Residual(Protocol):
     def at(self, depth: float, *, above: bool, below: bool) -> RealArray:
         """(6, nx, ny) in Pa at ``depth`` (m), on the asked sides of it, or their mean."""
 
+    def cell_at(self, depth: float, *, below: bool) -> int | None:
+        """Number of the cell in depth on whose mean stress yield is required, at the lower or upper side of ``depth`` (m); None where there is none."""
+
+    def yielding_depths(self) -> RealArray:
+        """Depths (m) of the middle of these cells."""
+
+    def means(self, pressure: RealArray, shear: RealArray | None) -> RealArray:
+        """Mean stress (cells, 6, nx, ny) in Pa in all cells in depth, with that by the tractions."""
+
 
 class WithResidual:
     """Stress by tractions on ``planes`` and the ``residual`` stress, in numbers of the type ``dtype``."""
@@ -109,6 +122,53 @@ class WithResidual:
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Refused: see ``_require_as_elastic``."""
         raise _displaced()
+
+
+class OverCells(WithResidual):
+    """The same, but at depths within cells on whose mean stress yield is required that mean, under the ``tractions``."""
+
+    def __init__(self, planes: Planes, residual: Residual, dtype: str, tractions: Tractions) -> None:
+        super().__init__(planes, residual, dtype)
+        self._tractions = tractions
+
+    @cached_property
+    def _means(self) -> RealArray:
+        loads = self._tractions
+        shear = np.stack([loads.shear_x, loads.shear_y]) if loads.sheared else None
+        return self._residual.means(loads.pressure, shear).astype(self._dtype, copy=False)
+
+    def _mean(self, plane: Plane) -> RealArray | None:
+        """Mean stress (6, nx, ny) of the cell that ``plane`` is in; None where there is none."""
+        cell = self._residual.cell_at(plane.depth, below=plane.side != "above")
+        return None if cell is None else self._means[cell]
+
+    def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
+        """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
+        mean = self._mean(plane)
+        if mean is None:
+            return super().stress(plane, out)
+        found = out or StressTensor(*(np.empty_like(part) for part in mean))
+        for component, part in zip(vars(found).values(), mean, strict=True):
+            component[...] = part
+        return found
+
+    def read(self, plane: Plane, reader: Reader) -> None:
+        """Give the stress (Pa) on ``plane`` to ``reader`` some rows at a time."""
+        mean = self._mean(plane)
+        if mean is None:
+            super().read(plane, reader)
+        else:
+            reader(
+                (first, np.ascontiguousarray(mean[:, first : first + _ROWS]))
+                for first in range(0, mean.shape[1], _ROWS)
+            )
+
+    def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
+        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …)."""
+        mean = self._mean(plane)
+        if mean is None:
+            return super().at(plane, places)
+        return [mean[(slice(None), *place.index)] for place in places]
 
 
 def _displaced() -> InputError:
@@ -281,7 +341,10 @@ def stress_planes(
 
 
 class StressPlanes:
-    """Stress under any ``tractions`` on a body, and perhaps a ``residual`` one, ready to be computed; arguments and errors as for ``stress``."""
+    """Stress under any ``tractions`` on a body, and perhaps a ``residual`` one, ready to be computed; arguments and errors as for ``stress``.
+
+    ``over_cells``: at depths within the cells of a body that flows the mean over the cell, of which yield is required.
+    """
 
     def __init__(
         self,
@@ -293,13 +356,19 @@ class StressPlanes:
         dtype: str = "float64",
         threads: int | None = None,
         residual: Residual | None = None,
+        over_cells: bool = False,
     ) -> None:
         require.one_of(dtype, ("float64", "float32"), "precision of stresses")
         self.planes = planes(body, depths)
         require_held(tractions, body)
         kind = PeriodicPlanes if tractions.boundary == "periodic" else FreePlanes
         by_load: Planes = kind(tractions, body, dtype=dtype, threads=threads)
-        self._source = by_load if residual is None else WithResidual(by_load, residual, dtype)
+        if residual is None:
+            self._source = by_load
+        elif over_cells:
+            self._source = OverCells(by_load, residual, dtype, tractions)
+        else:
+            self._source = WithResidual(by_load, residual, dtype)
         self.dtype = dtype
         self._grid, self._pressure = tractions.grid, tractions.pressure
         self._place = self.place(on)

@@ -113,15 +113,32 @@ class Extremes:
         self._yielding: dict[Region, Gathered] = {}
         self._interfaces: list[Region] = []
 
-    def take(self, plane: Plane, read: Callable[[Plane, Reader], None]) -> None:
-        """Take in a whole ``plane`` that ``read`` reads."""
+    def take(
+        self,
+        plane: Plane,
+        read: Callable[[Plane, Reader], None],
+        tractions: Callable[[Plane, Reader], None] | None = None,
+    ) -> None:
+        """Take in a whole ``plane`` that ``read`` reads; what passes an interface is read by ``tractions`` if given."""
         region = plane.region
         gathered = self._yielding.setdefault(region, Gathered(self.criterion.limit(region.material)))
+        if plane.side == "above":
+            self._interfaces.append(region)
+        if plane.side != "above" or tractions is None:
+            beyond = self._read(plane, read, gathered.limit.value, ())
+        else:
+            beyond = self._read(plane, read, gathered.limit.value, _OF_INTERFACES)
+            self._read(plane, tractions, math.inf, (*_OF_REGIONS, *_OF_ALL, _OWN))
+        gathered.note(plane.depth, beyond * self._grid.pixel_area)
+
+    def _read(self, plane: Plane, read: Callable[[Plane, Reader], None], limit: float, without: tuple[str, ...]) -> int:
+        """Candidates on ``plane`` for all quantities but those ``without``; the number of points beyond the ``limit``."""
         known = {key: top.value for key, top in self._tops.items()}
+        known |= {_key(quantity, plane.region): math.inf for quantity in without}
         parts: list[_Reading] = []
 
         def reader(rows: Rows) -> None:
-            part = _Reading(plane, self.criterion, gathered.limit.value, known)
+            part = _Reading(plane, self.criterion, limit, known)
             parts.append(part)
             part.read(rows)
 
@@ -129,9 +146,7 @@ class Extremes:
         for part in sorted(parts, key=lambda part: part.first):
             for key, top in part.tops.items():
                 self._tops.setdefault(key, _Top()).add(top.candidates)
-        gathered.note(plane.depth, sum(part.beyond for part in parts) * self._grid.pixel_area)
-        if plane.side == "above":
-            self._interfaces.append(region)
+        return sum(part.beyond for part in parts)
 
     def _peak(self, quantity: str, region: int) -> Peak:
         candidates = self._tops[quantity, region].candidates

@@ -222,8 +222,13 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
     shallow = max(SHALLOWEST * small, PIXELS * max(pixels))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
+    flow = residual_of(result, request.of, None)
+    cells = np.zeros(0) if flow is None else flow.yielding_depths()
+    cells = cells[cells < layered[-1]]
     away = [depth for depth in graded if np.abs(needed - depth).min() > CLOSE * depth]
-    return np.unique([*needed, *away])
+    if flow is not None:
+        away = [depth for depth in away if flow.cell_at(depth, below=True) is None]
+    return _distinct(np.array([*needed, *away, *cells]), SAME)
 
 
 def wants_lines(request: StressRequest) -> bool:
@@ -353,12 +358,14 @@ def survey(
     depths = survey_depths(request, result)
     shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
     job = _job(request, result, depths, threads)
+    flowed = residual_of(result, request.of, threads) is not None
+    at_depths = _job(request, result, depths, threads, over_cells=False).read if flowed else None
     again = planes(getattr(result.problem, request.of), shown) if shown.size else ()
     tracked = _Tracked(progress, len(job.planes) + len(again))
     extremes, passed = Extremes(result.problem.grid, request.criterion), _Passed(job)
     named: dict[Where, tuple[str, ...]] = {}
     for plane in tracked.each(job.planes):
-        extremes.take(plane, passed.cutting(list(named)) if plane in again else job.read)
+        extremes.take(plane, passed.cutting(list(named)) if plane in again else job.read, at_depths)
         named = wanted_lines(request, result, extremes.drawn) if again else {}
     parts = [passed.along(list(named), plane) for plane in tracked.each(again)]
     drawn = [
@@ -423,17 +430,21 @@ def _copy(place: Selection, first: int, rows: RealArray, field: RealArray) -> No
         field[...] = rows[:, i - first, j]
 
 
-def _job(request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None) -> StressPlanes:
-    """Planes of the stress that is requested."""
+def _job(
+    request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None, *, over_cells: bool = True
+) -> StressPlanes:
+    """Planes of the stress that is requested; of a body that flows means over the cells of which yield is required, if ``over_cells``."""
     values = [float(depth) for depth in depths]
     options: Any = {"dtype": request.dtype, "threads": threads}
     if isinstance(result, LoadedBody):
         return StressPlanes(result.tractions, result.body, values, **options)
-    own = request.sheared and getattr(result, "stick_slip", None) is not None  # brings its own shear
-    friction = None if own else request.friction
-    loads = tractions_on(result, friction, request.direction, request.of)
     residual = residual_of(result, request.of, threads)
-    return StressPlanes(loads, getattr(result.problem, request.of), values, residual=residual, **options)
+    found = residual is not None or getattr(result, "stick_slip", None) is not None  # with shear of its own
+    friction = None if request.sheared and found else request.friction
+    loads = tractions_on(result, friction, request.direction, request.of)
+    return StressPlanes(
+        loads, getattr(result.problem, request.of), values, residual=residual, over_cells=over_cells, **options
+    )
 
 
 _Item = TypeVar("_Item")

@@ -1,4 +1,4 @@
-from .adhesion.adhesive_shapes import AdhesivePowerLaw, AdhesiveWave
+from .adhesion.adhesive_shapes import AdhesiveCylinder, AdhesivePowerLaw, AdhesiveWave
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_parameter
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
@@ -126,6 +126,7 @@ from .subsurface.point_shakedown import (
     sphere_shakedown,
 )
 from .subsurface.shakedown import CylinderShakedown, LineShakedown, cylinder_shakedown, line_shakedown
+from .subsurface.shakedown_limits import ShakedownLine, ShakedownPoint
 from .subsurface.sliding_yield import CylinderYield, SphereYield, YieldOnset, cylinder_yield_onset, sphere_yield_onset
 from .wet.meniscus import MeniscusGrowth
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
@@ -136,6 +137,7 @@ __all__ = [
     "FAMILIES",
     "JKR",
     "THEORIES",
+    "AdhesiveCylinder",
     "AdhesivePowerLaw",
     "AdhesiveWave",
     "AnisotropicSummits",
@@ -230,6 +232,8 @@ __all__ = [
     "ProfilePlasticityIndex",
     "RubberFriction",
     "SampledPeaks",
+    "ShakedownLine",
+    "ShakedownPoint",
     "ShenHedrickElkins",
     "SinusoidalAsperity",
     "SlidingCylinder",

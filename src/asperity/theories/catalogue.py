@@ -6,7 +6,7 @@ import difflib
 from types import MappingProxyType
 
 from ..core.errors import InputError
-from .adhesion.adhesive_shapes import AdhesivePowerLaw, AdhesiveWave
+from .adhesion.adhesive_shapes import AdhesiveCylinder, AdhesivePowerLaw, AdhesiveWave
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
@@ -57,6 +57,7 @@ from .single.waves import CrossedWaves, SinusoidalAsperity, Westergaard
 from .statistics.nayak import NayakSummits
 from .subsurface.hertz import HertzEllipseStress, HertzLineStress, HertzStress
 from .subsurface.loads import Boussinesq, Cerruti, Flamant, Strip
+from .subsurface.shakedown_limits import ShakedownLine, ShakedownPoint
 from .subsurface.sliding_yield import CylinderYield, SphereYield
 from .wet.single import DropletMeniscus, FilmMeniscus, VapourMeniscus
 from .wet.summits import GrowingMenisci, WetSummits
@@ -125,6 +126,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             DMT,
             MaugisDugdale,
             AdhesivePowerLaw,
+            AdhesiveCylinder,
             ChangEtsionBogySphere,
             KogutEtsionSphere,
             JacksonGreenSphere,
@@ -136,6 +138,8 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             HertzEllipseStress,
             SphereYield,
             CylinderYield,
+            ShakedownPoint,
+            ShakedownLine,
             Boussinesq,
             Cerruti,
             Flamant,

@@ -6,7 +6,7 @@ import copy
 import json
 import pprint
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -52,6 +52,15 @@ def changed(table: Any, keys: Keys, value: Any) -> Any:
     else:
         made[key] = changed(made.get(key), rest, value)
     return made
+
+
+def moduli_files(table: Any, keys: Keys = ()) -> Iterator[Keys]:
+    """Where the nested ``table``, which stands at ``keys``, names a file of storage and loss moduli, or wants one."""
+    if isinstance(table, Mapping) and table.get("kind") == "measured":
+        yield (*keys, "moduli_file")
+    elif isinstance(table, Mapping | list):
+        for key, value in table.items() if isinstance(table, Mapping) else enumerate(table):
+            yield from moduli_files(value, (*keys, key))
 
 
 @dataclass

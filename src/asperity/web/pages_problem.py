@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import html
 import math
+from pathlib import Path
 from typing import Any
 
 from nicegui import events, ui
 
-from ..core.errors import AsperityError
+from ..core.errors import AsperityError, InputError
 from ..core.units import parse, show
 from ..io.schemas.bodies import FLOW, body_from_text
 from ..run.document import document_model
 from ..solids.library import MaterialRecord, materials
-from .draft import Keys
+from ..solids.moduli_file import read_moduli
+from ..solids.viscoelastic import fitted_solid
+from .draft import Keys, moduli_files
 from .forms import Asked, asked_of
 from .layout import drop
 from .session import Session
@@ -51,7 +54,7 @@ def bodies_page(key: str, session: Session) -> None:
                 drawing()
             drawings[name] = drawing
     _library()
-    _own_materials(key, session)
+    _own_files(key, session)
 
 
 def _body(context: Context, item: Asked, name: str) -> None:
@@ -126,28 +129,50 @@ def _library() -> None:
                         ui.label(text).classes("hint")
 
 
-def _own_materials(key: str, session: Session) -> None:
-    """Takes a file of own materials, for every body that names one."""
+def _own_files(key: str, session: Session) -> None:
+    """Takes a file of own materials, for every body that names one, or of storage and loss moduli, for every relaxation that is measured."""
 
     def uploaded(event: events.GenericEventArguments) -> None:
         path = str(event.args.get("path") if isinstance(event.args, dict) else "")
         if path not in session.labels:
             return
         try:
-            materials(path)
+            places = _materials_at(path, session) if path.endswith(".toml") else _moduli_at(path, session)
         except AsperityError as error:
             ui.notify(session.said(str(error)), type="negative", multi_line=True)
             return
-        for name in ("body", "counter_body"):
-            body = session.draft.get(name)
-            if isinstance(body, dict) and ("material" in body or "layers" in body):
-                session.draft.set((name, "materials_file"), path)
+        for keys in places:
+            session.draft.set(keys, path)
         session.touched()
         ui.navigate.reload()
 
-    text = "Drop a file of own materials here, or press to choose"
-    drop(key, "drop a file of own materials, or choose it", text, "TOML with a table for each material; see the how-to")
+    text = "Drop a file of own materials or of moduli here, or press to choose"
+    hint = "TOML with a table for each material; or CSV with frequency, storage and loss modulus, for a relaxation that is measured; see the how-to"
+    drop(key, "drop a file of own materials or of moduli, or choose it", text, hint)
     ui.on("asperity-uploaded", uploaded)
+
+
+def _materials_at(path: str, session: Session) -> list[Keys]:
+    """Where the file of materials at ``path``, which is read once, belongs in the document."""
+    materials(path)
+    bodies = ((name, session.draft.get(name)) for name in ("body", "counter_body"))
+    return [
+        (name, "materials_file")
+        for name, body in bodies
+        if isinstance(body, dict) and ("material" in body or "layers" in body)
+    ]
+
+
+def _moduli_at(path: str, session: Session) -> list[Keys]:
+    """The same of a file of storage and loss moduli; InputError if no relaxation is measured."""
+    fitted_solid(*read_moduli(Path(path)), poisson_ratio=0.5)
+    found = [keys for name in ("body", "counter_body") for keys in moduli_files(session.draft.get(name), (name,))]
+    if not found:
+        raise InputError(
+            "relaxation of a body must be measured to take a file of moduli, but none is. Choose own constants and the relaxation measured "
+            "first. A file of materials ends in .toml."
+        )
+    return found
 
 
 def drawn(body: Any, *, title: str) -> str:

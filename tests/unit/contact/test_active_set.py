@@ -15,9 +15,9 @@ import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solve import default_solver
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
-from asperity.contact.solvers.active_set import linear_system
+from asperity.contact.solvers.active_set import clipping, first_guess, linear_system
 from asperity.contact.solvers.active_set import solver as solver_module
-from asperity.contact.solvers.active_set.solver import COARSEST, coarsened, nested_start
+from asperity.contact.solvers.active_set.first_guess import COARSEST, coarsened, highest_points, nested_start
 from asperity.contact.solvers.protocol import relative_error
 from asperity.core.engine import SQUARE_SIDE, cpu
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -239,6 +239,45 @@ def test_lines_and_small_grids_have_no_coarser_one() -> None:
         assert nested_start(posed(shape), ActiveSet())[1] == 0.0
 
 
+@pytest.mark.parametrize("load", [0.01, 0.05, 0.2])
+def test_the_coarsest_guess_loads_about_as_many_of_the_highest_points_as_will_touch(load: float) -> None:
+    qp = posed((64, 60), load=load)
+    loaded = highest_points(qp)
+    assert loaded is not None
+    assert qp.profile[loaded > 0.0].min() >= qp.profile[loaded == 0.0].max()
+    assert 0.6 <= loaded.sum() / np.count_nonzero(run(ActiveSet(), qp).state.pressure) <= 1.6
+    small = replace(qp.operator.grid, spacing=(2e-9, 2e-9))  # all lengths, and so moduli over a length
+    tiny = replace(qp, operator=asp.prepare_operator(HalfSpace(1.0), small, asp.Periodic()), profile=2e-9 * qp.profile)
+    np.testing.assert_array_equal(highest_points(tiny), loaded)
+
+
+def test_without_slope_or_load_all_points_are_the_guess_on_the_coarsest_grid() -> None:
+    qp = posed((12, 10))
+    assert highest_points(replace(qp, profile=np.ones((12, 10)))) is None
+    assert highest_points(replace(qp, constraint=FixedOffset(0.0))) is None
+    assert highest_points(posed((12, 10), load=1e6)).all()  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=("elastic", "capped"))
+def test_the_product_that_ends_a_solve_serves_a_last_step(law: Any, monkeypatch: Any) -> None:
+    """With and without such steps the pressures agree to the tolerance, the load and the bounds are kept; with them products are fewer."""
+    surfaces = [rough((128, 128), seed) for seed in (1, 2, 3, 4)]
+
+    def solved() -> list[asp.ContactResult]:
+        problems = (asp.ContactProblem(surface, elastic(1.0), law=law) for surface in surfaces)
+        return [asp.solve(p, asp.MeanPressure(0.05), solver=ActiveSet(tolerance=1e-6)) for p in problems]
+
+    with_step = solved()
+    monkeypatch.setattr(solver_module, "_LAST_STEP", 0.0)
+    without = solved()
+    assert sum(r.certificate.fft_pairs for r in with_step) < sum(r.certificate.fft_pairs for r in without)
+    for one, other in zip(with_step, without, strict=True):
+        assert max(one.certificate.field_error, other.certificate.field_error) <= 1e-6
+        assert one.pressure.mean() == pytest.approx(0.05, rel=1e-12)
+        assert one.pressure.min() == 0.0
+        assert np.linalg.norm(one.pressure - other.pressure) <= 1e-4 * np.linalg.norm(other.pressure)
+
+
 def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
     page = (Path(__file__).parents[3] / "docs/theory/contact.md").read_text(encoding="utf-8")
     settled, nearly = solver_module._SETTLED_SET, solver_module._NEARLY_SETTLED
@@ -249,9 +288,11 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
         f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION},  at most {solver_module._UNSETTLED_STEPS} · ",
         f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
         f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
-        f"θ ≥ {solver_module.LEAST_SHARE}:",
+        f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
+        f"θ ≥ {clipping.LEAST_SHARE}:",
         f"square of {SQUARE_SIDE} pixels",
-        f"${solver_module._FINE_STIFFNESS}/\\hat c_0$",
+        f"${first_guess._FINE_STIFFNESS}/\\hat c_0$",
+        f"erf({first_guess._AREA_PER_LOAD:g} p̄/E*s)",
         f"the start given, if ε ≤ {solver_module._POOR}",
     ):
         assert phrase in page, phrase

@@ -114,7 +114,8 @@ def test_elastic_where_nothing_yields() -> None:
     light = asp.MeanPressure(1e6)
     result = asp.solve(problem(), light)
     assert not result.plastic_flow.depths.size
-    assert np.array_equal(result.pressure, asp.solve(problem(plastic_flow=None), light).pressure)
+    elastic = asp.solve(problem(plastic_flow=None), light).pressure
+    np.testing.assert_allclose(result.pressure, elastic, rtol=1e-12)  # one round more: rounding
     heavy = asp.solve(problem(plastic_flow=asp.PlasticFlow((None, SOFT), cells=16)), asp.MeanPressure(0.25e9))
     film, base = heavy.plastic_flow.zones
     assert film.volume == 0.0
@@ -328,3 +329,57 @@ def test_the_body_that_flows_takes_the_imprint() -> None:
     assert np.array_equal(result.residual_surface("body").heights, rough().heights)
     assert np.array_equal(result.residual_surface("counter_body").heights, -result.plastic_flow.displacement)
     assert np.array_equal(result.residual_surface().heights, rough().heights - result.plastic_flow.displacement)
+
+
+@pytest.mark.parametrize("kind", [asp.MeanPressure, asp.Approach, asp.MeanGap])
+def test_position_in_one_step_takes_as_many_iterates_as_the_load(kind: Any) -> None:
+    """The contact of each iterate is held at the position itself, so that no search for the load is around it."""
+    loaded = asp.solve(problem(), asp.MeanPressure(0.6e9))
+    value = {asp.MeanPressure: 0.6e9, asp.Approach: loaded.approach, asp.MeanGap: loaded.mean_gap}[kind]
+    found = asp.solve(problem(), kind(value))
+    assert found.mean_pressure == pytest.approx(0.6e9, rel=1e-3)
+    assert found.approach == pytest.approx(loaded.approach, rel=1e-3)
+    assert found.plastic_flow.iterations <= 1.5 * loaded.plastic_flow.iterations
+
+
+def test_position_near_full_contact_of_a_body_without_hardening() -> None:
+    """There whole steps of the return mapping swing between a contact and none; shorter ones come to rest at the load that has this position."""
+    flow = asp.PlasticFlow(J2(STEEL, LinearHardening(0.8e9)), cells=8)
+    coarse = asp.Surface(rough((16, 12)).heights, 50e-9, 50e-9)
+    soft = problem(surface=coarse, body=STEEL, plastic_flow=flow)
+    loaded = asp.solve(soft, asp.MeanPressure(1e9))
+    found = asp.solve(soft, asp.Approach(loaded.approach))
+    assert loaded.approach > 0.98 * float(soft.profile().max() - soft.profile().mean())
+    assert found.mean_pressure == pytest.approx(1e9, rel=0.01)
+
+
+def test_a_mean_pressure_at_which_the_body_yields_in_itself_ends() -> None:
+    """Without lateral strain a half-space yields at every depth beyond Y (1 - ν)/(1 - 2ν): the cells end somewhere, and the result says so."""
+    flow = asp.PlasticFlow(J2(STEEL, LinearHardening(0.2e9, 50e9)), cells=12)
+    yielding = 0.2e9 * 0.7 / 0.4
+    found = asp.solve(problem(body=STEEL, plastic_flow=flow), asp.MeanPressure(1.3 * yielding))
+    assert found.plastic_flow.reaches_end
+    assert found.plastic_flow.depths[-1] < 5.0 * 800e-9
+    assert "depth of the cells" in criteria(found)
+
+
+@pytest.mark.parametrize("control", [asp.MeanPressure(0.5e9), asp.Approach(1.1e-9)])
+def test_a_step_that_does_not_settle_is_cut(control: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Equal parts from the last state that settled, as a history of them would give; the result says so and holds the work of all parts."""
+    from asperity.contact.couplings import plastic_flow
+
+    begun = asp.solve(problem(), asp.MeanPressure(0.05e9))
+    whole = asp.solve(problem(), control, state=begun.state)
+    monkeypatch.setattr(plastic_flow, "_MOST", 7)
+    found = asp.solve(problem(), control, state=begun.state, rounds=asp.Rounds(2))
+    assert found.converged
+    assert "parts" in found.status.message
+    assert "parts" not in whole.status.message
+    count = int(found.status.message.split(" equal parts")[0].split()[-1])
+    first = begun.mean_pressure if isinstance(control, asp.MeanPressure) else begun.approach
+    steps = [type(control)(first + (control.value - first) * k / count) for k in range(1, count + 1)]
+    parts = asp.solve(problem(), asp.History(steps), state=begun.state)
+    np.testing.assert_allclose(found.pressure, parts.last.pressure, rtol=1e-6, atol=1e-6 * parts.last.max_pressure)
+    works = [step.plastic_flow.step_work for step in parts.steps]
+    assert found.plastic_flow.step_work == pytest.approx(sum(works), rel=1e-6)
+    assert found.force == pytest.approx(whole.force, rel=0.02)

@@ -18,7 +18,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
-from asperity.contact.solvers.active_set.entering import free_set, local_means, pyramid
+from asperity.contact.solvers.active_set.entering import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, CoarseCompliance, Engine, Hierarchy, Load, Merge
 from asperity.core.engine.cpu import SERIAL_BELOW
@@ -216,8 +216,9 @@ def work_on_free_set(engine: Engine, case: Iterate, dtype: str, centred: bool) -
     t, second = free.update_direction(z, 0.25, 0.5, t, r, field)
     seen.direction = engine.numpy(field).copy()
     kt, *third = free.gather_products(response, t, r, free.zeros())
-    d, r = free.update_solution(0.7, t, kt, 0.125, free.zeros(), r)
-    d, r = free.update_solution(0.3, t, kt, 0.125, d, r)
+    d, r, _ = free.update_solution(0.7, t, kt, 0.125, free.zeros(), r)
+    d, r, left = free.update_solution(0.3, t, kt, 0.125, d, r)
+    assert left == pytest.approx(free.square(r), rel=1e-6 if dtype == "float32" else 1e-14)
     seen.advanced = [scattered(d), scattered(r)]
     seen.sums = [*first, product, second, *third]
     old, total = free.gather(p)
@@ -303,8 +304,9 @@ def test_members_of_a_free_set(engine: Engine, cap: str) -> None:
     bound = np.inf if case.cap is None else case.cap if case.cap.size == 1 else case.cap.reshape(12, 7)
     gap = case.u - case.h - case.level
     movable = (case.p > 0.0) & (case.p < bound)
-    apart = gap - local_means([np.array([[movable.sum()]])], [np.array([[gap[movable].sum()]])])
-    margin = 0.5 * np.sqrt(local_means([np.array([[movable.sum()]])], [np.array([[(apart[movable] ** 2).sum()]])]))
+    points = movable.sum() + _PRIOR  # of one square, with those of the wider ones, which are empty
+    apart = gap - gap[movable].sum() / points
+    margin = 0.5 * np.sqrt((apart[movable] ** 2).sum() / points)
     entering = ((case.p <= 0.0) & (apart < -margin)) | ((case.p > 0.0) & (case.p >= bound) & (apart > margin))
     inside = entering | movable
     field = engine.zeros((12, 7), "float64")
@@ -355,20 +357,32 @@ def test_points_enter_by_the_level_of_their_neighbourhood(engine: Engine) -> Non
     assert free.entering == entered.sum()
 
 
-def test_means_fall_back_on_wider_squares_where_there_are_few_points() -> None:
+def means_of(count: RealArray, total: RealArray) -> RealArray:
+    """Mean of each square, by the definition: the next wider one counts as so many points."""
+    if count.size == 1:
+        return total / (count + _PRIOR)
+    nx, ny = count.shape
+    wide = [np.add.reduceat(np.add.reduceat(v, range(0, nx, 2), 0), range(0, ny, 2), 1) for v in (count, total)]
+    above = np.kron(means_of(*wide), np.ones((2, 2)))[:nx, :ny]
+    return (total + _PRIOR * above) / (count + _PRIOR)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (6, 1), (5, 3), (8, 16), (33, 17)])
+def test_levels_of_a_square_are_mean_and_scatter_with_wider_ones(shape: tuple[int, int]) -> None:
     rng = np.random.default_rng(4)
-    count, total = 1e6 + rng.uniform(size=(5, 3)), 1e6 * rng.standard_normal((5, 3))
-    np.testing.assert_allclose(local_means(pyramid(count), pyramid(total)), total / count, atol=1e-5)
-    np.testing.assert_allclose(
-        local_means(pyramid(count), pyramid(total - 0.5 * count)), total / count - 0.5, atol=1e-5
-    )
-    empty = count.copy()
-    empty[2, 1] = total[2, 1] = 0.0
-    four = slice(2, 4), slice(0, 2)
-    assert local_means(pyramid(empty), pyramid(total))[2, 1] == pytest.approx(
-        total[four].sum() / empty[four].sum(), abs=1e-5
-    )
-    assert not local_means(pyramid(np.zeros((4, 7))), pyramid(np.zeros((4, 7)))).any()
+    values, level = rng.normal(3.0, 0.5, (*shape, 20)), 2.7
+    count = rng.integers(0, 20, shape).astype(float)
+    values[np.arange(20) >= count[..., None]] = 0.0
+    squares = np.stack([count, values.sum(axis=-1), (values**2).sum(axis=-1)], axis=-1)
+    mean = level + means_of(count, squares[..., 1] - level * count)
+    apart = np.where(np.arange(20) < count[..., None], values - mean[..., None], 0.0)
+    margin = 0.5 * np.sqrt(means_of(count, (apart**2).sum(axis=-1)))
+    expected = np.stack([mean - margin, mean + margin], axis=-1)
+    np.testing.assert_allclose(entering_levels(squares, level), expected, rtol=0.0, atol=1e-12)
+
+
+def test_without_points_between_the_bounds_levels_are_those_of_the_plane() -> None:
+    np.testing.assert_array_equal(entering_levels(np.zeros((4, 7, 3)), 0.3), np.full((4, 7, 2), 0.3))
 
 
 @every_engine

@@ -425,6 +425,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "plastic_load",
         "plastic_flow",
         "indentation",
+        "passes",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]

@@ -13,12 +13,11 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.core.units import show
 from asperity.parts.stress import Yielding, remarks, yield_words
 from asperity.solids.eigenstrain.cells import DepthCells, depth_edges
 from asperity.solids.eigenstrain.slices import slice_at
 from asperity.solids.plasticity import J2, LinearHardening, von_mises
-from asperity.stress.survey import StressRequest, WantedProfile, survey
+from asperity.stress.survey import StressRequest, WantedProfile, WantedSection, survey
 
 STEEL = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
 FILM = asp.Elastic(400e9, 0.25, asp.Strength(yield_stress=2e9))
@@ -126,12 +125,31 @@ def test_yield_is_told_by_the_flow() -> None:
     pressure = solved().pressure
     shear = 0.2 * pressure * np.array([np.cos(0.4), np.sin(0.4)])[:, None, None]
     means = von_mises(np.moveaxis(solved().plastic_flow.stress(pressure, shear), 1, -1))
-    assert show(float(means.max()), "Pa", 3) in remarks(flowed)[0]
+    largest = max(part.von_mises.value for part in flowed.maxima)
+    assert largest == pytest.approx(float(means.max()), rel=1e-9)
+    assert max(part.von_mises.value for part in elastic.maxima) > 1.05 * largest
     assert remarks(flowed)[0] != remarks(elastic)[0]
     for found, known in ((flowed, False), (elastic, True)):
         stage: Any = SimpleNamespace(found={"stress": SimpleNamespace(detail=found)})
         assert np.isfinite(Yielding().compute(None, stage).values["yield_load_factor"]) == known
     assert set(FLOW.citation_keys[:2]) <= set(flowed.citation_keys)
+
+
+def test_layers_that_stay_elastic_are_not_averaged() -> None:
+    """On an elastic film the survey gives the stress at the depths themselves; in the base that flows the means of its cells, on planes in their middle."""
+    _, base = FLOW.plasticity
+    result = asp.solve(problem(plastic_flow=asp.PlasticFlow((None, base), cells=14)), asp.MeanPressure(0.3e9))
+    found = survey(StressRequest(sections=(WantedSection("y", "pressure"),)), result, threads=1)
+    field, edges = found.sections[0].field, result.plastic_flow.flowed.edges
+    means, depths = result.plastic_flow.stress(result.pressure), np.array([plane.depth for plane in field.planes])
+    j = int(np.unravel_index(result.pressure.argmax(), result.pressure.shape)[1])
+    exact = planes(asp.stress(result, depths[depths < 60e-9], on=asp.Section(y="pressure")))
+    shown = planes(field)
+    np.testing.assert_allclose(shown[: len(exact)], exact, rtol=0.0, atol=1e-9 * np.abs(exact).max())
+    for number, middle in enumerate(0.5 * (edges[1:] + edges[:-1])):
+        if middle > 60e-9:
+            (row,) = np.flatnonzero(np.isclose(depths, middle, rtol=1e-9, atol=0.0))
+            np.testing.assert_allclose(shown[row], means[number, :, :, j], rtol=1e-9)
 
 
 def test_slices_hold_interfaces_and_depth() -> None:
@@ -162,8 +180,10 @@ def two_layers(load: float) -> asp.ContactResult:
 
 @pytest.mark.parametrize("load", [0.4e9, 1e6])
 def test_faces_of_layers_are_those_of_the_stress_field(load: float) -> None:
-    """Tractions by the sweeps over depth cells and by the transfer functions of stresses; with flow and where nothing flows."""
+    """Tractions by the sweeps over depth cells and by the transfer functions of stresses; tensions of layers that flow are means over the cells at their faces."""
     result = two_layers(load)
+    flow = result.plastic_flow
+    means, edges = flow.stress(result.pressure), flow.flowed.edges
     assert bool(result.plastic_flow.flowed.points.size) == (load > 1e8)
     layers = result.plastic_flow.layers(result.pressure)
     assert [layer.name for layer in layers] == ["layer 1", "layer 2"]
@@ -171,7 +191,13 @@ def test_faces_of_layers_are_those_of_the_stress_field(load: float) -> None:
     scale = np.abs(field).max()
     for number, layer in enumerate(layers):
         upper, lower = field[2 * number], field[2 * number + 1]
-        for found, face in ((layer.top_tension, upper), (layer.bottom_tension, lower)):
+        faces = upper, lower
+        if means.size:
+            faces = (
+                means[np.searchsorted(edges, layer.top * (1.0 + 1e-9), "right") - 1],
+                means[np.searchsorted(edges, layer.bottom * (1.0 - 1e-9)) - 1],
+            )
+        for found, face in zip((layer.top_tension, layer.bottom_tension), faces, strict=True):
             largest = np.linalg.eigvalsh(np.moveaxis(face[[[0, 3], [3, 1]]], (0, 1), (-2, -1))).max()
             assert found == pytest.approx(largest, abs=2e-3 * scale)
         np.testing.assert_allclose(layer.normal, lower[2], rtol=0.0, atol=3e-4 * scale)

@@ -20,7 +20,7 @@ from ...core.late import Shown
 from ...core.status import Status
 from ...solids.compliance.halfspace import Compliance
 from .. import measure
-from ..laws import Adhesion, JKRAdhesion, SoftAdhesion, cohesive_length
+from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
 from ..operators import Operator, prepare_operator
 from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
 from ..solvers.adhesion.front import MovingFront, step_compliance
@@ -89,7 +89,8 @@ class AdhesiveContact(Shown):
     pixel
         Larger spacing of the grid in m.
     dissipated
-        Energy in J that was lost in this step: the work of the grips by the trapezoidal rule less the change of the energy.
+        Energy in J that was lost in this step, the work of the force between the solids less the change of the energy. Elastic bodies lose none without
+        a jump, for on a branch the work is that change; where they jump, or something else takes energy, the work is by the trapezoidal rule.
     jumped
         Whether that is the loss of a jump.
     jumps
@@ -106,6 +107,9 @@ class AdhesiveContact(Shown):
         How it ended.
     spot_radius
         Radius in m of a disc as large as the mean contact spot, of a line half the mean width; zero without contact.
+    dissipated_error
+        Bound of the error of ``dissipated`` in J: of the rule half of |ΔF Δδ|, that of a force anywhere between those before and after; without a
+        jump what the rule misses, in which a smaller jump may hide.
     """
 
     law: Adhesion
@@ -130,6 +134,7 @@ class AdhesiveContact(Shown):
     fft_pairs: float
     status: Status
     spot_radius: float = math.nan
+    dissipated_error: float = math.nan
 
     @property
     def short_range(self) -> bool:
@@ -245,11 +250,15 @@ class Machine:
 
 @dataclass(frozen=True, eq=False)
 class AdhesionCoupling(Coupling):
-    """Attraction of the surfaces; the unknown is the attraction (nx, ny) in Pa that the contact is posed with."""
+    """Attraction of the surfaces; the unknown is the attraction (nx, ny) in Pa that the contact is posed with.
+
+    ``conserves``: nothing but jumps takes energy, neither yielding nor shear nor points of an edge without range.
+    """
 
     law: Adhesion
     operator: Operator = field(repr=False)
     E_star: float
+    conserves: bool
     solver: AdhesiveSolver = MajoriseMinimise()
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "adhesion"
@@ -266,7 +275,13 @@ class AdhesionCoupling(Coupling):
             solver = MovingFront(step_compliance(operator))
         elif problem.adhesion.spacing > 0.0:
             solver = SoftCoreNewton(tolerance=0.1 * tolerance)
-        return cls(problem.adhesion, operator, problem.contact_modulus, solver, tolerance)
+        conserves = (
+            isinstance(problem.law, HardWall)
+            and problem.plastic_flow is None
+            and (problem.friction is None or (isinstance(problem.friction, Coulomb) and not problem.friction.couples))
+            and not isinstance(problem.adhesion, JKRAdhesion)
+        )
+        return cls(problem.adhesion, operator, problem.contact_modulus, conserves, solver, tolerance)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The attraction that is remembered, followed to this load or position."""
@@ -412,7 +427,7 @@ class AdhesionCoupling(Coupling):
         interface = float(self.law.energy(gap).sum()) * grid.pixel_area
         force = float(traction.sum()) * grid.pixel_area
         approach = note.posed.top + contact.level
-        lost, jumped = self._lost(note.before, force, approach, elastic + interface, gap)
+        lost, error, jumped = self._lost(note.before, force, approach, elastic + interface, gap)
         held = _held(note, self.operator, self.law, contact)
         state = Adhered(pressure, exchange.x, contact.solution.state.deflection, gap, exchange.x, -contact.level)
         margin = self.solver.margin(held, state)
@@ -429,6 +444,7 @@ class AdhesionCoupling(Coupling):
             cohesive_length=cohesive_length(self.law, self.E_star),
             pixel=max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1),
             dissipated=lost,
+            dissipated_error=error,
             jumped=jumped,
             jumps=note.before.jumps + int(jumped),
             total_dissipated=note.before.total + lost,
@@ -443,10 +459,12 @@ class AdhesionCoupling(Coupling):
 
     def _lost(
         self, before: _Before, force: float, approach: float, energy: float, gap: RealArray
-    ) -> tuple[float, bool]:
-        """Energy (J) lost since the step before, and whether in a jump, which without range is more than points of the edge."""
-        lost, jumped = _lost(before, force, approach, energy, gap)
-        return lost, jumped and not (math.isinf(self.law.strength) and _creeps(before, gap))
+    ) -> tuple[float, float, bool]:
+        """Energy (J) lost since the step before with its error, and whether in a jump, which without range is more than points of the edge."""
+        lost, error, jumped = _lost(before, force, approach, energy, gap)
+        if self.conserves and not jumped:
+            return 0.0, abs(lost), jumped
+        return lost, error, jumped and not (math.isinf(self.law.strength) and _creeps(before, gap))
 
     def _spot_radius(self, touching: BoolArray) -> float:
         grid = self.operator.grid
@@ -507,18 +525,18 @@ def _require_open(operator: Operator, profile: RealArray, offset: float) -> None
         )
 
 
-def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, bool]:
-    """Energy (J) lost since the step before, and whether in a jump: more than a smooth branch loses by the step's length.
+def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, float, bool]:
+    """Energy (J) lost since the step before by the trapezoidal rule, its error, and whether in a jump: more than the rule misses on a smooth branch.
 
     A smooth branch loses nothing to second order, and its gap changes about as much as the approach.
     """
     if math.isnan(before.energy):
-        return 0.0, False
+        return 0.0, 0.0, False
     step = approach - before.approach
     lost = 0.5 * (force + before.force) * step - (energy - before.energy)
     farthest = float(np.abs(gap - before.gap).max())
-    jumped = lost > _JUMP * abs((force - before.force) * step) and farthest > _FAR * abs(step)
-    return lost, jumped
+    spread = abs((force - before.force) * step)
+    return lost, 0.5 * spread, lost > _JUMP * spread and farthest > _FAR * abs(step)
 
 
 def _creeps(before: _Before, gap: RealArray) -> bool:
@@ -537,10 +555,18 @@ def in_time(
     """
     before: _Before = exchange.note.before
     approach = exchange.note.posed.top + contact.level
-    lost, jumped = _lost(before, found.external_force, approach, stored + heat + found.interface_energy, contact.gap)
+    lost, error, jumped = _lost(
+        before, found.external_force, approach, stored + heat + found.interface_energy, contact.gap
+    )
     jumps = before.jumps + int(jumped)
     found = replace(
-        found, elastic_energy=stored, dissipated=lost, jumped=jumped, jumps=jumps, total_dissipated=before.total + lost
+        found,
+        elastic_energy=stored,
+        dissipated=lost,
+        dissipated_error=error,
+        jumped=jumped,
+        jumps=jumps,
+        total_dissipated=before.total + lost,
     )
     return found.memory(contact.gap, approach), found
 

@@ -100,6 +100,18 @@ class Products:
 
 
 @dataclass(frozen=True, eq=False)
+class ShearPast:
+    """Memory of shear tractions.
+
+    ``xi`` are the internal tractions (terms, 2, nx, ny) in Pa, of a fluid in Pa s; ``squares`` (parts, terms) their energies and those of the
+    coupling with the internal pressures, J, of a fluid in J s².
+    """
+
+    xi: RealArray
+    squares: RealArray
+
+
+@dataclass(frozen=True, eq=False)
 class Past:
     """Memory of the pressures so far.
 
@@ -119,6 +131,8 @@ class Past:
         Heat so far, J.
     place
         Mean pressure (Pa), approach and mean gap (m) that were reached.
+    shear
+        Memory of shear tractions, where surfaces stick and slip.
     """
 
     time: float
@@ -128,6 +142,7 @@ class Past:
     squares: RealArray
     dissipated: float
     place: tuple[float, float, float]
+    shear: ShearPast | None = None
 
     @classmethod
     def of(cls, memory: Memory) -> Past:
@@ -135,16 +150,19 @@ class Past:
         mean, approach, gap = (float(value) for value in memory["place"])
         fields = {name: memory[name] for name in ("pressure", "response", "xi", "squares")}
         place = mean, approach, gap
-        return cls(float(memory["time"]), dissipated=float(memory["dissipated"]), place=place, **fields)
+        shear = ShearPast(memory["shear_xi"], memory["shear_squares"]) if "shear_xi" in memory else None
+        return cls(float(memory["time"]), dissipated=float(memory["dissipated"]), place=place, shear=shear, **fields)
 
     @property
     def memory(self) -> Memory:
         """Named real arrays; complex ones have a last axis of real and imaginary parts."""
         numbers = {"time": self.time, "dissipated": self.dissipated, "place": self.place}
         fields = {"pressure": self.pressure, "response": self.response, "xi": self.xi, "squares": self.squares}
+        shear = {} if self.shear is None else {"shear_xi": self.shear.xi, "shear_squares": self.shear.squares}
         return {
             **{name: np.asarray(value, dtype=float) for name, value in numbers.items()},
             **{name: _real_view(value) for name, value in fields.items()},
+            **shear,
         }
 
 

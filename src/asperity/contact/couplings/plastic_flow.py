@@ -27,11 +27,12 @@ from ...solids.plasticity import J2, WEIGHTS, LinearHardening
 from ..boundary import Free
 from ..laws import Coulomb
 from ..laws.plastic_flow import PlasticFlow, plastic_body
-from ..problem import ContactProblem
+from ..problem import Approach, ContactProblem, MeanGap
 from ..solvers.active_set.solver import ActiveSet
 from ..solvers.protocol import FixedOffset, Solver, run
+from .position import closeness_wanted
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
-from .residual_stress import LayerStress, ResidualStress, layer_stresses, operator_of
+from .residual_stress import LayerStress, ResidualStress, YieldingStress, layer_stresses, operator_of, tension_along
 
 NAME = "plastic_flow"
 
@@ -44,6 +45,10 @@ _PROBED = 0.8
 _MARGIN = 1.4
 """Depth of the cells over that of the deepest place that yields; also by how much they go deeper when that place reaches the end."""
 
+_FARTHEST = 2.0
+"""Depth of the cells over the length of the grid, or over that of the deepest interface if more, from which on they go no deeper: a mean pressure that
+makes the body yield in itself would do so at any depth."""
+
 _GROWTH = 1.15
 """Thickness of an added cell over that of the one above."""
 
@@ -54,7 +59,15 @@ _MOST = 200
 """Iterates in one round; one that ends there is given up."""
 
 _WORSE = 2.0
-"""Residual over the smallest so far from which extrapolation begins anew: a step of the return mapping alone never leads away."""
+"""Residual over the smallest so far from which extrapolation begins anew."""
+
+_SWINGS = 2
+"""Iterates in a row after which extrapolation began anew from which on the share of a step of the return mapping that is taken is halved: of a map that
+brings two strains never farther apart, iterates that go the whole step may swing between two strains for ever, those that go a part of it come to
+rest (Krasnoselskii 1955). Halving it at once takes up to half as many iterates again."""
+
+_LEAST_SHARE = 0.1
+"""The least such share."""
 
 _NORMAL = 1e-8
 """Tolerance of the contacts of iterates."""
@@ -147,6 +160,17 @@ class PlasticBody:
         return bool(np.any((i == 0) | (i == nx - 1) | (j == 0) | (j == ny - 1)))
 
     @property
+    def body(self) -> Elastic | Layered:
+        """The body that flows."""
+        return plastic_body(self.problem.body, self.problem.counter_body)[0]
+
+    @property
+    def laws(self) -> tuple[J2 | None, ...]:
+        """Laws of its layers and of its base; None where it stays elastic."""
+        assert self.problem.plastic_flow is not None
+        return self.problem.plastic_flow.laws(self.body)
+
+    @property
     def of(self) -> Literal["body", "counter_body"]:
         """Which body of the contact flows."""
         return "counter_body" if isinstance(self.problem.body, Rigid) else "body"
@@ -200,12 +224,17 @@ class PlasticBody:
     def layers(
         self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
     ) -> tuple[LayerStress, ...]:
-        """Tension along the faces of each layer and tractions of the interface below it, at the faces themselves.
+        """Tension along the faces of each layer and tractions of the interface below it.
 
         Parameters as of ``stress``: without tractions those that remain when the load is gone.
         """
-        places = interfaces(plastic_body(self.problem.body, self.problem.counter_body)[0])
-        return layer_stresses(self.residual(threads), places, pressure, shear)
+        return layer_stresses(YieldingStress(self.residual(threads), pressure, shear), interfaces(self.body))
+
+    def surface_tension(
+        self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
+    ) -> float:
+        """Largest principal stress in Pa along the surface, as of ``layers``; negative where all of it is compressed."""
+        return tension_along(YieldingStress(self.residual(threads), pressure, shear).at(0.0, below=True))
 
 
 @dataclass
@@ -226,10 +255,11 @@ class Volume:
 
 @dataclass(eq=False)
 class _Course:
-    """What is known of a step on the way: what the contact was posed with last is ``settled``."""
+    """What is known of a step on the way: what the contact was posed with last is ``settled``; ``posed`` where the share holds the position."""
 
     begin: Flowed
     memory: Memory
+    posed: Posed | None = None
     flow: VolumeFlow | None = None
     mixing: Extrapolation = field(default_factory=Extrapolation)
     settled: Flowed | None = None
@@ -269,15 +299,27 @@ class PlasticFlowCoupling(Coupling):
         """The body that flows."""
         return plastic_body(self.problem.body, self.problem.counter_body)[0]
 
+    @property
+    def positions(self) -> bool:
+        """Whether its share holds the bodies at the position prescribed: of contacts that repeat, whose mean gap and approach follow from the offset alone."""
+        return not isinstance(self.problem.boundary, Free)
+
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The displacement by the plastic strain so far."""
         course = _Course(Flowed.of(memory), memory)
+        if self.positions:
+            course.posed = posed
+            if posed.external_force is None:
+                closeness_wanted(posed, elastic=True)  # refuses what has no solution
         lift = np.asarray(memory["lift"]) if "lift" in memory else np.zeros(posed.profile.shape)
         return Exchange(lift, lift, np.inf, self.tolerance, note=course)
 
     def share(self, exchange: Exchange) -> Share:
-        """The displacement as a lift."""
-        return Share(lift=exchange.x if exchange.x.any() else 0.0)
+        """The displacement as a lift, and the position if that is prescribed."""
+        course: _Course = exchange.note
+        offset = None if course.posed is None else _offset(course.posed, exchange.x)
+        constraint = None if offset is None else FixedOffset(offset)
+        return Share(lift=exchange.x if exchange.x.any() else 0.0, constraint=constraint)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement that agrees with its own contact, which is found from ``contact`` on."""
@@ -345,6 +387,8 @@ class PlasticFlowCoupling(Coupling):
             return None
         places, stack = interfaces(body), stack_of(body)
         ends, h = list(edges), float(edges[-1] - edges[-2])
+        if edges[-1] >= max(_FARTHEST * max(self.problem.grid.size), _MARGIN * _deepest(body)):
+            return None
         while ends[-1] < _MARGIN * edges[-1]:
             h *= _GROWTH
             below = places[places > ends[-1] * (1.0 + 1e-9)]
@@ -396,7 +440,7 @@ class PlasticFlowCoupling(Coupling):
         self, course: _Course, contact: Contact, x: RealArray, step: RealArray
     ) -> tuple[RealArray, RealArray]:
         """Pressure (Pa) and displacement (m), both (nx, ny), once plastic strain and contact agree."""
-        pressure, wanted, least = contact.pressure, _INNER * self.tolerance, np.inf
+        pressure, wanted, least, worse = contact.pressure, _INNER * self.tolerance, np.inf, 0
         for number in range(_MOST):
             flow = self._flow(course)
             flow.delta = course.mixing.ahead(flow.points, flow.delta, step, flow.weights)
@@ -406,8 +450,10 @@ class PlasticFlowCoupling(Coupling):
             step, residual = self._mapped(course, pressure)
             if residual <= wanted:
                 break
-            if residual > _WORSE * least:
-                course.mixing = Extrapolation()
+            worse = worse + 1 if residual > _WORSE * least else 0
+            if worse:
+                share = course.mixing.share * (0.5 if worse > _SWINGS else 1.0)
+                course.mixing = Extrapolation(max(share, _LEAST_SHARE))
             least = min(least, residual)
             course.stuck = number == _MOST - 1
         flow = self._flow(course)
@@ -419,6 +465,8 @@ class PlasticFlowCoupling(Coupling):
     def _pressed(self, contact: Contact, added: RealArray, start: RealArray) -> RealArray:
         """Pressure (nx, ny) in Pa of the contact whose surface is displaced by ``added`` (m) more."""
         qp = replace(contact.qp, profile=contact.qp.profile - added)
+        if self.positions and isinstance(contact.posed.control, MeanGap) and isinstance(qp.constraint, FixedOffset):
+            qp = replace(qp, constraint=FixedOffset(qp.constraint.offset - float(added.mean())))
         external = contact.posed.external_force
         fixed = isinstance(qp.constraint, FixedOffset)
         if fixed and (external == 0.0 or float(qp.profile.max()) <= qp.constraint.offset):  # type: ignore[union-attr]
@@ -440,9 +488,10 @@ class PlasticFlowCoupling(Coupling):
         earlier = float(course.memory.get("work", 0.0))
         mean = contact.force / self.problem.grid.area
         first = self._first(flowed, course.memory.get("first"), mean)
-        memory: dict[str, RealArray] = {}
+        place = [mean, contact.posed.top + contact.level, float(contact.gap.mean())]
+        memory: dict[str, RealArray] = {"place": np.array(place)}
         if flowed.points.size:
-            memory = {**flowed.memory, "lift": exchange.x, "first": first}
+            memory |= {**flowed.memory, "lift": exchange.x, "first": first}
             numbers = {"work": earlier + course.work, "step_work": course.work, "energy": course.energy}
             memory |= {name: np.asarray(value) for name, value in numbers.items()}
             memory["iterations"] = np.asarray(float(course.iterations))
@@ -455,6 +504,16 @@ class PlasticFlowCoupling(Coupling):
             if points.size and np.isnan(found[number, 0]):
                 found[number] = mean, *_place(self.problem.grid, flowed.edges, int(points[values.argmax()]))
         return found
+
+
+def _offset(posed: Posed, lift: RealArray) -> float | None:
+    """Offset (m) of the bodies at the prescribed position if ``lift`` (nx, ny) in m displaces the surface; None under a prescribed load."""
+    control = posed.control
+    if isinstance(control, Approach):
+        return posed.top - control.value
+    if isinstance(control, MeanGap):
+        return control.value + float((posed.profile - lift).mean())
+    return None
 
 
 def _deepest(body: Elastic | Layered) -> float:

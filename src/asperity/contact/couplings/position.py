@@ -114,27 +114,8 @@ class Position(Coupling):
         NoSolutionError
             If the dented surfaces do not touch at this position, or it lies beyond full contact.
         """
-        control, h = posed.control, posed.dented
-        highest, touch = float(h.max()), float(h.max() - h.mean())
-        if isinstance(control, Approach):
-            if self.elastic and control.value >= posed.top - float(h.mean()):
-                raise NoSolutionError(
-                    f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic contact is full and "
-                    f"its mean gap zero, but is {control.value:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
-                )
-            wanted = control.value - (posed.top - highest)
-            if wanted <= 0.0:
-                raise NoSolutionError(
-                    f"approach must be more than {posed.top - highest:.6g} m, where the bodies touch after their permanent "
-                    f"indentation, but is {control.value:.6g} m. Use Unloaded() for no load."
-                )
-        else:
-            assert isinstance(control, MeanGap)
-            wanted = touch - control.value
-            if wanted <= 0.0:
-                raise NoSolutionError(
-                    f"mean gap must be less than {touch:.6g} m, the mean gap at first touch, but is {control.value:.6g} m."
-                )
+        control = posed.control
+        touch, wanted = closeness_wanted(posed, elastic=self.elastic)
         known = 0.0 if posed.start is None else float(posed.start.mean())
         x = np.asarray(np.log(known) if known > 0.0 else _first_guess(posed, touch, wanted))
         size = min(wanted, control.value) if isinstance(control, MeanGap) else wanted
@@ -227,6 +208,38 @@ class Position(Coupling):
         if max(closeness, wanted) < _PERSSON * rms / _LIGHT:
             return float(np.log(wanted / closeness)) / _LIGHT
         return (wanted - closeness) / (_PERSSON * rms)
+
+
+def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
+    """Mean gap (m) at first touch of the dented surfaces, and how much closer (m) than there the bodies are to come; ``elastic`` as of ``Position``.
+
+    Raises
+    ------
+    NoSolutionError
+        If they do not touch at this position, or it lies beyond full contact.
+    """
+    control, h = posed.control, posed.dented
+    highest, touch = float(h.max()), float(h.max() - h.mean())
+    if isinstance(control, Approach):
+        if elastic and control.value >= posed.top - float(h.mean()):
+            raise NoSolutionError(
+                f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic contact is full and "
+                f"its mean gap zero, but is {control.value:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
+            )
+        wanted = control.value - (posed.top - highest)
+        if wanted <= 0.0:
+            raise NoSolutionError(
+                f"approach must be more than {posed.top - highest:.6g} m, where the bodies touch after their permanent "
+                f"indentation, but is {control.value:.6g} m. Use Unloaded() for no load."
+            )
+        return touch, wanted
+    assert isinstance(control, MeanGap)
+    wanted = touch - control.value
+    if wanted <= 0.0:
+        raise NoSolutionError(
+            f"mean gap must be less than {touch:.6g} m, the mean gap at first touch, but is {control.value:.6g} m."
+        )
+    return touch, wanted
 
 
 def _first_guess(posed: Posed, touch: float, wanted: float) -> float:

@@ -14,7 +14,7 @@ from ...core.engine import Totals
 from ...core.errors import NoSolutionError
 from ...core.status import Progress
 from ..operators.convolution import Operator
-from ..problem import Control, Force, MeanPressure, Pull, Unloaded, mean_pressure
+from ..problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded, mean_pressure
 from ..solvers.protocol import Constraint, ContactQP, Solution, Solver, level_of
 from ..tangential import Tangential
 
@@ -105,6 +105,19 @@ class Posed:
         if isinstance(self.control, MeanPressure | Force):
             return mean_pressure(self.control, self.operator.grid) * self.operator.grid.area
         return None
+
+
+def height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:
+    """Rms height (m); for flat bodies the length by which they deform, for there is no other."""
+    rms = float(virgin.std())
+    if rms > 0.0:
+        return rms
+    if isinstance(control, Approach | MeanGap):
+        return control.value
+    if isinstance(control, Unloaded | Pull | FixedGrips):
+        return 1.0
+    uniform = np.full(virgin.shape, mean_pressure(control, operator.grid))
+    return float(np.abs(operator.apply(uniform)).max()) or 1.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.arrays import ComplexArray, RealArray
 from ...solids.eigenstrain.cells import DepthCells, interfaces
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from .plastic_flow import PlasticBody
 
 _TRACTIONS = [2, 4, 5]
+
+_SAME = 1e-9
+"""Relative difference of depths that are one and the same."""
 
 
 def cells_of(problem: ContactProblem, edges: RealArray) -> DepthCells:
@@ -79,6 +83,29 @@ class ResidualStress:
             found[_TRACTIONS] = 0.0
         return found
 
+    @cached_property
+    def _yielding(self) -> NDArray[np.int64]:
+        """Numbers (n,) of the cells whose material may flow."""
+        if not self._body.flowed.edges.size:
+            return np.zeros(0, dtype=np.int64)
+        laws = self._body.laws
+        return np.flatnonzero([laws[region] is not None for region in self._cells.regions])
+
+    def yielding_depths(self) -> RealArray:
+        """Depths (n,) in m of the middle of the cells whose material may flow, on the mean over each of which yield is required."""
+        return self._cells.middle[self._yielding]
+
+    def cell_at(self, depth: float, *, below: bool) -> int | None:
+        """Number of the cell that holds ``depth`` (m), on its lower or upper side, where its material may flow; None elsewhere."""
+        near = _SAME * depth
+        at = depth + near if below else depth - near
+        number = int(np.searchsorted(self._edges, at, side="right" if below else "left")) - 1
+        return number if number in self._yielding else None
+
+    def means(self, pressure: RealArray | None = None, shear: RealArray | None = None) -> RealArray:
+        """Mean stress (cells, 6, nx, ny) in Pa in the depth cells, with that by these tractions on the body."""
+        return self._body.stress(pressure, shear, threads=self._threads)
+
     def loaded(
         self,
         depth: float,
@@ -103,6 +130,37 @@ class ResidualStress:
         return np.asarray(found.mean(axis=0))
 
 
+class YieldingStress:
+    """Stress under given tractions as the flow rule has it.
+
+    Yield is required of the mean over a depth cell, so that this is the stress at all depths within a cell whose material may flow; at a single depth the
+    stress by a plastic strain that is constant in the cell may pass the yield stress. Elsewhere it is that at the depth itself.
+
+    Parameters
+    ----------
+    stress
+        That by the plastic strain.
+    pressure, shear
+        (nx, ny) and (2, nx, ny) in Pa on the body; None for none.
+    """
+
+    def __init__(self, stress: ResidualStress, pressure: RealArray | None, shear: RealArray | None) -> None:
+        self._stress, self._tractions = stress, (pressure, shear)
+
+    @cached_property
+    def _means(self) -> RealArray:
+        return self._stress.means(*self._tractions)
+
+    def at(self, depth: float, *, below: bool) -> RealArray:
+        """(6, nx, ny) in Pa just below ``depth`` (m), or just above it."""
+        cell = self._stress.cell_at(depth, below=below)
+        return self.exact(depth, below=below) if cell is None else self._means[cell]
+
+    def exact(self, depth: float, *, below: bool) -> RealArray:
+        """The same at the depth itself, whose tractions pass interfaces."""
+        return self._stress.loaded(depth, *self._tractions, above=not below, below=below)
+
+
 @dataclass(frozen=True, eq=False)
 class LayerStress:
     """What may crack or peel one layer.
@@ -115,7 +173,7 @@ class LayerStress:
         Depths in m of its faces.
     top_tension, bottom_tension
         Largest principal stress in Pa along the upper and the lower face, within the layer: bending and stretch; negative where all of the
-        face is compressed.
+        face is compressed. Of a layer that may flow the mean over the depth cell at the face, see ``YieldingStress``.
     normal
         Stress σ_zz (nx, ny) in Pa across the interface below, positive in tension.
     shear
@@ -141,19 +199,16 @@ class LayerStress:
         return float(np.hypot(*self.shear).max())
 
 
-def layer_stresses(
-    stress: ResidualStress, places: RealArray, pressure: RealArray | None, shear: RealArray | None
-) -> tuple[LayerStress, ...]:
-    """Faces of the layers between the surface and the interfaces at ``places`` (m), under these tractions on the body."""
+def layer_stresses(stress: YieldingStress, places: RealArray) -> tuple[LayerStress, ...]:
+    """Faces of the layers between the surface and the interfaces at ``places`` (m)."""
     tops, found = [0.0, *(float(z) for z in places)], []
     for number, (top, bottom) in enumerate(pairwise(tops), start=1):
-        upper = stress.loaded(top, pressure, shear, above=False, below=True)
-        lower = stress.loaded(bottom, pressure, shear, above=True, below=False)
-        tensions = (_along(upper), _along(lower))
-        found.append(LayerStress(f"layer {number}", top, bottom, *tensions, lower[2], lower[4:6]))
+        tensions = tension_along(stress.at(top, below=True)), tension_along(stress.at(bottom, below=False))
+        tractions = stress.exact(bottom, below=False)
+        found.append(LayerStress(f"layer {number}", top, bottom, *tensions, tractions[2], tractions[4:6]))
     return tuple(found)
 
 
-def _along(stress: RealArray) -> float:
-    """Largest principal stress in the plane."""
+def tension_along(stress: RealArray) -> float:
+    """Largest principal stress in Pa in the plane z = const of ``stress`` (6, nx, ny)."""
     return float((0.5 * (stress[0] + stress[1]) + np.hypot(0.5 * (stress[0] - stress[1]), stress[3])).max())

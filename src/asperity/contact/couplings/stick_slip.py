@@ -155,6 +155,19 @@ class StickSlip:
 
 
 @dataclass(frozen=True, eq=False)
+class Held:
+    """What earlier tractions and pressures displace in viscoelastic bodies at the end of a step of time.
+
+    ``displacement`` (2, nx, ny) along the surface and ``lift`` (nx, ny) by shear, m; ``start`` (2, nx, ny), the whole displacement along the surface
+    before the step.
+    """
+
+    displacement: RealArray
+    lift: RealArray
+    start: RealArray
+
+
+@dataclass(frozen=True, eq=False)
 class _Before:
     """What a step starts from: traction, displacement along the surface, slip so far (2, nx, ny); shift (3,); work (J)."""
 
@@ -208,13 +221,17 @@ class _Note:
 
 @dataclass(frozen=True, eq=False)
 class StickSlipCoupling(Coupling):
-    """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by them."""
+    """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by them.
+
+    In a step of time of viscoelastic bodies the ``operator`` is that of the step, and ``held`` what the past leaves.
+    """
 
     law: FrictionLaw
     operator: TangentialOperator = field(repr=False)
     solver: TangentialSolver
     feedback: bool = True
     tolerance: float = TOLERANCE
+    held: Held | None = field(default=None, repr=False)
     name: ClassVar[str] = "stick_slip"
 
     @property
@@ -252,25 +269,40 @@ class StickSlipCoupling(Coupling):
         if not self.feedback:
             x = np.zeros(posed.profile.shape)
             return Exchange(x, x, 0.0, self.tolerance, note=note)
-        lift = self.operator.lift(note.before.traction)
+        lift = self._lift(note.before.traction)
         return Exchange(lift, lift, np.inf, self.tolerance, note=note)
+
+    def _lift(self, traction: RealArray) -> RealArray:
+        """Normal displacement (nx, ny) in m by ``traction`` (2, nx, ny) in Pa at the end of the step, and by earlier ones."""
+        found = self.operator.lift(traction)
+        return found if self.held is None else found + self.held.lift
 
     def _before(self, posed: Posed, memory: Memory) -> _Before:
         zero = np.zeros((2, *posed.profile.shape))
         if not memory:
             control = posed.tangential or Shift()
             self._check(control, posed)
-            return _Before(zero, zero, zero, np.zeros(3), 0.0, control)
+            start = zero if self.held is None else self.held.start
+            return _Before(zero, start, zero, np.zeros(3), 0.0, control)
         traction = np.stack([memory["traction_x"], memory["traction_y"]])
         slip = np.stack([memory["slip_x"], memory["slip_y"]])
-        displacement = self.operator.displacement(traction)
-        if posed.start is not None:
-            displacement += self.operator.drawn(posed.start)
+        displacement = self._displacement_before(traction, posed.start)
         shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
         kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
         control = posed.tangential or kept
         self._check(control, posed)
         return _Before(traction, displacement, slip, shift, float(memory["dissipated"]), control)
+
+    def _displacement_before(self, traction: RealArray, pressure: RealArray | None) -> RealArray:
+        """Displacement (2, nx, ny) along the surface before the step, in m."""
+        if self.held is not None:
+            return self.held.start
+        found = self.operator.displacement(traction)
+        return found if pressure is None else found + self.operator.drawn(pressure)
+
+    def _free(self, before: _Before) -> RealArray:
+        """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
+        return before.displacement if self.held is None else before.displacement - self.held.displacement
 
     def _check(self, control: Tangential, posed: Posed) -> None:
         if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
@@ -294,7 +326,7 @@ class StickSlipCoupling(Coupling):
         loose = replace_tolerance(self.solver, max(self.solver.tolerance, min(_LOOSEST, _SHARE * note.residual)))
         note = self._solved(note, _double(contact.pressure), loose)
         assert note.solution is not None
-        target = self.operator.lift(note.solution.traction)
+        target = self._lift(note.solution.traction)
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         residual = change / size if size else change
@@ -312,23 +344,24 @@ class StickSlipCoupling(Coupling):
         if not note.joint or searched or not contact.pressure.any():
             return None  # where a position is searched for, each load on the way would be solved for to the end: 415 pairs for 126
         before, grid = note.before, self.operator.grid
-        normal = replace(contact.qp, profile=contact.qp.profile + exchange.x)
+        lifted = exchange.x if self.held is None else exchange.x - self.held.lift
+        normal = replace(contact.qp, profile=contact.qp.profile + lifted)
         if isinstance(before.control, Shift):
-            target = before.displacement + shift_field(grid, _vector(before.control) - before.shift)
+            target = self._free(before) + shift_field(grid, _vector(before.control) - before.shift)
             posed = JointProblem(normal, self.operator, self.law, target, None)
             return posed if posed.solvable else None
         force = np.array([before.control.x, before.control.y])
         most = float(self.law.bound(_double(contact.pressure)).sum()) * grid.pixel_area
         if float(np.hypot(*force)) >= _GROSS * most:
             return None
-        posed = JointProblem(normal, self.operator, self.law, before.displacement, force / grid.area)
+        posed = JointProblem(normal, self.operator, self.law, self._free(before), force / grid.area)
         return posed if posed.solvable else None
 
     def _together(self, exchange: Exchange, posed: JointProblem, contact: Contact, traction: RealArray) -> Exchange:
         """Pressure and traction solved for together from those of ``contact`` and ``traction``."""
         errors = {"shear_error": self.solver.tolerance, "normal_error": _NORMAL * self.solver.tolerance}
         found = solve_jointly(posed, _double(contact.pressure), traction, **errors)
-        target = self.operator.lift(found.traction)
+        target = self._lift(found.traction)
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         steps, pairs = exchange.note.steps + found.steps, exchange.note.pairs + found.pairs
@@ -347,7 +380,7 @@ class StickSlipCoupling(Coupling):
         """Note with the tangential problem solved under ``pressure`` (Pa), from the last traction of this step or the step before."""
         before, grid = note.before, self.operator.grid
         bound = self.law.bound(pressure)
-        target = before.displacement - self.operator.drawn(pressure)
+        target = self._free(before) - self.operator.drawn(pressure)
         start = before.traction
         if note.traction is not None and note.slipping is not None:
             start = at_bound(note.traction, note.slipping, bound)
@@ -425,6 +458,8 @@ class StickSlipCoupling(Coupling):
         control, traction = before.control, solution.traction
         moved = _vector(control) if isinstance(control, Shift) else before.shift + np.append(solution.shift, 0.0)
         displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
+        if self.held is not None:
+            displacement += self.held.displacement
         density = np.einsum("kij,kij->ij", traction, solution.slip)
         dissipated = float(density.sum()) * grid.pixel_area
         force_x, force_y, torque = resultant(grid, traction)

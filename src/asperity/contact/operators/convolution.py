@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from typing import Protocol
 
@@ -30,11 +31,11 @@ class Octaves:
 
     def __init__(self, compliance: Compliance) -> None:
         self._compliance = compliance
-        self._known: dict[float, float] = {}
+        self._known: dict[int, float] = {}
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
-        keys = [_key(q) for q in wavenumber]
+        keys = [_key(q) for q in wavenumber.tolist()]
         if not all(key in self._known for key in keys):
             ahead = float(np.max(wavenumber)) * 2.0 ** np.arange(1, _OCTAVES_AHEAD + 1)
             asked = np.concatenate([wavenumber, ahead])
@@ -43,9 +44,9 @@ class Octaves:
         return np.array([self._known[key] for key in keys])
 
 
-def _key(wavenumber: float) -> float:
+def _key(wavenumber: float) -> int:
     """Equal for wavenumbers that differ by rounding."""
-    return float(f"{wavenumber:.9e}")
+    return round(1e9 * math.log2(wavenumber))
 
 
 class Operator(Protocol):
@@ -217,7 +218,7 @@ def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
     nx, ny = grid.shape
     rows = nx // 2 + 1
     qx, qy = grid.wavevector()
-    q = np.hypot(qx[:rows], qy)
+    q = np.sqrt(qx[:rows] ** 2 + qy**2)
     q[0, 0] = q[-1, -1] or 1.0  # any wavenumber of the grid: its value is replaced
     kernel = np.empty((nx, ny // 2 + 1))
     kernel[:rows] = compliance.spectral(q)

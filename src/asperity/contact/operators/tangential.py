@@ -138,7 +138,7 @@ class TangentialOperator:
         self.engine = engine or CpuEngine()
         self.padded = grid.shape if isinstance(boundary, Periodic) else padded_shape(grid)
         self.octaves = octaves or Octaves(ShearCompliance(bodies))  # type: ignore[arg-type]
-        self._entries = self._made() if entries is None else entries
+        self.entries = self._made() if entries is None else entries
         self._convolutions: dict[str, VectorConvolution] = {}
         self._coupled_convolutions: dict[str, VectorConvolution] = {}
         pruned = 1.0 if self.padded == grid.shape else 0.75 * self.padded[0] * self.padded[1] / grid.n_points
@@ -174,25 +174,25 @@ class TangentialOperator:
     @property
     def mean(self) -> float:
         """Displacement by a uniform traction, m/Pa; of a periodic half-space none, whose datum is the mean."""
-        return float(self._entries[0][0, 0])
+        return float(self.entries[0][0, 0])
 
     @cached_property
     def largest(self) -> float:
         """Largest displacement by a wave of unit traction, m/Pa."""
-        return float(max(entry.max() for entry in self._entries[:2]))
+        return float(max(entry.max() for entry in self.entries[:2]))
 
     def convolution(self, dtype: str) -> VectorConvolution:
         """Prepared product in the precision ``dtype``."""
         if dtype not in self._convolutions:
             self._convolutions[dtype] = VectorConvolution(
-                self.engine, self._entries, self.grid.shape, self.padded, dtype
+                self.engine, self.entries, self.grid.shape, self.padded, dtype
             )
         return self._convolutions[dtype]
 
     def coupled_convolution(self, dtype: str, normal: Operator) -> VectorConvolution:
         """Prepared product with all three components of traction, ``normal`` being the operator of the pressure on the same grid."""
         if dtype not in self._coupled_convolutions:
-            entries = (*self._entries, normal.kernel, self.coupling.zx, self.coupling.zy)
+            entries = (*self.entries, normal.kernel, self.coupling.zx, self.coupling.zy)
             made = VectorConvolution(self.engine, entries, self.grid.shape, self.padded, dtype)
             self._coupled_convolutions[dtype] = made
         return self._coupled_convolutions[dtype]
@@ -219,7 +219,7 @@ class TangentialOperator:
             fine, (rows, columns) = self.grid.shape[0], grid.shape
             row = np.arange(rows)
             of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
-            xx, yy, xy = (entry[of_wave, : columns // 2 + 1].copy() for entry in self._entries)
+            xx, yy, xy = (entry[of_wave, : columns // 2 + 1].copy() for entry in self.entries)
             if rows % 2 == 0:
                 xy[rows // 2] = 0.0  # odd in x: no sign on the Nyquist line
             if columns % 2 == 0:

@@ -135,6 +135,10 @@ class _ArrayFreeSet:
         found = self.library.numbers([self._sum(vector * vector)])[0]
         return found if math.isfinite(found) else math.nan
 
+    def largest(self, vector: Any) -> float:
+        xp = self.library.xp
+        return max(0.0, self.library.numbers([xp.astype(xp.max(vector), xp.float64)])[0])
+
     def gather(self, values: Any) -> tuple[Any, float]:
         vector = self.library.select(self.inside, values)
         return vector, self.library.numbers([self._sum(vector)])[0]
@@ -163,9 +167,9 @@ class _ArrayFreeSet:
         field[...] = t
         return t, self.library.numbers([self._sum(t * r)])[0]
 
-    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
+    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
         r = self.library.select(self.inside, r - float(length) * (kt - float(mean)))
-        return d + float(length) * t, r
+        return d + float(length) * t, r, self.square(r)
 
     def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
         library = self.library

@@ -74,8 +74,9 @@ class Blocks:
 
     def sums(self, kernel: Callable[..., None], size: int, columns: int, *arguments: Any) -> RealArray:
         """Per-block sums (blocks, columns) that ``kernel`` leaves in its last argument."""
-        partial = np.zeros((-(-size // self.kernels.BLOCK), columns))
-        self.run(kernel, size, *arguments, partial)
+        blocks = -(-size // self.kernels.BLOCK)
+        partial = np.zeros((blocks, columns))
+        self.share(kernel, blocks, *arguments, partial, serial=size < SERIAL_BELOW)
         return partial
 
 
@@ -89,29 +90,31 @@ _PADDED_FROM = 1024
 """Points in a row from which on there is such a gap: 1024² single floats take 3.3 ms a pair with it and 12.4 without, 512² and smaller
 grids the same, and the places of a free set are those in any other array."""
 
+_MANY = 0.05
+"""Share of its points on which it takes longer to clear a field than to clear it as a whole."""
+
 _NO_CAP = np.full(1, np.inf)
 _ZERO = {dtype: np.zeros(1, dtype) for dtype in ("float32", "float64")}
 
 
 @dataclass(frozen=True, eq=False)
 class _CpuFreeSet:
-    """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual."""
+    """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual, of the ``sums`` (parts,).
+
+    ``rows`` (nx + 1,): where the points of every row begin in ``index``, and the number of points.
+    """
 
     blocks: Blocks
     shape: tuple[int, int]
     index: Any
     start: RealArray
+    sums: RealArray
+    rows: Any
     entering: int
 
     @property
     def size(self) -> int:
         return int(self.index.size)
-
-    @cached_property
-    def rows(self) -> Any:
-        """Where the points of every row begin in ``index``, and the number of points."""
-        starts = np.arange(self.shape[0] + 1, dtype=np.int64) * self.shape[1]
-        return np.searchsorted(self.index, starts.astype(self.index.dtype))  # of another type it would copy the index
 
     @cached_property
     def _index_in_padded_rows(self) -> Any:
@@ -124,7 +127,8 @@ class _CpuFreeSet:
 
     def residual(self, *, centred: bool) -> RealArray:
         if centred and self.size:
-            self.start[...] -= self.start.mean(dtype=np.float64)
+            self.start[...] -= float(self.sums.sum()) / self.size
+            self.sums[...] = 0.0
         return self.start
 
     def zeros(self) -> RealArray:
@@ -140,6 +144,9 @@ class _CpuFreeSet:
         with np.errstate(over="ignore"):
             found = float(np.dot(vector, vector))
         return found if np.isfinite(found) else np.nan
+
+    def largest(self, vector: RealArray) -> float:
+        return float(vector.max(initial=0.0))
 
     def gather(self, values: RealArray) -> tuple[RealArray, float]:
         out = np.empty(self.size, values.dtype)
@@ -171,10 +178,9 @@ class _CpuFreeSet:
 
     def update_solution(
         self, length: float, t: RealArray, kt: RealArray, mean: float, d: RealArray, r: RealArray
-    ) -> tuple[RealArray, RealArray]:
+    ) -> tuple[RealArray, RealArray, float]:
         kind = t.dtype.type
-        self._run("update_solution", kind(length), t, kt, kind(mean), d, r)
-        return d, r
+        return d, r, self._sums("update_solution", 1, kind(length), t, kt, kind(mean), d, r)[0]
 
     def add_unclipped(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
         tensile, tension = self._sums("add_unclipped", 2, self.index, p.ravel(), d, scale)
@@ -203,6 +209,11 @@ class _CpuFreeSet:
         found = self.blocks.sums(getattr(self.blocks.kernels, kernel), self.size, columns, *arguments)
         sums: list[float] = (found.sum(axis=0) if len(found) != 1 else found[0]).tolist()
         return sums
+
+
+def _index_type(shape: tuple[int, int]) -> Any:
+    """Type of indices in arrays of ``shape`` and in fields with gaps between rows."""
+    return np.uint32 if shape[0] * (shape[1] + ROW_PAD) < 2**31 else np.int64
 
 
 def memory(field: RealArray) -> RealArray:
@@ -378,10 +389,9 @@ class CpuEngine:
 
     def points(self, shape: tuple[int, int], index: Any, dtype: str) -> FreeSet:
         """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
-        wide = shape[0] * (shape[1] + ROW_PAD) >= 2**31
-        return _CpuFreeSet(
-            self.blocks, shape, index.astype(np.int64 if wide else np.uint32), np.zeros(index.size, dtype), 0
-        )
+        rows = np.searchsorted(index, np.arange(shape[0] + 1) * shape[1])
+        index = index.astype(_index_type(shape))
+        return _CpuFreeSet(self.blocks, shape, index, np.zeros(index.size, dtype), np.zeros(1), rows, 0)
 
     def cells(
         self,
@@ -445,8 +455,11 @@ class CpuEngine:
         self.blocks.share(self.blocks.kernels.add, len(field), *arguments, serial=values.size < SERIAL_BELOW)
 
     def clear_field(self, free: FreeSet, field: RealArray) -> None:
-        """field = 0 on the set."""
+        """field = 0 on the set, or everywhere where that is quicker."""
         assert isinstance(free, _CpuFreeSet)
+        if free.size > _MANY * field.size:
+            field[...] = 0.0
+            return
         self.blocks.run(
             self.blocks.kernels.scatter, free.size, free.place(field), _ZERO[field.dtype.name], memory(field)
         )
@@ -467,21 +480,23 @@ class _CpuSurvey:
 
     def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> _CpuFreeSet:
         kernels, size, row = self.blocks.kernels, self.p.size, self.shape[1]
-        mask = np.zeros(-(-size // 8) * 8, np.uint8)
-        counts = np.zeros((len(levels), 2), dtype=np.int64)
-        flat = self.p, self.u, self.h
+        mask, counts = np.empty(-(-size // 8) * 8, np.uint8), np.empty(len(levels), np.int64)
+        mask[size:] = 0
+        rows = np.zeros(self.shape[0] + 1, np.int64)
+        flat, found = (self.p, self.u, self.h), rows[1:]
         if self.cap is None:
             lines = levels[..., 0].repeat(SQUARE_SIDE, axis=1)
-            self._share(kernels.mark_free_elastic, *flat, row, SQUARE_SIDE, lines, self.squares, mask, counts)
+            self._share(kernels.mark_free_elastic, *flat, SQUARE_SIDE, lines, self.squares, mask, found, counts)
         else:
-            self._share(kernels.mark_free, *flat, bound(self.cap), row, SQUARE_SIDE, levels, mask, counts)
-        starts = np.concatenate([[0], np.cumsum(counts[:, 0])])
-        padded = self.shape[0] * (self.shape[1] + ROW_PAD)
-        index = np.empty(int(starts[-1]), dtype=np.uint32 if padded < 2**31 else np.int64)
-        residual = np.empty(index.size, dtype=dtype)
+            self._share(kernels.mark_free, *flat, bound(self.cap), SQUARE_SIDE, levels, mask, found, counts)
+        np.cumsum(found, out=found)
+        starts = np.empty(len(levels) + 1, np.int64)
+        starts[:-1], starts[-1] = rows[:-1:SQUARE_SIDE], rows[-1]
+        index = np.empty(int(rows[-1]), _index_type(self.shape))
+        residual, sums = np.empty(index.size, dtype), np.empty(len(levels))
         masks, length = (mask, mask.view(np.uint64)), SQUARE_SIDE // 8 * row  # words in a band of squares
-        self._share(kernels.fill_free, self.u, self.h, level, scale, length, masks, starts, index, residual)
-        return _CpuFreeSet(self.blocks, self.shape, index, residual, int(counts[:, 1].sum()))
+        self._share(kernels.fill_free, self.u, self.h, (level, scale), length, masks, starts, index, residual, sums)
+        return _CpuFreeSet(self.blocks, self.shape, index, residual, sums, rows, int(counts.sum()))
 
     def _share(self, kernel: Any, *arguments: Any) -> None:
         self.blocks.share(kernel, len(self.squares), *arguments, serial=self.p.size < SERIAL_BELOW)

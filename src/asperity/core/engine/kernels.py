@@ -170,41 +170,98 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 
 @compiled
-def mark_free_elastic(span, p, u, h, row, side, lines, loaded, mask, counts):  # type: ignore[no-untyped-def]
+def entering_levels(squares, level, prior, share, resolved, sums, levels):  # type: ignore[no-untyped-def]
+    """``levels`` of each square from its points between the bounds: their number, sum of r and of r², see ``entering``.
+
+    ``sums`` has room for all squares and the wider ones of twice, four times ... the side: number, sum and mean of a quantity in each. First the
+    quantity is r, then the square of what r differs by from its mean.
+    """
+    for pass_ in range(2):
+        nx, ny, start = squares.shape[0], squares.shape[1], 0
+        for i in range(nx):
+            for j in range(ny):
+                count, total = squares[i, j, 0], squares[i, j, 1] - level * squares[i, j, 0]
+                k = i * ny + j
+                if pass_ == 1:
+                    mean = sums[k, 2]
+                    spread = squares[i, j, 2] - level * (2.0 * total + level * count)
+                    spread -= mean * (2.0 * total - mean * count)
+                    levels[i, j, 0] = mean
+                    total = spread if spread > resolved * squares[i, j, 2] else 0.0
+                sums[k, 0] = count
+                sums[k, 1] = total
+        while nx * ny > 1:  # sums over squares of twice the side
+            wide_x, wide_y, above = (nx + 1) >> 1, (ny + 1) >> 1, start + nx * ny
+            for k in range(above, above + wide_x * wide_y):
+                sums[k, 0] = 0.0
+                sums[k, 1] = 0.0
+            for i in range(nx):
+                for j in range(ny):
+                    k, wide = start + i * ny + j, above + (i >> 1) * wide_y + (j >> 1)
+                    sums[wide, 0] += sums[k, 0]
+                    sums[wide, 1] += sums[k, 1]
+            nx, ny, start = wide_x, wide_y, above
+        sums[start, 2] = sums[start, 1] / (sums[start, 0] + prior)
+        shift = 0
+        while (squares.shape[0] - 1) >> shift > 0 or (squares.shape[1] - 1) >> shift > 0:
+            shift += 1
+        while shift > 0:  # means, to which the wider square counts as ``prior`` points
+            shift -= 1
+            wide_y, above = ny, start
+            nx, ny = ((squares.shape[0] - 1) >> shift) + 1, ((squares.shape[1] - 1) >> shift) + 1
+            start -= nx * ny
+            for i in range(nx):
+                for j in range(ny):
+                    k, wide = start + i * ny + j, above + (i >> 1) * wide_y + (j >> 1)
+                    sums[k, 2] = (sums[k, 1] + prior * sums[wide, 2]) / (sums[k, 0] + prior)
+    for i in range(squares.shape[0]):
+        for j in range(squares.shape[1]):
+            mean, margin = levels[i, j, 0] + level, share * np.sqrt(sums[i * squares.shape[1] + j, 2])
+            levels[i, j, 0] = mean - margin
+            levels[i, j, 1] = mean + margin
+
+
+@compiled
+def mark_free_elastic(span, p, u, h, side, lines, loaded, mask, rows, counts):  # type: ignore[no-untyped-def]
     """``mark_free`` without a cap; ``lines`` holds the level of each point along a band, ``loaded`` the loaded points per square.
 
     Row by row and with one comparison per point the loop vectorises, which is five times as fast.
     """
+    row = p.size // rows.size
     for band in range(span[0], span[1]):
-        members = np.int64(0)
+        entering = np.int64(0)
         line = lines[band]
-        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
+        for line_number in range(band * side, min((band + 1) * side, rows.size)):
+            start = line_number * row
             pressure, deflection, heights = p[start : start + row], u[start : start + row], h[start : start + row]
             inside = mask[start : start + row]
             for j in range(row):
                 gap = deflection[j] - np.float64(heights[j]) - line[j]
                 decides = gap if pressure[j] == 0.0 else -np.float64(pressure[j])
                 inside[j] = np.uint8(1) if decides < 0.0 else np.uint8(0)
+            members = np.int64(0)
             for j in range(row):
                 members += np.int64(inside[j])
-        counts[band, 0] = members
+            rows[line_number] = members
+            entering += members
         for square in range(loaded.shape[1]):
-            members -= np.int64(loaded[band, square, 0])
-        counts[band, 1] = members
+            entering -= np.int64(loaded[band, square, 0])
+        counts[band] = entering
 
 
 @compiled
-def mark_free(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ignore[no-untyped-def]
+def mark_free(span, p, u, h, cap, side, levels, mask, rows, counts):  # type: ignore[no-untyped-def]
     """Mask of the free set by two ``levels`` of each square, for points at 0 and at the cap.
 
-    Per band: number of its points, and of those entering it. Without branches, which would be mispredicted: membership is as
+    Per row: number of its points; per band: of those entering it. Without branches, which would be mispredicted: membership is as
     random as the surface.
     """
     each = 1 if cap.size > 1 else 0
+    row = p.size // rows.size
     for band in range(span[0], span[1]):
-        members = 0
         entering = 0
-        for start in range(band * side * row, min((band + 1) * side * row, p.size), row):
+        for line_number in range(band * side, min((band + 1) * side, rows.size)):
+            start, members = line_number * row, 0
             for square in range(levels.shape[1]):
                 first = start + square * side
                 for i in range(first, min(first + side, start + row)):
@@ -216,17 +273,18 @@ def mark_free(span, p, u, h, cap, row, side, levels, mask, counts):  # type: ign
                     mask[i] = enters | (np.uint8(1) - (open_ | full))
                     entering += int(enters)
                     members += int(mask[i])
-        counts[band, 0] = members
-        counts[band, 1] = entering
+            rows[line_number] = members
+        counts[band] = entering
 
 
 @compiled
-def fill_free(span, u, h, level, scale, length, masks, starts, index, residual):  # type: ignore[no-untyped-def]
-    """Indices of the points of the mask in order, and (level - r) / scale there; a band has ``length`` words of the mask.
+def fill_free(span, u, h, plane, length, masks, starts, index, residual, sums):  # type: ignore[no-untyped-def]
+    """Indices of the points of the mask in order, and (level - r) / scale there; per band: its sum. A band has ``length`` words of the mask.
 
-    ``masks`` are the mask point by point and in words of eight points.
+    ``plane`` are the level and the scale, ``masks`` the mask point by point and in words of eight points.
     """
     mask, words = masks
+    level, scale = plane
     for band in range(span[0], span[1]):
         k = starts[band]
         for word in range(band * length, min((band + 1) * length, words.size)):
@@ -236,9 +294,12 @@ def fill_free(span, u, h, level, scale, length, masks, starts, index, residual):
                 if k < starts[band + 1]:
                     index[k] = i
                     k += mask[i]
+        total = 0.0
         for k in range(starts[band], starts[band + 1]):
             i = index[k]
             residual[k] = (level - (u[i] - np.float64(h[i]))) / scale
+            total += residual[k]
+        sums[band] = total
 
 
 @compiled
@@ -249,6 +310,65 @@ def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # 
             p = coarse[i >> 1, j >> 1]
             value = p + stiffness * (heights[i, j] - coarse_heights[i >> 1, j >> 1])
             out[i, j] = value if p > 0.0 and value > 0.0 else 0.0
+
+
+@compiled
+def _join(parent, one, other):  # type: ignore[no-untyped-def]
+    """Make the island of the smaller number the parent of the other, of the two to which ``one`` and ``other`` belong."""
+    while parent[one] != one:
+        parent[one] = parent[parent[one]]
+        one = parent[one]
+    while parent[other] != other:
+        parent[other] = parent[parent[other]]
+        other = parent[other]
+    parent[max(one, other)] = min(one, other)
+
+
+@compiled
+def island_sizes(mask, wraps, lines, parent, sizes):  # type: ignore[no-untyped-def]
+    """Sizes of the islands of ``mask`` in the order of their first pixels, joined by edges, across the borders that wrap too; their number.
+
+    ``lines`` has room for the numbers of the islands in the first and in the latest row, ``parent`` for an island of a smaller number to which
+    each has turned out to belong; there are at most half as many as pixels, rounded up in each row, and one.
+    """
+    found = 0
+    for i in range(mask.shape[0]):
+        left = 0
+        for j in range(mask.shape[1]):
+            above = lines[1, j] if i > 0 else 0
+            if not mask[i, j]:
+                left = 0
+            elif left == 0 and above == 0:
+                found += 1
+                left = found
+                parent[found] = found
+                sizes[found] = 1
+            else:
+                if left > 0 and above > 0:
+                    _join(parent, left, above)
+                left = left if left > 0 else above
+                sizes[left] += 1
+            lines[1, j] = left
+            if i == 0:
+                lines[0, j] = left
+        if wraps[1] and lines[1, 0] > 0 and left > 0:
+            _join(parent, lines[1, 0], left)
+    for j in range(mask.shape[1]):
+        if wraps[0] and lines[0, j] > 0 and lines[1, j] > 0:
+            _join(parent, lines[0, j], lines[1, j])
+    count = 0
+    for island in range(1, found + 1):
+        first = parent[island]
+        while first > 0 and parent[first] != first:
+            first = parent[first]
+        if first == island:  # minus its place among the whole ones, for those that belong to it
+            parent[island] = -count
+            sizes[count] = sizes[island]
+            count += 1
+        else:
+            sizes[-first] += sizes[island]
+            parent[island] = first
+    return count
 
 
 # Passes over the points of a free set, at ``index`` in flat arrays or ``place`` in a field.
@@ -324,11 +444,16 @@ def update_direction(span, index, z, mean, ratio, t, r, field, sums):  # type: i
 
 
 @compiled
-def update_solution(span, length, t, kt, mean, d, r):  # type: ignore[no-untyped-def]
-    """d += length t; r -= length (kt - mean)."""
-    for k in range(span[0] * BLOCK, min(span[1] * BLOCK, t.size)):
-        d[k] += length * t[k]
-        r[k] -= length * (kt[k] - mean)
+def update_solution(span, length, t, kt, mean, d, r, sums):  # type: ignore[no-untyped-def]
+    """d += length t; r -= length (kt - mean); per block: sum r²."""
+    for block in range(span[0], span[1]):
+        square = 0.0
+        for k in range(block * BLOCK, min((block + 1) * BLOCK, t.size)):
+            d[k] += length * t[k]
+            left = r[k] - length * (kt[k] - mean)
+            r[k] = left
+            square += np.float64(left) * left
+        sums[block, 0] = square
 
 
 @compiled

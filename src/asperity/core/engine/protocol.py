@@ -153,6 +153,9 @@ class FreeSet(Protocol):
     def square(self, vector: Any) -> float:
         """Sum of the squares of ``vector``; NaN beyond the range of its precision."""
 
+    def largest(self, vector: Any) -> float:
+        """Largest of zero and the entries of ``vector``."""
+
     def gather(self, values: Any) -> tuple[Any, float]:
         """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
 
@@ -174,8 +177,8 @@ class FreeSet(Protocol):
     def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
         """Vector (z - mean) + ratio t, also set in the field, and its product with r; ``t`` may be overwritten."""
 
-    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any]:
-        """Vectors d + length t and r - length (kt - mean); ``d`` and ``r`` may be overwritten."""
+    def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
+        """Vectors d + length t and r - length (kt - mean), and the square of the latter; ``d`` and ``r`` may be overwritten."""
 
     def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
         """p + scale d on the set, in place; the number of tensile points then, and the sum of their tension -p."""

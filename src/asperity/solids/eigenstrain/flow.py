@@ -85,8 +85,9 @@ def joined(old: Points, new: Points, values: RealArray) -> RealArray:
 
 @dataclass
 class Extrapolation:
-    """The last iterates of Δ and their steps, each with the points it is for."""
+    """The last iterates of Δ and their steps, each with the points it is for; a ``share`` of each step is taken."""
 
+    share: float = 1.0
     places: list[tuple[Points, RealArray, RealArray]] = field(default_factory=list)
 
     def ahead(self, points: Points, x: RealArray, step: RealArray, weights: RealArray) -> RealArray:
@@ -94,16 +95,16 @@ class Extrapolation:
         self.places = [*self.places[-REMEMBERED:], (points, x, step)]
         earlier = self.places[:-1]
         if not earlier:
-            return x + step
+            return x + self.share * step
         root = np.sqrt(weights[:, None] * WEIGHTS)
         moves = [(x - joined(p, points, a), step - joined(p, points, b)) for p, a, b in earlier]
         changes = np.stack([(change * root).ravel() for _, change in moves], axis=1)
         gram = changes.T @ changes
         gram[np.diag_indices(len(moves))] += _REGULAR * np.trace(gram)
-        share = np.linalg.solve(gram, changes.T @ (step * root).ravel())
-        found = x + step
-        for by, (moved, changed) in zip(share, moves, strict=True):
-            found -= by * (moved + changed)
+        weights_of = np.linalg.solve(gram, changes.T @ (step * root).ravel())
+        found = x + self.share * step
+        for by, (moved, changed) in zip(weights_of, moves, strict=True):
+            found -= by * (moved + self.share * changed)
         return found
 
 

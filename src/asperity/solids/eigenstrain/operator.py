@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -99,17 +99,19 @@ class MeanMode:
     """What a mean eigenstrain and mean tractions do, by depth cell.
 
     Without mean lateral strain (periodic); or in the limit of long wavelengths, averaged over directions, for a load that does not repeat:
-    there the body below the cells stretches by c_s = (1 - 2ν)/2G of the base times the force along the surface (``stretch``).
+    there the body below the cells stretches by c_s = (1 - 2ν)/2G of the base times the force along the surface (``stretch``), and what the
+    images of the padded grid add is taken away (``images`` (cells,), see ``image_stress``).
     """
 
     solids: RealArray
     stretch: float
+    images: RealArray | float = 0.0
 
     @property
     def normal(self) -> RealArray:
         """(cells,) u_z per ε_xx + ε_yy and thickness, less its sign: also -σ_xx per pressure."""
         shear, nu, _ = self.solids.T
-        return np.asarray((nu + self.stretch * shear * (1.0 + nu)) / (1.0 - nu))
+        return np.asarray((nu + self.stretch * shear * (1.0 + nu)) / (1.0 - nu) - self.images)
 
     def stress(self, loads: RealArray, strain: RealArray) -> RealArray:
         """(cells, 6) in Pa by the mean ``loads`` (3,) and ``strain`` (cells, 6)."""
@@ -127,6 +129,36 @@ class MeanMode:
         h = self.solids[:, 2]
         along = -2.0 * (h @ strain[:, 4:6])
         return np.array([*along, -h @ (strain[:, 2] + self.normal * (strain[:, 0] + strain[:, 1]))])
+
+
+_LONG = 1e-4
+"""Wavenumber times depth of the cells at which long waves are taken."""
+
+_SUMMED = 40
+"""Images on each side whose sum is taken one by one."""
+
+
+def image_stress(cells: DepthCells, mean: MeanMode, size: tuple[float, float]) -> RealArray:
+    """Lateral stress (cells,), less its sign, by the images of a pressure of unit mean on a grid of the ``size`` (m) that repeats.
+
+    The mean of σ_xx and σ_yy under long waves of pressure is f0 + f1 |q|, of a half-space -(1/2 + ν) + (1 + ν) z |q|. Of the cusp the sum over wavevectors
+    makes the field -f1/(2π r³) of a unit force at every image at the distance r, which is nearly the same all over the contact. By reciprocity it is
+    also what the images of an eigenstrain do to the displacement.
+    """
+    depth = float(cells.edges[-1])
+    wave = np.array([_LONG / depth])
+    waves = Wavevectors.single(wave, np.zeros(1))
+    loads, fields = np.zeros((3, 1, 1), dtype=complex), np.zeros((cells.count, 6, 1, 1), dtype=complex)
+    loads[2] = 1.0
+    swept(SweepTable.of(cells, waves.alpha), waves, loads, fields)
+    slope = (0.5 * (fields[:, 0, 0, 0] + fields[:, 1, 0, 0]).real + mean.normal) / wave[0]
+    number = np.arange(-_SUMMED, _SUMMED + 1)
+    r = np.hypot(size[0] * number[:, None], size[1] * number)
+    ends = _SUMMED * min(size)
+    area = size[0] * size[1]
+    inside = (r > 0.0) & (r <= ends)
+    total = float((r[inside] ** -3.0).sum()) + 2.0 * np.pi / (area * ends)
+    return np.asarray(slope * total * area / (2.0 * np.pi))
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,14 +191,18 @@ class EigenstrainOperator:
 
     @classmethod
     def prepared(cls, grid: Grid, cells: DepthCells, *, free: bool = False, threads: int | None = None) -> Self:
-        """Operator on ``grid``; if ``free`` nothing repeats, up to the images of a zero-padded grid of twice the length."""
+        """Operator on ``grid``; if ``free`` nothing repeats, up to images of the residual stress on a zero-padded grid of twice the length."""
         padded = None if not free else (fast_length(2 * grid.shape[0]), fast_length(2 * grid.shape[1]))
         waves = Wavevectors.of_grid(grid if padded is None else Grid(padded, grid.spacing))
         table = SweepTable.of(cells, waves.alpha)
         base, stretch = cells.stack.base, 0.0
         if free and isinstance(base, Elastic):
             stretch = (0.5 - base.poisson_ratio) / base.shear_modulus
-        return cls(grid, cells, padded, thread_count(threads), waves, table, MeanMode(table.solids, stretch))
+        mean = MeanMode(table.solids, stretch)
+        if padded is not None:
+            size = padded[0] * grid.spacing[0], padded[1] * grid.spacing[1]
+            mean = replace(mean, images=image_stress(cells, mean, size))
+        return cls(grid, cells, padded, thread_count(threads), waves, table, mean)
 
     @property
     def transform(self) -> RealTransform | PaddedTransform:

@@ -1,4 +1,4 @@
-"""Adhesion of infinitely short range beyond the sphere: any power-law profile, and a wave with its jump into full contact."""
+"""Adhesion of infinitely short range beyond the sphere: any power-law profile, a cylinder, and a wave with its jump into full contact."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.values import Number
 from ..ask import Way, asked
-from ..protocol import ContactAnswer, Modulus, Theory, Work, checked
+from ..protocol import ContactAnswer, Modulus, Radius, Theory, Work, checked
 from ..single.indenters import Exponent
 from ..single.waves import Amplitude, Wavelength
-from .short_range import PowerLawJKR, WavyJKR
+from .short_range import CylinderJKR, PowerLawJKR, WavyJKR
 
 
 @dataclass(frozen=True)
@@ -88,6 +88,60 @@ class AdhesivePowerLaw(Theory):
         with np.errstate(divide="ignore"):
             stiffness = rise / along
         return ContactAnswer(load, pressed - lift, a, np.pi * a**2, np.full_like(a, np.nan), stiffness)
+
+
+@dataclass(frozen=True)
+class AdhesiveCylinder(Theory):
+    """Cylinder of relative radius R with adhesion in the contact alone; P per length, a the half-width.
+
+        P = π E* a²/4R - sqrt(2π E* w a),  pull-off 3 (π E* w² R/16)^(1/3).
+
+    The approach of distant points depends on how the bodies are held, so approach and stiffness are NaN.
+
+    Examples
+    --------
+    >>> cylinder = AdhesiveCylinder(E_star=1e6, radius=1e-4, work=0.05)
+    >>> f"{cylinder.pull_off:.3f} N/m under dead load"
+    '1.098 N/m under dead load'
+    """
+
+    E_star: Modulus
+    radius: Radius
+    work: Work
+    name: ClassVar[str] = "jkr-cylinder"
+    title: ClassVar[str] = "JKR, cylinder"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1971", "Johnson1985")
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("pull_off", "N/m", "force per length that separates the bodies under dead load"),
+        Quantity("unloaded_half_width", "m", "half-width without load"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            asked("half_width", "m", "half-width of the contact"),
+            "at_half_width",
+            (Quantity("load", "N/m", "normal force per length"), Quantity("area", "m", "contact area per length")),
+        ),
+    )
+
+    @property
+    def _contact(self) -> CylinderJKR:
+        return CylinderJKR(self.E_star, self.radius, self.work)
+
+    @property
+    def pull_off(self) -> float:
+        """Force per length in N/m that separates the bodies under dead load."""
+        return -self._contact.pull_off.load
+
+    @property
+    def unloaded_half_width(self) -> float:
+        """Half-width in m without load."""
+        return self._contact.unloaded.radius
+
+    def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
+        """The contact of the ``half_width`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge."""
+        a = checked(half_width, "half-width (m)", lowest=np.finfo(float).tiny)
+        unknown = np.full_like(a, np.nan)
+        return ContactAnswer(self._contact.load(a), unknown, a, 2.0 * a, unknown, unknown)
 
 
 @dataclass(frozen=True)

@@ -96,8 +96,12 @@ class CylinderJKR:
     def at_half_width(self, half_width: float) -> ShortRangeState:
         """The contact of this ``half_width`` in m, > 0."""
         a = require.positive(half_width, "half-width (m)")
-        pull = math.sqrt(2.0 * math.pi * self.E_star * self.work * a)
-        return ShortRangeState(a, 0.25 * math.pi * self.E_star * a * a / self.radius - pull, math.nan)
+        return ShortRangeState(a, float(self.load(np.array(a))), math.nan)
+
+    def load(self, half_width: RealArray) -> RealArray:
+        """Load per length in N/m at half-widths in m, > 0, of any shape."""
+        pull = np.sqrt(2.0 * math.pi * self.E_star * self.work * half_width)
+        return np.asarray(0.25 * math.pi * self.E_star * half_width**2 / self.radius - pull)
 
     @property
     def pull_off(self) -> ShortRangeState:

@@ -38,46 +38,12 @@ def free_set(survey: Survey, level: float, scale: float, dtype: str) -> FreeSet:
 def entering_levels(squares: RealArray, level: float) -> RealArray:
     """Levels of r for each square (..., 2): unloaded points enter below the first, points at their cap above the second.
 
-    ``squares`` holds the number of its points strictly between the bounds, their sum of r and of r².
+    ``squares`` holds the number of its points strictly between the bounds, their sum of r and of r². Where there are few, the square of twice
+    the side counts as well, and so on; where there are none at all the levels are ``level``.
     """
-    count, total, square = (squares[..., kind] for kind in range(3))
-    total, square = total - level * count, square - level * (2.0 * total - level * count)
-    counts = pyramid(count)
-    mean = local_means(counts, pyramid(total))
-    spread = square - mean * (2.0 * total - mean * count)
-    spread[spread <= _RESOLVED * squares[..., 2]] = 0.0
-    margin = _SCATTER_SHARE * np.sqrt(local_means(counts, pyramid(spread)))
-    levels = np.empty((*count.shape, 2))
-    np.subtract(mean, margin, out=levels[..., 0])
-    np.add(mean, margin, out=levels[..., 1])
-    levels += level
+    from ....core.engine import kernels
+
+    nx, ny, _ = squares.shape
+    sums, levels = np.empty((2 * (nx + 1) * (ny + 1) + 64, 3)), np.empty((nx, ny, 2))
+    kernels.entering_levels(squares, level, _PRIOR, _SCATTER_SHARE, _RESOLVED, sums, levels)
     return levels
-
-
-def pyramid(values: RealArray) -> list[RealArray]:
-    """Sums of the ``values`` of squares of a grid over squares of once, twice, four times ... the side, up to the whole grid."""
-    sums = [values]
-    while sums[-1].size > 1:
-        nx, ny = sums[-1].shape
-        if nx % 2 or ny % 2:
-            along = np.add.reduceat(sums[-1], np.arange(0, nx, 2), axis=0)
-            sums.append(np.add.reduceat(along, np.arange(0, ny, 2), axis=1))
-        else:
-            along = sums[-1][::2] + sums[-1][1::2]
-            sums.append(along[:, ::2] + along[:, 1::2])
-    return sums
-
-
-def local_means(counts: list[RealArray], totals: list[RealArray]) -> RealArray:
-    """Mean in each square of a grid, from the pyramids of the number of its points and of their sum.
-
-    Where there are few points it falls back on the square of twice the side, and in the end on zero.
-    """
-    mean = np.zeros((1, 1))
-    for count, total in zip(reversed(counts), reversed(totals), strict=True):
-        nx, ny = total.shape
-        mean = mean.repeat(2, axis=0).repeat(2, axis=1)[:nx, :ny]  # of the wider square
-        mean *= _PRIOR
-        mean += total
-        mean /= count + _PRIOR
-    return mean

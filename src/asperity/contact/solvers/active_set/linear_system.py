@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ....core.arrays import BoolArray, RealArray
+from ....core.arrays import RealArray
 from ....core.engine import Cells, CoarseCompliance, Convolution, Engine, FreeSet, Hierarchy, Merge, Products, Survey
 from ....core.grid import Grid
 from ...operators import Operator, prepare_operator
@@ -69,8 +69,7 @@ def hierarchies(
     Single points are given this ``share`` of their compliance. ``mean`` is the displacement in m/Pa by a uniform load, where it is not that of the
     longest wave.
     """
-    merges = merges_of(grid)
-    sides, points = octaves(grid, merges)
+    merges, sides, points = octaves(grid)
     detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
     if mean is not None:
         detail[-1] = max(mean, _LEAST_MEAN * detail[-2])
@@ -98,8 +97,7 @@ def _third(n: int) -> int:
 
 def pixel_compliance(compliance: Spectral, grid: Grid) -> float:
     """Deflection (m/Pa) of a point of ``grid`` under its own pressure, in the model of nested cells."""
-    sides, _ = octaves(grid, merges_of(grid)[:1])
-    return float(np.asarray(compliance.spectral(np.pi / sides[:1]))[0])
+    return float(np.asarray(compliance.spectral(np.pi / octaves(grid).sides[:1]))[0])
 
 
 def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
@@ -116,8 +114,18 @@ def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
     return merges
 
 
-def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, RealArray]:
-    """Side (m) of the cells of every level along the axes in which they merge, and their number of points."""
+class OctavesOfCells(NamedTuple):
+    """Of every level of nested cells, from single points up: the axes along which they merge, their ``sides`` (m), and number of ``points``."""
+
+    merges: tuple[tuple[bool, bool], ...]
+    sides: RealArray
+    points: RealArray
+
+
+@lru_cache(maxsize=64)
+def octaves(grid: Grid) -> OctavesOfCells:
+    """Levels of nested cells on ``grid``; the side of a cell is that along the axes in which it merges."""
+    merges = merges_of(grid)
     cell, points, sides, numbers = list(grid.spacing), 1.0, [], []
     for x, y in (*merges, merges[-1]):
         merged = [side for side, pairs in zip(cell, (x, y), strict=True) if pairs] or cell
@@ -126,7 +134,7 @@ def octaves(grid: Grid, merges: list[tuple[bool, bool]]) -> tuple[RealArray, Rea
         for axis, pairs in enumerate((x, y)):
             if pairs:
                 cell[axis], points = 2.0 * cell[axis], 2.0 * points
-    return np.array(sides), np.array(numbers)
+    return OctavesOfCells(tuple(merges), np.array(sides), np.array(numbers))
 
 
 # Coarse correction: the true compliance of the larger cells, where constants over nested cells are too crude.
@@ -171,14 +179,11 @@ def coarse_correction(operator: Operator) -> CoarseCorrection | None:
     too small, a line, or periodic with sides that are no multiples of such cells.
     """
     grid, periodic, side = operator.grid, all(operator.boundary.wraps), 1 << _DEPTH
-    merges = merges_of(grid)
-    if min(grid.shape) < _FEWEST * side or not all(x and y for x, y in merges[:_DEPTH]):
+    if min(grid.shape) < _FEWEST * side or (periodic and any(n % side for n in grid.shape)):
         return None
-    if periodic and any(n % side for n in grid.shape):
-        return None
-    sides, points = octaves(grid, merges)
+    merges, sides, points = octaves(grid)
     detail = operator.octaves.spectral(np.pi / sides)
-    if np.max(detail[_DEPTH:] / detail[_DEPTH - 1 : -1]) < _STEEP:
+    if not all(x and y for x, y in merges[:_DEPTH]) or np.max(detail[_DEPTH:] / detail[_DEPTH - 1 : -1]) < _STEEP:
         return None
     # on a free grid the first cell may begin up to side - 1 points outside
     nx, ny = (n // side if periodic else -(-(n + side - 1) // side) for n in grid.shape)
@@ -430,10 +435,14 @@ class Stopping(NamedTuple):
     It counts in the norm of the preconditioner, or in the plain one if that is the first to be reduced: it is known before
     the next use of the preconditioner, a quarter of which are not needed then. FFT pairs with and without, cases much as in
     ``solver``: elastic 14.1 both, films 21.6 and 22.8, cap 15.9 and 16.0, free 44.1 and 43.3.
+
+    ``ending``, if given: conjugate gradients stop at this reduction of the largest residual instead, and a last step follows whose length
+    is not measured and whose deflection is not computed, but estimated (see ``Correction.open``).
     """
 
     reduction: float
     max_steps: int
+    ending: float | None = None
 
 
 class PressureChange(NamedTuple):
@@ -444,11 +453,15 @@ class PressureChange(NamedTuple):
 
 
 class Correction(NamedTuple):
-    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction was ``reached``."""
+    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction was ``reached``.
+
+    ``open``: d holds a last step that ``on_step`` was not told of.
+    """
 
     d: Any
     pairs: float
     reached: bool
+    open: bool = False
 
 
 class _Direction(NamedTuple):
@@ -476,21 +489,20 @@ def conjugate_gradients(
     scaled, free = system.scaled, system.free
     inverse = preconditioner(scaled, free)
     last: _Direction | None = None
-    first, pairs, taken, reached = 0.0, 0.0, 0, False
-    begun = _FirstStep(free.zeros(), r, 0.0, free.square(r))
-    if pending is not None:
-        begun, taken = _combined_step(system, inverse, r, pending, on_step), 1
-        pairs = scaled.operator.pairs_per_application + (inverse.pairs if begun.product else 0.0)
-    d, r, first, square = begun
-    z = free.empty()
+    ending = None if stopping.ending is None or inverse.pairs >= 1.0 else stopping.ending * free.largest(r)
+    (d, r, first, square, left), pairs, taken = _first_step(system, inverse, r, pending, on_step)
+    reached = False
+    z, length = free.empty(), inverse.step_length
     while taken < stopping.max_steps:
-        if reached := taken > 0 and free.square(r) < stopping.reduction**2 * square:
+        if taken > 0 and ending is not None and free.largest(r) <= ending:
+            t, _ = _next_direction(system, r, inverse.solve(r, r if last is None else last.kt, z), last)
+            return Correction(free.update_solution(length, t, t, 0.0, d, r)[0], pairs + inverse.pairs, True, open=True)
+        if reached := taken > 0 and left < stopping.reduction**2 * square:
             break
         preconditioned = inverse.solve(r, r if last is None else last.kt, z)
         z, product = preconditioned.vector, preconditioned.first
         pairs += inverse.pairs
-        reached = product <= 0.0 or (taken > 0 and product < stopping.reduction**2 * first)
-        if reached:
+        if reached := product <= 0.0 or (taken > 0 and product < stopping.reduction**2 * first):
             break
         first = first or product
         t, slope = _next_direction(system, r, preconditioned, last)
@@ -501,9 +513,10 @@ def conjugate_gradients(
             break
         last = _Direction(t, kt, curvature, total)
         taken += 1
+        length = slope / curvature
         if on_step is not None:
-            on_step(slope / curvature)
-        d, r = free.update_solution(slope / curvature, t, kt, system.mean(total), d, r)
+            on_step(length)
+        d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
     return Correction(d if taken else None, pairs, reached)
 
 
@@ -520,12 +533,28 @@ def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction 
 
 
 class _FirstStep(NamedTuple):
-    """Vector ``d``, the residual ``r`` after it; of the predicted residual the ``product`` with its preconditioned self and the ``square``."""
+    """Vector ``d``, the residual ``r`` after it, of the square ``left``; of the predicted residual the ``product`` with its preconditioned self and the ``square``."""
 
     d: Any
     r: Any
     product: float
     square: float
+    left: float
+
+
+def _first_step(
+    system: LinearSystem,
+    inverse: Preconditioner,
+    r: Any,
+    pending: PressureChange | None,
+    on_step: Callable[[float], None] | None,
+) -> tuple[_FirstStep, float, int]:
+    """Combined step for a pending change, none without; the FFT pairs and the number of products of it."""
+    if pending is None:
+        square = system.free.square(r)
+        return _FirstStep(system.free.zeros(), r, 0.0, square, square), 0.0, 0
+    begun = _combined_step(system, inverse, r, pending, on_step)
+    return begun, system.scaled.operator.pairs_per_application + (inverse.pairs if begun.product else 0.0), 1
 
 
 def _combined_step(
@@ -555,36 +584,5 @@ def _combined_step(
     response = free.gather_products(scaled.response, t, t, free.empty())
     if on_step is not None:
         on_step(length)
-    d, r = free.update_solution(length, t, response.vector, system.mean(response.total), free.zeros(), r)
-    return _FirstStep(d, r, product, square)
-
-
-# A linear solve of its own.
-
-
-_STIFFNESS_STOPPING = Stopping(reduction=1e-4, max_steps=500)
-
-
-def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
-    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the points ``moving`` (nx, ny).
-
-    Infinite for full contact on a periodic half-space, zero without elastic contact points, NaN if the linear solve
-    does not converge. They are the points of elastic contact: those at the cap yield and carry no increment (loading). The error is of second order in the
-    relative residual, which is 1e-4: what remains is the rounding of single precision, below 1e-6.
-    """
-    engine, shape = operator.engine, operator.grid.shape
-    scaled = ScaledOperator.of(operator, "float32", float(operator.kernel.max()) or 1.0)
-    p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
-    survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
-    free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
-    if free.size == 0:
-        return 0.0
-    if free.size == operator.grid.n_points and operator.zero_mean_mode:
-        return math.inf
-    unit = free.residual(centred=False)
-    found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=False), unit, _STIFFNESS_STOPPING)
-    if not found.reached or found.d is None:
-        return math.nan
-    free.scatter(found.d, scaled.field)
-    total = free.gather_products(scaled.field, found.d, found.d, free.empty()).total
-    return total / scaled.scale / operator.grid.n_points
+    d, r, left = free.update_solution(length, t, response.vector, system.mean(response.total), free.zeros(), r)
+    return _FirstStep(d, r, product, square, left)

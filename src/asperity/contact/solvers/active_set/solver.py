@@ -5,40 +5,38 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 12.9, 20.5, 41.1, 15.6, 23.7 and 20.1 pairs. All figures
-but those of ``_REDUCTION`` (13.6, 21.3, 42.8, 15.6, 22.8, 20.6 then) and of coarse grids date from when they took 13.9, 22.8, 43.8, 16.0,
-23.2 and 20.5: before loose corrections ended by the plain norm of the residual, and coarse solves without their last product.
+elastic, 256², every iterate within its bounds. The constants as they are take 12.8, 19.7, 37.7, 14.7, 22.3 and 19.1 pairs. All figures
+but those of ``_LAST_STEP`` and ``_LAST_REDUCTION``, of ``_REDUCTION`` (13.6, 21.3, 42.8, 15.6, 22.8, 20.6 then) and of coarse grids date from
+when they took 13.9, 22.8, 43.8, 16.0, 23.2 and 20.5: before loose corrections ended by the plain norm of the residual, and solves without a
+product for their last step.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, NamedTuple, Protocol
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
 from ....core import require
 from ....core.arrays import RealArray
-from ....core.engine import CpuEngine, FreeSet, Load, Survey, Totals
+from ....core.engine import CpuEngine, FreeSet, Survey, Totals
 from ....core.errors import InputError
-from ...operators.convolution import restricted
 from ..protocol import (
-    LOAD_ROUNDING,
-    LOAD_SWEEPS,
     ContactQP,
-    FixedMean,
     FixedOffset,
-    Solver,
     SolverState,
     feasible_start,
     multiplier,
     require_settings,
-    run,
     scaled_error,
 )
 from ..reference.steepest_descent import descend, levelling_step
+from .clipping import add_clipped, clear_tension, clipped_update
 from .entering import free_set
-from .linear_system import LinearSystem, PressureChange, Stopping, Workspace, conjugate_gradients, pixel_compliance
+from .first_guess import COARSE_ITERATIONS, COARSEST, nested_start
+from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
 
 # Plane level and error of an iterate.
 
@@ -95,89 +93,18 @@ _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
 1e-2: tight 24.4, 22.4, 22.2, all others the same; for 8, 20, 40 steps the same."""
 
+_LAST_STEP = 0.3
+"""Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
+ends every solve, serves it too. Pairs for 0.2, 0.4 (0.3: elastic 12.9, film 19.5, free 38.8, cap 14.6, tight 22.7): elastic 12.4, 13.1; film 20.3, 19.5; free
+38.1, 38.8; tight 23.2, 22.7; without such steps 12.9, 20.5, 41.1, 15.6 and 23.7. Paths of 20 loads take 10.8 pairs a load for 11.2."""
+
+_LAST_REDUCTION = 0.01
+"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: film 19.5, 20.0;
+others within 0.2."""
+
 _MARGIN = 0.8
 """Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 14.6, 14.6,
 13.9; film 23.0, 23.0, 22.5; tight 23.4, 23.4, 23.2."""
-
-
-# (3) How the pressure takes up a correction.
-
-
-LEAST_SHARE = 0.1
-"""Share of a clipped step below which it is replaced by one along the projected gradient: what little would be left of it shows
-that the set was wrong. No case of the sweep gets there (0.01 to 0.3: the same pairs); random small problems with caps do."""
-
-_PARTS = 4
-"""Parts of a step at most that are clipped, one product each, before it is shortened. Bending films show what it is for: moduli of
-100 and 1000, 2 pixels thick, white noise of 24² and 64² points under caps of 1.01, 2 and 10 mean pressures take 170 pairs on
-average; with one part they took 1770, and 9 of 24 did not converge in 300 steps. Two to eight parts differ by 1 %. No case of
-the sweep needs a second one."""
-
-
-class _Clipping(NamedTuple):
-    """Number of points ``clipped`` by a step, the ``share`` of the step that was taken, and the ``products`` it needed."""
-
-    clipped: int
-    share: float
-    products: int
-
-
-def clear_tension(work: Workspace, free: FreeSet, total: float) -> PressureChange:
-    """Clear the tensile points of ``free`` and scale the others, of the sum ``total``, to the load; the change."""
-    constraint, factor = work.qp.constraint, 1.0
-    if isinstance(constraint, FixedMean) and total > 0.0:
-        factor = constraint.mean_pressure * work.qp.profile.size / total
-    return PressureChange(free, free.clear_tension(work.pressure, factor, work.unit))
-
-
-def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float) -> _Clipping:
-    """Add ``d``, clipped and scaled to the load, to the pressure of sum ``total``.
-
-    The deflection by the whole step is left in the response of the scaled operator. The energy falls: it changes by
-    -r·step + step·K step / 2, ``r`` being the residual on the set. Where it would rise, a part of d is clipped instead, so
-    that points still reach their bounds; after some attempts the step is shortened to its minimum.
-    """
-    qp, scaled, p = work.qp, work.scaled, work.pressure
-    old, load = free.gather(p)
-    part, products = 1.0, 0
-    while True:
-        found, clipped = free.add_clipped(p, d, part * work.unit, work.cap)
-        if isinstance(qp.constraint, FixedMean):
-            missing = qp.constraint.mean_pressure * qp.profile.size - total
-            _restore_load(free, p, work.cap, found, max(load + missing, 0.0))
-        change, along = free.scatter_change(old, p, r, scaled.field)
-        scaled.product.apply(scaled.field, scaled.response)
-        products += 1
-        reaction = free.gather_products(scaled.response, change, change, free.empty()).first
-        slope, curvature = -along * qp.height_scale, reaction * scaled.scale
-        if slope + 0.5 * curvature <= 0.0:
-            return _Clipping(clipped, 1.0, products)
-        share = -slope / curvature if slope < 0.0 else 0.0
-        if products == _PARTS:
-            share = share if share >= LEAST_SHARE else 0.0
-            free.interpolate(old, share, p)
-            return _Clipping(clipped, share, products)
-        free.interpolate(old, 0.0, p)
-        part *= max(share, LEAST_SHARE)
-
-
-def _restore_load(free: FreeSet, pressure: Any, cap: Any, found: Load, target: float) -> None:
-    """Scale the clipped ``pressure`` on ``free`` (in place), where its sums are ``found``, to the sum ``target``.
-
-    Where every loaded point is at its cap, the rest of the load is spread over the points below it.
-    """
-    for _ in range(LOAD_SWEEPS):
-        missing = target - found.pressure
-        if abs(missing) <= LOAD_ROUNDING * target:
-            break
-        if found.movable > 0.0 and found.movable + missing > 0.0:
-            found = free.rescale(pressure, (found.movable + missing) / found.movable, 0.0, cap)
-        elif missing < 0.0:
-            found = free.rescale(pressure, target / found.pressure, 0.0, None)
-        elif found.below == 0:
-            break  # all are at their cap: what is missing is rounding of the sum over all points
-        else:
-            found = free.rescale(pressure, 1.0, missing / found.below, cap)
 
 
 # The solver.
@@ -220,7 +147,9 @@ class _Memory:
     number of points that the last step took beyond their bounds; ``fallbacks`` how many steps had to be replaced so far.
     ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
     are clipped; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
-    ``tension`` the sum of theirs (Pa). ``superseded``: a later step has changed the arrays.
+    ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
+    just been computed so.
+    ``superseded``: a later step has changed the arrays.
     """
 
     work: Workspace
@@ -232,6 +161,7 @@ class _Memory:
     lowest: float = np.inf
     tensile: FreeSet | None = None
     tension: float = 0.0
+    from_scratch: bool = False
     superseded: bool = False
 
     def copied(self, state: SolverState) -> SolverState:
@@ -263,7 +193,8 @@ class ActiveSet:
     Without a cap steps are *unclipped*: tensile points stay until the next step, whose first product with the compliance
     serves both, which saves a product a step. Three unclipped steps in a row that do not lower the error end this. From
     then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a step that would
-    raise it is shortened to the minimum on its way, or replaced by one along the projected gradient.
+    raise it is shortened to the minimum on its way, or replaced by one along the projected gradient. The product that computes the
+    final deflection from scratch serves the last step too, whose length is estimated unless ``monotone``.
 
     Iterates share their arrays: a step changes the arrays of the state it is given, which cannot be used afterwards.
     ``state.copy()`` is independent of it; the same steps follow from the copy, to the bit.
@@ -345,7 +276,7 @@ class ActiveSet:
 
     def loosened(self, tolerance: float) -> ActiveSet:
         """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection of what it finds."""
-        most = min(_COARSE_ITERATIONS, self.max_iterations)
+        most = min(COARSE_ITERATIONS, self.max_iterations)
         return _Guess(tolerance, most, self.precision, self.monotone)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
@@ -391,7 +322,12 @@ class ActiveSet:
         if found.d is None:
             return self._gradient_step(memory, spent)
         tensile, tension = free.add_unclipped(work.pressure, found.d, work.unit)
-        return replace(memory, survey=work.survey(), clipped=tensile, tensile=free, tension=tension), spent
+        changed: dict[str, Any] = {"survey": work.survey(), "clipped": tensile, "tensile": free, "tension": tension}
+        memory = replace(memory, **changed, from_scratch=False)
+        if found.open:
+            _compute_from_scratch(memory)
+            spent = replace(spent, applications=spent.applications + 1)
+        return memory, spent
 
     def _clipped_step(self, memory: _Memory, spent: SolverState, free: FreeSet) -> tuple[_Memory, SolverState]:
         """(4) Step clipped to the bounds and shortened where the energy would rise."""
@@ -402,12 +338,29 @@ class ActiveSet:
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
+        if found.open:
+            spent = replace(spent, applications=spent.applications + 1)
+            if self._ended(memory, free, found.d):
+                return memory, spent
         clipped, share, products = clipped_update(work, free, found.d, r, memory.survey.totals.pressure)
         spent = replace(spent, applications=spent.applications + products)
-        if share < LEAST_SHARE:
+        if share == 0.0:
             return self._gradient_step(memory, spent)
         work.engine.add(work.scaled.response, share * work.scaled.scale, work.deflection)
-        return replace(memory, survey=work.survey(), clipped=clipped), spent
+        return replace(memory, survey=work.survey(), clipped=clipped, from_scratch=False), spent
+
+    def _ended(self, memory: _Memory, free: FreeSet, d: Any) -> bool:
+        """Whether the clipped step ``d``, whose deflection is computed from scratch, reaches the tolerance; if not, it is taken back."""
+        work, total = memory.work, memory.survey.totals.pressure
+        deflection, (old, load) = work.engine.copy(work.deflection), free.gather(work.pressure)
+        memory.clipped = add_clipped(work, free, d, 1.0, total - load)
+        _compute_from_scratch(memory)
+        if memory.computed_at <= self.tolerance:
+            return True
+        free.interpolate(old, 0.0, work.pressure)
+        work.deflection[...] = deflection
+        memory.survey = work.survey()
+        return False
 
     def _gradient_step(self, memory: _Memory, spent: SolverState) -> tuple[_Memory, SolverState]:
         """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
@@ -428,25 +381,25 @@ class ActiveSet:
         rounding of corrections in it. Once the error has fallen so far that this might show, at the end, and where steps
         are clipped from now on, tensile points are cleared and the deflection is computed from scratch.
         """
-        work = memory.work
+        work, applications = memory.work, spent.applications
         error = relative_error(work, memory.survey.totals)
         if memory.tension:
-            error += memory.tension / memory.survey.totals.pressure
+            load = memory.survey.totals.pressure  # none where a start far too high has let go of every point
+            error = error + memory.tension / load if load > 0.0 else math.inf
         failed = memory.unsuccessful
         if failed is not None and error < memory.lowest:
             memory.lowest, memory.unsuccessful = error, 0
         elif failed is not None:  # after some in a row steps are clipped
             memory.unsuccessful = failed + 1 if failed < _MOST_UNSUCCESSFUL else None
-        applications, ends = spent.applications, error <= self.tolerance or spent.iterations >= self.max_iterations
+        ends = error <= self.tolerance or spent.iterations >= self.max_iterations
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
         if spent.iterations and ends and self._guess:
             _clear_tensile(memory)
-        elif spent.iterations and due:
+        elif spent.iterations and due and not memory.from_scratch:
             _compute_from_scratch(memory)
-            memory.survey, memory.tension = work.survey(), 0.0
-            error = memory.computed_at = relative_error(work, memory.survey.totals)
             applications += 1
+            error = memory.computed_at
         totals = memory.survey.totals
         energy = None if memory.unsuccessful is not None else totals.work - 0.5 * totals.deflected
         iterate = {"pressure": work.pressure, "deflection": work.deflection, "engine": work.engine}
@@ -464,6 +417,9 @@ class ActiveSet:
             return Stopping(_REDUCTION, _UNSETTLED_STEPS << min(memory.fallbacks, _MOST_DOUBLINGS))
         wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
         most = _NEARLY_SETTLED if changed else _SETTLED_SET
+        least = _LAST_REDUCTION if changed else _SETTLED_SET.reduction
+        if not (self.monotone or self._guess) and least <= wanted < _LAST_STEP:
+            return Stopping(0.0, most.max_steps, wanted / _LAST_STEP)
         return Stopping(min(_REDUCTION, max(wanted, most.reduction)), most.max_steps)
 
 
@@ -483,8 +439,11 @@ class _Guess(ActiveSet):
 
 def _compute_from_scratch(memory: _Memory) -> None:
     """Clear tensile points, and compute the deflection anew instead of from its updates."""
+    work = memory.work
     _clear_tensile(memory)
-    memory.work.exact.apply(memory.work.pressure, memory.work.deflection)
+    work.exact.apply(work.pressure, work.deflection)
+    memory.survey, memory.tension, memory.from_scratch = work.survey(), 0.0, True
+    memory.computed_at = relative_error(work, memory.survey.totals)
 
 
 def _clear_tensile(memory: _Memory) -> None:
@@ -492,70 +451,3 @@ def _clear_tensile(memory: _Memory) -> None:
     if memory.tensile is not None:
         clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure)
     memory.tensile = None
-
-
-# (0) First guesses from coarser grids.
-
-
-COARSEST = 64
-"""Points per side at which there is no coarser grid. Pairs for 32, 128: elastic 13.8, 14.2; free 43.1, 47.6; cap 15.3, 18.8."""
-
-_COARSE_ITERATIONS = 30
-"""Most steps on a coarse grid; four to eight are the rule. Pairs for 3, 10, 100: the same from 10 on."""
-
-_HIDDEN_SHARE, _HIDDEN_SHARE_CAPPED = 0.5, 0.1
-"""Tolerance on a coarse grid over the roughness that it cannot show, both relative to the rms height, without and with a cap. Pairs for
-0.05, 0.1, 0.2, 1: elastic 13.6, 13.6, 13.1, 13.1 (0.5: 12.9); film 21.7, 21.3, 20.8, 20.2 (20.5); free 42.8, 42.8, 41.3, 41.0 (41.1); tight
-22.8, 22.8, 23.7, 23.3 (23.7); with 0.5 for capped ones 17.4 instead of 15.6. Fewer steps on coarse grids save more time than pairs: 5 % at 256²."""
-
-_LOOSEST, _LOOSEST_CAPPED = 0.1, 0.03
-"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: elastic 13.3, 12.9, 12.9; film 21.3, 20.5, 20.5; free 42.8, 41.3, 41.1."""
-
-_FINE_STIFFNESS = 0.15
-"""Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer).
-Saves a tenth of the pairs at 1024² and a quarter at 2048². Pairs for 0, 0.1, 0.2, 0.3: elastic 15.2, 15.1, 13.9, 14.0; film
-22.9, 22.1, 23.5, 24.0. Under a cap there is none: crests that it would load beyond the cap yield. With it, cap 19.6 instead of 16.0
-pairs; at a hardness of 0.1 E* 36 instead of 17, of 1 E* 21 instead of 18; at 512² 19.3 instead of 15.1, where elastic contact takes 14.2."""
-
-
-class Adjustable(Solver, Protocol):
-    """Solver whose tolerance can be set."""
-
-    def loosened(self, tolerance: float) -> Solver:
-        """Same solver for a first guess: with ``tolerance``, of which only the pressure is used."""
-
-
-def coarsened(qp: ContactQP) -> ContactQP:
-    """Same problem on half as many points per side."""
-    profile = restricted(qp.profile)
-    cap = restricted(qp.cap) if isinstance(qp.cap, np.ndarray) else qp.cap
-    scale = float(profile.std()) or qp.height_scale
-    return replace(qp, operator=qp.operator.coarsened, profile=profile, cap=cap, height_scale=scale)
-
-
-def coarse_tolerance(qp: ContactQP, coarse: ContactQP, solver: Adjustable) -> float:
-    """Tolerance of the ``coarse`` problem: a fraction of the roughness of ``qp`` that its grid cannot show."""
-    hidden = np.sqrt(max(0.0, 1.0 - (coarse.height_scale / qp.height_scale) ** 2))
-    share, loosest = (_HIDDEN_SHARE, _LOOSEST) if qp.elastic else (_HIDDEN_SHARE_CAPPED, _LOOSEST_CAPPED)
-    return max(min(share * float(hidden), loosest), solver.tolerance)
-
-
-def nested_start(qp: ContactQP, solver: Adjustable) -> tuple[RealArray, float]:
-    """Feasible pressure (Pa) prolonged from the solution of ``solver`` on the coarser grid, and its FFT pairs.
-
-    The coarse problem is solved to a fraction of the roughness that its grid cannot show. Its pressures are constant on
-    2 x 2 points; without a cap, pressure is added in proportion to what stands out of them. Pairs are counted in pairs of the grid of
-    ``qp``: those of half as many points per side count a quarter.
-    """
-    if min(qp.profile.shape) <= COARSEST:
-        return feasible_start(qp, None), 0.0
-    coarse = coarsened(qp)
-    state = run(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
-    pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
-    share = coarse.profile.size / qp.profile.size
-    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid) if qp.elastic else 0.0
-    start = qp.operator.engine.prolonged(state.pressure, coarse.profile, qp.profile, stiffness)
-    if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
-        return feasible_start(qp, start), pairs * share
-    start *= qp.constraint.mean_pressure / start.mean()
-    return start, pairs * share

@@ -31,8 +31,9 @@ from ....core.status import NoProgress, Progress
 from ...operators.convolution import restricted
 from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
 from .entering import free_set
+from .first_guess import COARSEST, coarse_tolerance, coarsened
 from .linear_system import PIXEL_SHARE, Workspace, hierarchies, pixel_compliance
-from .solver import COARSEST, ActiveSet, coarse_tolerance, coarsened, plane_level, relative_error
+from .solver import ActiveSet, plane_level, relative_error
 
 _REDUCTION = 0.2
 """Reduction of the residual while the set changes."""

@@ -1,0 +1,197 @@
+"""Memory of shear tractions in viscoelastic bodies that stick and slip.
+
+The displacements (along the surface, and up and down) by shear tractions q and pressures p are a sum over parts, each of which grows in time by
+one factor: u(t) = sum_i C_i [tau + sum_k s_ik xi_k], tau = (q, p), lambda_k d(xi_k)/dt = tau - xi_k as for pressure alone (``couplings.creep``).
+A part is a body, or layers, whose moduli all relax alike. The compliance of a half-space with an elastic bulk has two: in 1/G, that of an
+incompressible solid, and in z = 3/2(3K + G), in which 1 - nu = G (1/2G + z).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.engine import CpuEngine
+from ...core.errors import InputError
+from ...solids.compliance.creep import AnyCreep, SharedCreep
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, deformable, materials_of
+from ...solids.relaxation import Creep, Relaxation
+from ...solids.viscoelastic import Viscoelastic, alike
+from ..operators.tangential import TangentialOperator
+from ..operators.tangential_sum import SummedTangential
+from ..problem import ContactProblem
+from .creep import Past, Products, ShearPast, TimeWeights
+from .stick_slip import Held
+
+_EQUAL = 1e-6
+"""Relative difference of retardation times that are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShearPart:
+    """``operator`` at the first instant of what grows by one factor, and the ``shares`` (terms,) by which it does."""
+
+    operator: TangentialOperator = field(repr=False)
+    shares: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class ShearMemory:
+    """How shear is remembered; ``times`` (terms,) are those of the pressure."""
+
+    parts: tuple[ShearPart, ...]
+    times: RealArray
+
+    @classmethod
+    def prepared(cls, problem: ContactProblem, creep: AnyCreep, threads: int | None) -> ShearMemory:
+        """For the bodies of ``problem``, whose normal compliance has this ``creep``.
+
+        InputError if there are layers whose moduli do not relax alike.
+        """
+        if not isinstance(creep, SharedCreep):
+            raise InputError(
+                "friction of viscoelastic layers that stick and slip (coupling stick_slip) must be None where their moduli do not all relax "
+                "alike, since how shear makes such layers creep is not followed. Take half-spaces, layers that relax alike, or leave it out."
+            )
+        bodies, engine = (problem.body, problem.counter_body), CpuEngine(threads)
+
+        def operator(*pair: Body) -> TangentialOperator:
+            return TangentialOperator(problem.grid, (pair[0], pair[1]), problem.boundary, engine=engine)
+
+        materials = tuple(m for solid, _ in deformable(*bodies) for m in materials_of(solid))
+        if alike(materials):
+            return cls((ShearPart(operator(*bodies), creep.shares),), creep.times)
+        found: list[ShearPart] = []
+        for number, body in enumerate(bodies):
+            if isinstance(body, Rigid):
+                continue
+            (solid,) = materials_of(body)
+
+            def alone(material: Elastic, at: int = number) -> TangentialOperator:
+                return operator(material, Rigid()) if at == 0 else operator(Rigid(), material)
+
+            for made, growth in _compliances(solid, alone):
+                found.append(ShearPart(made, _shares(growth, creep.times)))
+        return cls(tuple(found), creep.times)
+
+    def operator(self, weights: TimeWeights) -> TangentialOperator:
+        """Operator of a step of time."""
+        if len(self.parts) == 1 and not weights.after.any():
+            return self.parts[0].operator
+        factors = [1.0 + float(part.shares @ weights.after) for part in self.parts]
+        return SummedTangential([part.operator for part in self.parts], factors)
+
+    def virgin(self, shape: tuple[int, ...]) -> ShearPast:
+        """No shear so far, on a grid of this ``shape``."""
+        count = self.times.size
+        return ShearPast(np.zeros((count, 2, *shape)), np.zeros((len(self.parts), count)))
+
+    def held(self, past: Past, traction: RealArray, weights: TimeWeights) -> Held:
+        """What the ``past``, which ended with this ``traction`` (2, nx, ny) in Pa, displaces at the end of a step, and did before it."""
+        at_once = TimeWeights.of(self.times, 0.0)
+        left, lift = self._left(past, traction, weights)
+        start, _ = self._left(past, traction, at_once)
+        for part in self.parts:
+            start = start + part.operator.displacement(traction) + part.operator.drawn(past.pressure)
+        return Held(left, lift, start)
+
+    def _left(self, past: Past, traction: RealArray, weights: TimeWeights) -> tuple[RealArray, RealArray]:
+        """Displacement along the surface and up by sum s_k (e_k xi_k + before_k tau)."""
+        shear = past.shear or self.virgin(past.pressure.shape)
+        along, lift = np.zeros(traction.shape), np.zeros(past.pressure.shape)
+        for part in self.parts:
+            factors, now = part.shares * weights.e, float(part.shares @ weights.before)
+            if not factors.any() and not now:
+                continue
+            q = now * traction + np.tensordot(factors, shear.xi, axes=1)
+            p = now * past.pressure + np.tensordot(factors, past.xi.real, axes=1)
+            along = along + part.operator.displacement(q) + part.operator.drawn(p)
+            lift = lift + part.operator.lift(q)
+        return along, lift
+
+    def after(
+        self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
+    ) -> tuple[ShearPast, float, float]:
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) and ``pressure`` (nx, ny) in Pa, and the energy stored and
+        the heat (J) of the step beyond those by pressure alone."""
+        shear = past.shear or self.virgin(past.pressure.shape)
+        solid, squares = np.isfinite(self.times), np.empty_like(shear.squares)
+        stored = heat = 0.0
+        for number, part in enumerate(self.parts):
+            products = self._products(part.operator, past, shear, number, (before, traction), pressure)
+            squares[number] = weights.advanced(products)
+            heat += weights.dissipated(part.shares, products)
+            stored += 0.5 * float(products.p11) + 0.5 * float(part.shares[solid] @ squares[number][solid])
+        shape = (-1, *(1,) * traction.ndim)
+        e, b, a = (values.reshape(shape) for values in (weights.e, weights.before, weights.after))
+        return ShearPast(e * shear.xi + b * before + a * traction, squares), stored, heat
+
+    def curvature(
+        self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights
+    ) -> float:
+        """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
+        first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
+        bent = 2.0 * ((tractions[2] - tractions[1]) / last - (tractions[1] - tractions[0]) / first) / (first + last)
+        size = float(np.hypot(np.linalg.norm(tractions[2]), np.linalg.norm(pasts[2].pressure)))
+        each = [
+            float(part.shares @ weights.of_curvature) / (1.0 + float(part.shares @ weights.after))
+            for part in self.parts
+        ]
+        return max(each) * float(np.linalg.norm(bent)) / size if size else 0.0
+
+    def _products(
+        self,
+        operator: TangentialOperator,
+        past: Past,
+        shear: ShearPast,
+        number: int,
+        tractions: tuple[RealArray, RealArray],
+        pressure: RealArray,
+    ) -> Products:
+        """x·C y less that of the pressures alone, J."""
+        area = operator.grid.pixel_area
+        loads = (tractions[0], past.pressure), (tractions[1], pressure)
+        responses = [(operator.displacement(q) + operator.drawn(p), operator.lift(q)) for q, p in loads]
+
+        def product(x: tuple[RealArray, RealArray], y: tuple[RealArray, RealArray]) -> float:
+            return area * (float(np.einsum("kij,kij->", x[0], y[0])) + float(np.einsum("ij,ij->", x[1], y[1])))
+
+        xi = list(zip(shear.xi, past.xi.real, strict=True))
+        with_0, with_1 = (np.array([product(each, response) for each in xi]) for response in responses)
+        p00, p01, p11 = (product(loads[i], responses[j]) for i, j in ((0, 0), (0, 1), (1, 1)))
+        return Products(shear.squares[number], with_0, with_1, p00, p01, p11)
+
+
+def _compliances(
+    solid: Elastic, alone: Callable[[Elastic], TangentialOperator]
+) -> list[tuple[TangentialOperator, Creep | None]]:
+    """Operators whose sum is that of a half-space of ``solid`` at the first instant, and how each of them creeps."""
+    if not isinstance(solid, Viscoelastic) or not solid.spectrum:
+        return [(alone(solid), None)]
+    shear = solid.shear
+    if not solid.elastic_bulk:
+        return [(alone(solid.instantaneous), shear.creep)]
+    G = solid.shear_modulus
+    stiff = Relaxation(shear.relaxed + 3.0 * solid.bulk_modulus, shear.terms).creep
+    M = 1.0 / (1.5 * stiff.instantaneous)  # 1/z at the first instant
+    volume = SummedTangential([alone(Elastic(2.0 * M, 0.0)), alone(Elastic(3.0 * M, 0.5))], (2.0, -2.0))
+    return [(alone(Elastic(3.0 * G, 0.5)), shear.creep), (volume, stiff)]
+
+
+def _shares(creep: Creep | None, times: RealArray) -> RealArray:
+    """Retarded over instantaneous compliance for each of the ``times``."""
+    shares = np.zeros(times.size)
+    if creep is None:
+        return shares
+    for strength, lam in creep.terms:
+        at = int(np.argmin(np.abs(np.log(np.where(np.isinf(times), 1e300, times) / lam))))
+        assert math.isclose(times[at], lam, rel_tol=_EQUAL)
+        shares[at] += strength / creep.instantaneous
+    if creep.fluidity:
+        shares[-1] += creep.fluidity / creep.instantaneous
+    return shares

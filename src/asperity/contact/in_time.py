@@ -1,0 +1,296 @@
+"""Steps of time of a prepared problem with viscoelastic bodies."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core.arrays import RealArray
+from ..core.errors import ConvergenceError, InputError
+from ..core.status import Outcome, Status
+from ..solids.compliance.creep import AnyCreep, SharedCreep
+from ..solids.layers import deformable, materials_of
+from ..solids.viscoelastic import alike
+from . import measure
+from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
+from .couplings.creep import Past, Remembering, SharedPast, TimeWeights
+from .couplings.driver import Settled
+from .couplings.menisci import Menisci
+from .couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
+from .couplings.shear_creep import ShearMemory
+from .couplings.sliding import SlidingCoupling
+from .couplings.stick_slip import StickSlip, StickSlipCoupling
+from .laws import JKRAdhesion
+from .operators import Operator
+from .problem import Approach, ContactProblem, Control, MeanGap, Step, as_step
+from .result import ContactResult
+from .solvers.protocol import ContactQP, FixedOffset, Solution, SolverState
+from .state import InterfaceState
+from .time_steps import Creeping, Moment, marched
+
+if TYPE_CHECKING:
+    from .solve import Prepared
+
+
+def require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
+    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
+    if isinstance(problem.adhesion, JKRAdhesion):
+        raise InputError(
+            "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
+            "wavelengths. Take ExponentialAdhesion(work, range)."
+        )
+    for coupling in couplings:
+        if isinstance(coupling, SlidingCoupling) and coupling.feedback:
+            materials = [m for solid, _ in deformable(problem.body, problem.counter_body) for m in materials_of(solid)]
+            if not isinstance(creep, SharedCreep) or not alike(tuple(materials)):
+                raise InputError(
+                    "friction of viscoelastic bodies must be None, or their moduli must all relax alike, but here they do not, and how shear "
+                    "makes them creep (coupling sliding) is not followed. Leave it out, or write Coulomb(mu, coupled=False)."
+                )
+
+
+class InTime:
+    """Steps of time of a prepared problem with viscoelastic bodies."""
+
+    def __init__(self, prepared: Prepared, remembering: Remembering) -> None:
+        self.prepared, self.remembering = prepared, remembering
+        self.shear: ShearMemory | None = None
+        if any(isinstance(coupling, StickSlipCoupling) for coupling in prepared.couplings):
+            engine = prepared.operator.engine
+            self.shear = ShearMemory.prepared(
+                prepared.problem, prepared.operators.creep, getattr(engine, "threads", None)
+            )
+
+    @property
+    def area(self) -> float:
+        """Nominal area, m²."""
+        return self.prepared.problem.grid.area
+
+    def step(self, step: Step, state: InterfaceState | None) -> ContactResult:
+        """Result at the end of ``step``, started from ``state``."""
+        started, prepared = time.perf_counter(), self.prepared
+        begin = self.begin(state)
+        moments, tries = marched(begin, step, prepared.time_steps, self)
+        if not moments:
+            raise ConvergenceError(
+                f"None of {tries} tries was within the tolerance {prepared.time_steps.tolerance:g} of the steps of time. "
+                "Allow more of them, or a larger tolerance."
+            )
+        last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
+        settled = self._ended(last, begin.past.time + step.duration, tries)
+        last = replace(last, ends=_summed(begin, moments))
+        creeping = _creeping(begin, moments, tries)
+        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last))
+        if before is not state:  # the work since the step began, not since the last moment
+            vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
+        return result
+
+    def _ended(self, last: Moment, end: float, tries: int) -> Settled:
+        """What settled in the ``last`` moment; not converged if the ``end`` (s) was not reached."""
+        settled = last.settled
+        assert settled is not None
+        if not settled.status.converged or last.past.time >= end * (1.0 - 1e-9):
+            return settled
+        message = f"{tries} steps of time led to {last.past.time:.6g} s of the {end:.6g} s at the end of the step."
+        remedy = "Allow more steps of time, or a larger tolerance of theirs."
+        return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
+
+    def begin(self, state: InterfaceState | None) -> Moment:
+        """What the interface is before a step, from its ``state``."""
+        past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
+        profile = self.prepared.profile
+        mean, approach, gap = past.place
+        if np.isnan(gap):
+            past = replace(past, place=(mean, approach, float(profile.max() - profile.mean())))
+        force = float(past.pressure.sum()) * self.prepared.problem.grid.pixel_area
+        fraction = np.count_nonzero(past.pressure > 0.0) / profile.size
+        largest = float(past.pressure.max())
+        record = np.array(
+            [past.time, *past.place[:1], force, *past.place[1:], fraction, largest, 0.0, past.dissipated, 0.0]
+        )
+        if state is not None:
+            state = replace(state, earlier=None)  # of a moment within the step before, which is not kept
+        return Moment(None, past, state, record)
+
+    def advanced(self, moment: Moment, control: Control | Step, length: float) -> Moment:
+        """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
+        prepared, problem = self.prepared, self.prepared.problem
+        weights = TimeWeights.of(self.remembering.times, length)
+        retarded = self.remembering.lift(moment.past, weights)
+        operator = prepared.operators.at(weights.after, self.remembering.summed(weights))
+        ahead = length / moment.length if moment.length else None
+        couplings, step = self._couplings(operator, moment, weights), as_step(control)
+        settled = self._apart(step, moment.state, operator, retarded, couplings) or prepared._settled(
+            step, moment.state, operator, retarded, ahead, couplings
+        )
+        contact = settled.contact
+        ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in couplings if c.name in settled.exchanges}
+        menisci = ends["menisci"][1] if "menisci" in ends else None
+        held_by = menisci.meniscus_force if isinstance(menisci, Menisci) else 0.0
+        area = problem.grid.area
+        external = max(menisci.external_force, 0.0) if isinstance(menisci, Menisci) else contact.force
+        approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
+        traction, deflection = contact.pressure, contact.solution.state.deflection
+        adhesive = ends["adhesion"][1] if "adhesion" in ends else None
+        if isinstance(adhesive, AdhesiveContact):
+            traction = traction - adhesive.attraction
+            deflection = deflection - operator.apply(adhesive.attraction)
+            external = adhesive.external_force - held_by
+        held = adhesive.grips if isinstance(adhesive, AdhesiveContact) else approach
+        place = (external / area, held, gap)
+        past, stored = self.remembering.after(moment.past, weights, traction, deflection, place)
+        if isinstance(adhesive, AdhesiveContact):
+            heat = past.dissipated - moment.past.dissipated
+            ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
+        past, sheared, works = self._sheared(moment, past, traction, weights, ends, couplings)
+        stored += sheared
+        memories = {name: memory for name, (memory, _) in ends.items() if memory}
+        earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
+        state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
+        fraction = measure.corrected_area(contact.touching, problem.grid, wraps=problem.boundary.wraps) / area
+        force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
+        top = contact.pressure.max()
+        numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
+        return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends, works)
+
+    def _sheared(
+        self,
+        moment: Moment,
+        past: Past,
+        pressure: RealArray,
+        weights: TimeWeights,
+        ends: dict[str, tuple[Memory, object]],
+        couplings: tuple[Coupling, ...],
+    ) -> tuple[Past, float, tuple[float, float]]:
+        """``past`` after a step with the memory and heat of shear, the energy (J) that it stores, which is noted in ``ends``, and its works (J)."""
+        if self.shear is None:
+            return past, 0.0, (0.0, 0.0)
+        coupling = next(each for each in couplings if isinstance(each, StickSlipCoupling))
+        memory, found = ends["stick_slip"]
+        assert isinstance(found, StickSlip)
+        before = _traction_before(moment.state, pressure.shape)
+        shear, more, heat = self.shear.after(moment.past, before, found.traction, pressure, weights)
+        ends["stick_slip"] = memory, replace(found, tangential_energy=more)
+        works = _works(moment, found, coupling, self.prepared.problem.grid.pixel_area)
+        return replace(past, shear=shear, dissipated=past.dissipated + heat), more, works
+
+    def _couplings(self, operator: Operator, moment: Moment, weights: TimeWeights) -> tuple[Coupling, ...]:
+        """Couplings of the problem with the ``operator`` of the step, and shear with what the past of the ``moment`` left."""
+        found: list[Coupling] = []
+        past = moment.past
+        for coupling in self.prepared.couplings:
+            if isinstance(coupling, AdhesionCoupling):
+                found.append(replace(coupling, operator=operator))
+            elif isinstance(coupling, SlidingCoupling) and coupling.feedback:
+                assert isinstance(self.remembering, SharedPast)
+                growth = 1.0 + float(self.remembering.creep.shares @ weights.after)
+                found.append(coupling.in_time(growth, self.remembering.held(past, weights)))
+            elif isinstance(coupling, StickSlipCoupling):
+                assert self.shear is not None
+                held = self.shear.held(past, _traction_before(moment.state, past.pressure.shape), weights)
+                found.append(replace(coupling, operator=self.shear.operator(weights), held=held))
+            else:
+                found.append(coupling)
+        return tuple(found)
+
+    def _apart(
+        self,
+        step: Step,
+        state: InterfaceState | None,
+        operator: Operator,
+        retarded: RealArray,
+        couplings: tuple[Coupling, ...],
+    ) -> Settled | None:
+        """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
+        prepared, control = self.prepared, step.normal
+        if not isinstance(control, Approach | MeanGap) or not retarded.any() or prepared.problem.adhesion is not None:
+            return None
+        dented = prepared.profile - retarded
+        if state is not None:
+            dented = dented - state.permanent_indentation
+        top = float(prepared.profile.max())
+        offset = top - control.value if isinstance(control, Approach) else control.value + float(dented.mean())
+        if float(dented.max()) > offset:
+            return None
+        none, scale = np.zeros_like(dented), height_scale(prepared.profile, control, prepared.operator)
+        posed = Posed(operator, prepared.profile, dented, control, scale, tangential=step.tangential, retarded=retarded)
+        qp = ContactQP(operator, dented, np.inf, FixedOffset(offset), scale)
+        status = Status(Outcome.CONVERGED, "The surfaces lie apart: nothing to solve.")
+        contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
+        memories = {} if state is None else state.memory
+        exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in couplings}
+        return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
+
+    def error(self, first: Moment, second: Moment, third: Moment) -> float:
+        """Error that the last of two steps of time adds to the displacement, relative to it."""
+        weights, pasts = (
+            TimeWeights.of(self.remembering.times, third.past.time - second.past.time),
+            (first.past, second.past, third.past),
+        )
+        found = self.remembering.curvature(pasts, weights)
+        if self.shear is None:
+            return found
+        shape = third.past.pressure.shape
+        tractions = tuple(_traction_before(moment.state, shape) for moment in (first, second, third))
+        return max(found, self.shear.curvature(pasts, tractions, weights))
+
+
+def _traction_before(state: InterfaceState | None, shape: tuple[int, ...]) -> RealArray:
+    """Shear traction (2, nx, ny) in Pa that a ``state`` remembers; zero where it does not."""
+    memory = {} if state is None else state.memory.get("stick_slip", {})
+    return np.stack([memory["traction_x"], memory["traction_y"]]) if memory else np.zeros((2, *shape))
+
+
+def _summed(begin: Moment, moments: list[Moment]) -> dict[str, tuple[Memory, object]]:
+    """What the couplings remember and found in the last of the ``moments``, slip and its heat since ``begin``."""
+    ends = dict(moments[-1].ends)
+    if "stick_slip" not in ends or len(moments) < 2:
+        return ends
+    each = [_stuck(moment) for moment in moments]
+    memory = ends["stick_slip"][0]
+    found = replace(
+        each[-1],
+        slip_increment=np.sum([one.slip_increment for one in each], axis=0),
+        dissipation_density=np.sum([one.dissipation_density for one in each], axis=0),
+        dissipated=sum(one.dissipated for one in each),
+        iterations=sum(one.iterations for one in each),
+        fft_pairs=sum(one.fft_pairs for one in each),
+    )
+    return {**ends, "stick_slip": (memory, found)}
+
+
+def _stuck(moment: Moment) -> StickSlip:
+    found = moment.ends["stick_slip"][1]
+    assert isinstance(found, StickSlip)
+    return found
+
+
+def _works(moment: Moment, found: StickSlip, coupling: StickSlipCoupling, pixel: float) -> tuple[float, float]:
+    """Work (J) of tangential force and torque from ``moment`` to what was ``found``, and what of it an implicit step takes, on points of ``pixel`` m²."""
+    memory = {} if moment.state is None else moment.state.memory.get("stick_slip", {})
+    place = memory["shift"] if memory else np.zeros(3)
+    moved = np.array([found.shift_x, found.shift_y, found.twist]) - place
+    change = found.traction - _traction_before(moment.state, found.traction.shape[1:])
+    assert coupling.held is not None
+    displaced = found.tangential_displacement - coupling.held.start
+    taken = 0.5 * pixel * float(np.einsum("kij,kij->", change, displaced))
+    return float(np.array([found.force_x, found.force_y, found.torque]) @ moved), taken
+
+
+def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:
+    """What happened through the ``moments`` after ``begin``."""
+    records, last = np.stack([begin.record, *(moment.record for moment in moments)]), moments[-1]
+    force, approach = records[:, 2], records[:, 3]
+    return Creeping(
+        records,
+        np.broadcast_to(last.retarded, last.past.pressure.shape),
+        last.stored,
+        last.past.dissipated - begin.past.dissipated,
+        float((0.5 * (force[1:] + force[:-1]) * np.diff(approach)).sum()),
+        tries,
+        sum(moment.shear_works[0] for moment in moments),
+        sum(moment.shear_works[1] for moment in moments),
+    )
