@@ -122,8 +122,11 @@ def test_a_smooth_branch_loses_nothing_and_its_work_is_known_whatever_the_step()
 
 def test_compliant_sphere_jumps_and_loses_what_the_cycle_takes():
     problem = sphere(96, 5.0, ExponentialAdhesion(WORK, WORK / strength_of(2.0)))
-    loop = adhesion_loop(asp.solve(problem, asp.History(adhesion_cycle(-1.2 * APPROACH, 0.0, steps=12))).steps)
+    solved = asp.solve(problem, asp.History(adhesion_cycle(-1.2 * APPROACH, 0.0, steps=12)))
+    loop, balance = adhesion_loop(solved.steps), solved.energies
     assert loop.jumped.sum() == 2
+    assert balance.jump_work[-1] == pytest.approx(loop.hysteresis, rel=1e-9)
+    assert balance.relative_error < 1e-9
     assert loop.hysteresis > 0.03 * WORK * LENGTH**2
     assert loop.margin.min() > 0.0
     assert abs(np.trapezoid(loop.force, loop.approach) - loop.hysteresis) <= loop.hysteresis_error

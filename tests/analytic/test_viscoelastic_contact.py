@@ -14,7 +14,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.couplings.creep import TimeWeights
 from asperity.contact.solve import steps
-from asperity.contact.solvers.active_set.linear_system import normal_stiffness
+from asperity.contact.solvers.active_set.stiffness import normal_stiffness
 from asperity.solids.compliance.creep import LayeredCreep, SharedCreep, complex_compliance, contact_creep
 
 PRONY = {
@@ -364,13 +364,6 @@ def test_weights_of_short_and_long_steps_are_smooth() -> None:
         (lambda: asp.Step(asp.MeanPressure(1.0), duration=-1.0), "duration of a step (s)"),
         (lambda: asp.TimeSteps(tolerance=2.0), "tolerance of the steps of time"),
         (lambda: asp.TimeSteps(number=0), "number of steps of time"),
-        (
-            lambda: asp.solve(
-                asp.ContactProblem(rough(), asp.Viscoelastic.maxwell(1e6, 1.0, 0.3), friction=asp.Coulomb(0.3)),
-                asp.Step(asp.MeanPressure(1e5), asp.Shift(1e-9)),
-            ),
-            "friction of viscoelastic bodies",
-        ),
     ],
 )
 def test_what_is_refused(make: Callable[[], object], subject: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Self, TypeAlias
 
@@ -14,6 +14,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
+from .adhesive_cycles import adhesion_loop
 from .problem import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
 from .result import ContactResult
 from .state import InterfaceState
@@ -249,7 +250,7 @@ class EnergyBalance:
     """Energies after each step of a history in J, counted from the touching of the unloaded bodies, dented as it found them.
 
     A history that goes on from a loaded interface, or with adhesion, is counted from its first step instead. Integrals are trapezia through
-    the steps. With adhesion F is less the attraction, and what a jump dissipates is in the residual. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
+    the steps. With adhesion F is less the attraction, and the work is that of ``adhesion_loop`` and of the menisci. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
     change of the elastic energy, K being symmetric, the work of the displacement by shear, which is part of u, and the
     plastic work, p being the hardness where dw > 0. F is the external force and that of the menisci. Periodic
     bodies are measured without the mean mode on both sides.
@@ -280,6 +281,8 @@ class EnergyBalance:
     viscous_work
         Heat of viscoelastic bodies. Their external work is by trapezia through the steps of time, and the elastic energy what their
         springs store.
+    jump_work
+        What adhesive contacts lose as they jump: in the steps with a jump all that nothing else takes.
     """
 
     external_work: RealArray
@@ -291,6 +294,7 @@ class EnergyBalance:
     slip_work: RealArray
     step_work: RealArray
     viscous_work: RealArray
+    jump_work: RealArray
 
     @property
     def residual(self) -> RealArray:
@@ -304,6 +308,7 @@ class EnergyBalance:
             - self.slip_work
             - self.step_work
             - self.viscous_work
+            - self.jump_work
         )
 
     @property
@@ -341,6 +346,8 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         shear, along = np.cumsum(shear), np.cumsum(along, axis=1)
     else:
         work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
+        if adhesion:
+            work = adhesion_loop(history.steps).work + pulled
         elastic, plastic = elastic - elastic[0], plastic - plastic[0]
         shear, along = np.cumsum(shear) - shear[0], np.cumsum(along, axis=1) - along[:, :1]
     viscous, moments = np.zeros(elastic.shape), [step.creep for step in history.steps if step.creep is not None]
@@ -349,7 +356,10 @@ def _balance(history: HistoryResult) -> EnergyBalance:
         if adhesion or (start is not None and start.pressure.any()):
             work, viscous = work - work[0], viscous - viscous[0]
     tangential, slip, taken = along
-    return EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous)
+    found = EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous, np.zeros(work.shape))
+    jumped = np.array([step.adhesion is not None and step.adhesion.jumped for step in history.steps])
+    jumped[0] = False  # from which energies are counted
+    return replace(found, jump_work=np.cumsum(np.where(jumped, np.diff(found.residual, prepend=0.0), 0.0)))
 
 
 def _shear_works(history: HistoryResult) -> RealArray:

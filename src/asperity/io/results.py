@@ -86,7 +86,7 @@ MARKS = (
 """Fields of true and false."""
 
 ENERGIES = (
-    Quantity("external_work", "J", "external work along the path, by the trapezoidal rule"),
+    Quantity("external_work", "J", "external work along the path"),
     Quantity("meniscus_work", "J", "part of the external work that menisci do"),
     Quantity("elastic_energy", "J", "elastic energy gained along the path"),
     Quantity("plastic_work", "J", "plastic work along the path"),
@@ -94,6 +94,7 @@ ENERGIES = (
     Quantity("tangential_work", "J", "work of the tangential force along the path, those at the ends of the steps"),
     Quantity("slip_work", "J", "energy dissipated by slip along the path"),
     Quantity("viscous_work", "J", "heat of viscoelastic bodies along the path"),
+    Quantity("jump_work", "J", "energy lost in jumps of adhesive contacts along the path"),
     Quantity("step_work", "J", "what the length of the implicit steps takes along the path"),
     Quantity("residual", "J", "external and tangential work less all other energies"),
 )

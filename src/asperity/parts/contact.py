@@ -152,33 +152,33 @@ def energy_table(path: HistoryResult) -> Table:
     """Energies along ``path`` wherever its load turns, and at its end."""
     balance = path.energies
     rounding = 1e-12 * float(abs(balance.external_work).max())
-    heat = {"Heat of viscoelastic solids": balance.viscous_work} if balance.viscous_work.any() else {}
+    lost = {"Heat of viscoelastic solids": balance.viscous_work, "Lost in jumps": balance.jump_work}
+    lost = {heading: energy for heading, energy in lost.items() if energy.any()}
     cells = []
     for step in path.turns:
         energies = (
             balance.external_work,
             balance.elastic_energy,
             balance.plastic_work,
-            *heat.values(),
+            *lost.values(),
             balance.residual,
         )
         values = [float(energy[step]) for energy in energies]
         cells.append((f"{step + 1}", *(show(value if abs(value) > rounding else 0.0, "J") for value in values)))
-    headings = ("Step", "External work", "Elastic energy", "Plastic work", *heat, "Error of the steps")
+    headings = ("Step", "External work", "Elastic energy", "Plastic work", *lost, "Error of the steps")
     return Table(headings, tuple(cells))
 
 
 def path_sentence(path: HistoryResult) -> str:
     """One sentence on the ``path``: its steps, and how well the energies add up."""
     failed = [number for number, result in enumerate(path.steps, start=1) if not result.converged]
-    parts = (
-        "elastic energy, plastic work and heat"
-        if path.energies.viscous_work.any()
-        else "elastic energy and plastic work"
-    )
+    balance = path.energies
+    more = {"heat": balance.viscous_work, "what is lost in jumps": balance.jump_work}
+    *most, end = ("elastic energy", "plastic work", *(name for name, energy in more.items() if energy.any()))
+    parts = f"{', '.join(most)} and {end}"
     text = (
         f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
-        f"of {parts} differ by at most {percent(path.energies.relative_error, 2)} of the largest "
+        f"of {parts} differ by at most {percent(balance.relative_error, 2)} of the largest "
         "work, by the error of the trapezoidal rule; more steps reduce it."
     )
     if failed:

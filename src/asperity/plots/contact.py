@@ -403,6 +403,8 @@ def plot_energies(path: HistoryResult, ax: Axes) -> Axes:
     if balance.tangential_work.any():
         kinds["tangential work ΣQΔδ"] = (balance.tangential_work, GREEN, "-")
         kinds["dissipated by slip"] = (balance.slip_work, PURPLE, "-")
+    if balance.jump_work.any():
+        kinds["lost in jumps"] = (balance.jump_work, PURPLE, "--")
     for label, (energy, colour, line) in kinds.items():
         ax.plot(step, in_j(energy), color=colour, linestyle=line, marker=".", markersize=3.0, label=label)
     ax.set(xlabel="step", ylabel=f"energy ({in_j.symbol})", xlim=(0.5, step[-1] + 0.5))

@@ -92,9 +92,9 @@ class AdhesivePowerLaw(Theory):
 
 @dataclass(frozen=True)
 class AdhesiveCylinder(Theory):
-    """Cylinder of relative radius R with adhesion in the contact alone; P per length, a the half-width.
+    """Cylinder of relative radius R with adhesion in the contact alone; P per length, a the half-width, P_c the pull-off force.
 
-        P = π E* a²/4R - sqrt(2π E* w a),  pull-off 3 (π E* w² R/16)^(1/3).
+        P = π E* a²/4R - sqrt(2π E* w a),  P_c = 3 (π E* w² R/16)^(1/3)
 
     The approach of distant points depends on how the bodies are held, so approach and stiffness are NaN.
 

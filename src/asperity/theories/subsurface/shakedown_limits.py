@@ -73,7 +73,7 @@ class ShakedownLine(Theory):
 class ShakedownPoint(Theory):
     """Elastic shakedown of a sphere that rolls and slides: peak pressures under which flow certainly ceases, and above which it certainly does not.
 
-    J_2(σ + ρ) <= k².
+    J_2(σ + ρ) ≤ k²
     """
 
     friction: Friction = 0.0
