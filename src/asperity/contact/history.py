@@ -357,9 +357,15 @@ def _balance(history: HistoryResult) -> EnergyBalance:
             work, viscous = work - work[0], viscous - viscous[0]
     tangential, slip, taken = along
     found = EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous, np.zeros(work.shape))
+    return replace(found, jump_work=_jump_works(history, found.residual))
+
+
+def _jump_works(history: HistoryResult, left: RealArray) -> RealArray:
+    """Energy (J) lost in jumps up to each step: of what nothing else takes, ``left``, the part of the steps with a jump."""
     jumped = np.array([step.adhesion is not None and step.adhesion.jumped for step in history.steps])
     jumped[0] = False  # from which energies are counted
-    return replace(found, jump_work=np.cumsum(np.where(jumped, np.diff(found.residual, prepend=0.0), 0.0)))
+    lost: RealArray = np.cumsum(np.where(jumped, np.diff(left, prepend=0.0), 0.0))
+    return lost
 
 
 def _shear_works(history: HistoryResult) -> RealArray:

@@ -51,8 +51,10 @@ def plane_level(qp: ContactQP, totals: Totals) -> float:
 
 
 def relative_error(work: Workspace, totals: Totals) -> float:
-    """``protocol.relative_error`` from the sums over the iterate."""
+    """``protocol.relative_error`` from the sums over the iterate; infinite where a step has let go of every point of a load."""
     qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
+    if work.load_prescribed and total <= 0.0:
+        return math.inf
     if work.load_prescribed and work.cap is None:
         lifted = totals.lowest * total
         rounding = _ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
@@ -384,7 +386,7 @@ class ActiveSet:
         work, applications = memory.work, spent.applications
         error = relative_error(work, memory.survey.totals)
         if memory.tension:
-            load = memory.survey.totals.pressure  # none where a start far too high has let go of every point
+            load = memory.survey.totals.pressure
             error = error + memory.tension / load if load > 0.0 else math.inf
         failed = memory.unsuccessful
         if failed is not None and error < memory.lowest:
