@@ -300,7 +300,16 @@ class ActiveSet:
         following, spent = step(memory, replace(state, iterations=state.iterations + 1), free)
         memory.work.engine.clear_field(free, memory.work.scaled.field)
         del free
+        if following.work.load_prescribed and following.survey.totals.pressure <= 0.0:
+            return self._begun_anew(qp, spent)
         return self._state(following, spent)
+
+    def _begun_anew(self, qp: ContactQP, spent: SolverState) -> SolverState:
+        """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
+        state = self._started(qp, feasible_start(qp, None), spent.applications + 1, spent.extra_pairs)
+        assert isinstance(state.memory, _Memory)
+        state.memory.unsuccessful = None
+        return replace(state, iterations=spent.iterations)
 
     def _unclipped_step(self, memory: _Memory, spent: SolverState, free: FreeSet) -> tuple[_Memory, SolverState]:
         """(3) Step after which points may be tensile.
