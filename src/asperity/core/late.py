@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
@@ -47,6 +48,18 @@ def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
     """Public names of a package by module, from the lines ``from .module import names`` of its ``stub``."""
     lines = re.findall(r"^from \.(\S*) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
     return {module: tuple(re.findall(r"\w+", several or one)) for module, several, one in lines}
+
+
+def late_package(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], Mapping[str, str]]:
+    """``__getattr__``, ``__dir__`` and modules by name of a ``package`` whose names stand in the stub beside its ``file``; a name found is kept."""
+    find = LateNames(package, names_of_stub(Path(file).with_suffix(".pyi")))
+    known = vars(sys.modules[package])
+
+    def found(name: str) -> Any:
+        value = known[name] = find(name)
+        return value
+
+    return found, lambda: [*known, *find.home], find.home
 
 
 class Shown:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,13 +14,13 @@ from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Choice, Length, NonNegative, Number, Whole
-from .part import Found, Part, Rows, Solved, Stored, Table, Words
-from .plastic_quantities import quantities_of, tension_table
+from .part import Found, Part, Rows, Solved, Stored, Words
+from .plastic_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
     from ..plots.picture import Figure
-    from .indenting import Indented, Indenter
+    from .indenting import Indenter
 
 Shape = Annotated[str, Choice({name: name for name in ("sphere", "cone")})]
 HalfAngle = Annotated[float, Number("angle", above=0.0, below=0.5 * math.pi)]
@@ -110,14 +109,6 @@ SCALARS = (
     Quantity("indent_residual_interface_peel", "Pa", "largest residual peel stress of an interface"),
 )
 """Numbers of an indentation; NaN where there is no layer, or an unloading cannot be fitted."""
-
-
-@dataclass(frozen=True, eq=False)
-class Detail:
-    """What words and figures need beside the values: ``facts`` as in JSON, and the run itself, which files do not keep."""
-
-    facts: Mapping[str, Any] = field(default_factory=dict)
-    run: Indented | None = None
 
 
 class Indentation(Part):
@@ -248,8 +239,6 @@ REMARK = (
 
 def indentation_words(found: Found) -> Words:
     """Sentence, headline, rows and tables."""
-    from ..io.words import value_text
-
     values, facts = found.values, found.detail.facts
     rows: Rows = [
         (
@@ -258,15 +247,12 @@ def indentation_words(found: Found) -> Words:
         ),
         ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
         ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
+        *number_rows(SCALARS, values),
     ]
-    tension = [item for item in SCALARS if "_tension" in item.name or "interface" in item.name]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value) and item not in tension:
-            rows.append((item.label, value_text(item, value)))
-    headings, cells = facts["zones"]
-    zones = Table(tuple(map(str, headings)), tuple(tuple(map(str, row)) for row in cells))
-    tables = (("Plastic zones", zones), ("Tension and shear that may crack layers", tension_table(values, "indent")))
+    tables = (
+        ("Plastic zones", zones_table(facts)),
+        ("Tension and shear that may crack layers", tension_table(values, "indent")),
+    )
     hard = show(float(values["indent_hardness"]), "Pa", 3)
     return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
 

@@ -20,8 +20,9 @@ from ..solids.elastic import Elastic, Rigid
 from ..solids.layers import Body, Layered, materials_of
 from ..solids.strength import flow_stress
 from ..theories.hardness.unloading import analyse_indentation
-from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN, Detail
+from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN
 from .part import Found
+from .plastic_quantities import Detail
 from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, meshed_laws, zone_table
 
 LEFT = 4.0

@@ -67,6 +67,16 @@ class Found:
     status: Status | None = None
     words: Words | None = None
 
+    def columns(self, prefix: str) -> dict[str, Any]:
+        """Values whose names begin with ``prefix``, as arrays of one dimension or more by the rest of their names."""
+        import numpy as np
+
+        return {
+            name.removeprefix(prefix): np.atleast_1d(np.asarray(values))
+            for name, values in self.values.items()
+            if name.startswith(prefix)
+        }
+
 
 @dataclass(frozen=True, eq=False)
 class Stored:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,12 +15,12 @@ from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
-from .plastic_quantities import quantities_of, tension_table
+from .plastic_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
     from ..plots.picture import Figure
-    from .passing import Course, Passed
+    from .passing import Course
 
 Shape = Annotated[str, Choice({name: name for name in ("cylinder", "sphere")})]
 Motion = Annotated[str, Choice({name: name for name in ("one way", "to and fro", "in place")})]
@@ -156,14 +155,6 @@ PROFILE = (
 """Columns of the residual stress below the middle of the track."""
 
 
-@dataclass(frozen=True, eq=False)
-class Detail:
-    """What words and figures need beside the values: ``facts`` as in JSON, and the run itself, which files do not keep."""
-
-    facts: Mapping[str, Any] = field(default_factory=dict)
-    run: Passed | None = None
-
-
 @dataclass(frozen=True)
 class Passing:
     """What is asked of the passes, and the friction coefficient of the contact."""
@@ -283,23 +274,16 @@ REMARK = (
 
 def passes_words(found: Found) -> Words:
     """Sentence, headline, rows and tables."""
-    from ..io.words import value_text
-
     values, facts = found.values, found.detail.facts
     rows: Rows = [
         ("indenter", str(facts["indenter"])),
         ("motion", str(facts["motion"])),
         ("pressure", str(facts["pressure"])),
+        *number_rows(SCALARS, values),
     ]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value) and not ("_tension" in item.name or "interface" in item.name):
-            rows.append((item.label, value_text(item, value)))
-    headings, cells = facts["zones"]
-    zones = Table(tuple(map(str, headings)), tuple(tuple(map(str, row)) for row in cells))
     tables = (
         ("What each pass adds", _pass_table(values)),
-        ("Plastic zones of the passes", zones),
+        ("Plastic zones of the passes", zones_table(facts)),
         ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
     )
     return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))

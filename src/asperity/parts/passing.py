@@ -28,7 +28,8 @@ from ..theories.single.hertz import HertzLine, HertzPoint
 from ..theories.subsurface.point_shakedown import sphere_shakedown
 from ..theories.subsurface.shakedown import cylinder_shakedown
 from .part import Found
-from .passes import EACH, KEYS, PREFIX, SCALARS, Detail, PassesSettings, verdict
+from .passes import EACH, KEYS, PREFIX, SCALARS, PassesSettings, verdict
+from .plastic_quantities import Detail
 from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, meshed_laws, zone_table
 
 REACH = 2.0

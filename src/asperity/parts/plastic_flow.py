@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,8 +11,8 @@ from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Length, Number, Whole
-from .part import Found, Part, Rows, Solved, Stored, Table, Words
-from .plastic_quantities import quantities_of, tension_table
+from .part import Found, Part, Solved, Stored, Words
+from .plastic_quantities import number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem, Control, Step
@@ -180,19 +179,13 @@ REMARK = (
 
 def flow_words(found: Found) -> Words:
     """Sentence, headline, rows and tables."""
-    from ..io.words import value_text
-
     values, facts = found.values, found.detail
-    rows: Rows = []
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value) and not ("_tension" in item.name or "interface" in item.name):
-            rows.append((item.label, value_text(item, value)))
-    headings, cells = facts["zones"]
-    zones = Table(tuple(map(str, headings)), tuple(tuple(map(str, row)) for row in cells))
-    tables = (("Plastic zones", zones), ("Tension and shear that may crack layers", tension_table(values, "flow")))
+    tables = (
+        ("Plastic zones", zones_table(facts)),
+        ("Tension and shear that may crack layers", tension_table(values, "flow")),
+    )
     headline = [("largest plastic strain", percent(float(values["flow_largest_strain"])))]
-    return Words(_sentence(values), headline, rows, tables, (REMARK,))
+    return Words(_sentence(values), headline, number_rows(SCALARS, values), tables, (REMARK,))
 
 
 def _sentence(values: Mapping[str, Any]) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..core.quantity import Quantity
 from ..core.units import show
-from .part import Table
+from .part import Rows, Table
 
 CUT = (
     ("across", "m", "edges of the cells of the cut", "edge_across"),
@@ -42,6 +43,29 @@ def quantities_of(prefix: str) -> tuple[Quantity, ...]:
         Quantity(f"{prefix}_{name}", unit, label, tuple(f"{prefix}_{axis}" for axis in axes.split()))
         for name, unit, label, axes in (*CUT, *CURVE, *IMPRINT)
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Detail:
+    """What words and figures of finite elements need beside the values: ``facts`` as in JSON, and the run itself, which files do not keep."""
+
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    run: Any = None
+
+
+def number_rows(scalars: Sequence[Quantity], values: Mapping[str, Any]) -> Rows:
+    """What is known of the ``scalars``, without those of ``tension_table``."""
+    from ..io.words import value_text
+
+    known = [item for item in scalars if not ("_tension" in item.name or "interface" in item.name)]
+    found = [(item, float(values[item.name])) for item in known]
+    return [(item.label, value_text(item, value)) for item, value in found if math.isfinite(value)]
+
+
+def zones_table(facts: Mapping[str, Any]) -> Table:
+    """Plastic zones from the ``facts`` that files keep."""
+    headings, cells = facts["zones"]
+    return Table(tuple(map(str, headings)), tuple(tuple(map(str, row)) for row in cells))
 
 
 def tension_table(values: Mapping[str, Any], prefix: str) -> Table:

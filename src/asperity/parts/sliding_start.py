@@ -166,14 +166,9 @@ def picture_of(found: Found, solved: Solved) -> StartPicture:
 
     from ..plots.viscoelastic import StartPicture
 
-    columns = {
-        name.removeprefix("way_"): np.atleast_1d(np.asarray(values))
-        for name, values in found.values.items()
-        if name.startswith("way_")
-    }
     facts, pressure = found.detail, np.asarray(found.values[FIELD.name])
     steady = float(facts["hysteresis_friction"]), float(facts["sliding_area_fraction"])
-    return StartPicture(solved.problem, pressure, float(facts["direction"]), columns, *steady)
+    return StartPicture(solved.problem, pressure, float(facts["direction"]), found.columns("way_"), *steady)
 
 
 # In words and tables.

@@ -359,12 +359,9 @@ def picture_of(found: Found, solved: Solved) -> TimePicture:
 
     from ..plots.viscoelastic import TimePicture, relaxing_solids
 
-    moments = {
-        name.removeprefix("moment_"): np.atleast_1d(np.asarray(values))
-        for name, values in found.values.items()
-        if name.startswith("moment_")
-    }
-    return TimePicture(moments, np.atleast_1d(np.asarray(found.values["step_end"])), relaxing_solids(solved.problem))
+    return TimePicture(
+        found.columns("moment_"), np.atleast_1d(np.asarray(found.values["step_end"])), relaxing_solids(solved.problem)
+    )
 
 
 # In words and tables.

@@ -5,21 +5,7 @@ The stub beside this file lists the names and their modules, for type checkers t
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from ..core.late import late_package
 
-from ..core.late import LateNames, names_of_stub
-
-_find = LateNames(__name__, names_of_stub(Path(__file__).with_suffix(".pyi")))
-_HOME = _find.home
-
+__getattr__, __dir__, _HOME = late_package(__name__, __file__)
 __all__ = sorted(_HOME)
-
-
-def __getattr__(name: str) -> Any:
-    value = globals()[name] = _find(name)
-    return value
-
-
-def __dir__() -> list[str]:
-    return [*globals(), *__all__]

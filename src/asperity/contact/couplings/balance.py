@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -86,10 +87,11 @@ def settle_forces(
     NoSolutionError
         If the interface bears no such force.
     """
-    search = _Search(posed, couplings, memories, solver, rounds, progress)
+    held = partial(settle, couplings=couplings, solver=solver, rounds=rounds, progress=progress)
+    search = _Search(posed, couplings, memories, held)
     first: Settled | None = None
     try:
-        first = settle(posed, couplings, memories, solver, rounds=rounds, progress=progress)
+        first = held(posed, memories=memories)
     except NoSolutionError as error:
         if error.subject != "force":
             raise
@@ -101,21 +103,12 @@ def settle_forces(
 
 
 class _Search:
-    """Contacts of one step held at approaches."""
+    """Contacts of one step held at approaches, by ``settle`` of the couplings."""
 
     def __init__(
-        self,
-        posed: Posed,
-        couplings: Sequence[Coupling],
-        memories: Mapping[str, Memory],
-        solver: Solver,
-        rounds: Rounds,
-        progress: Progress | None,
+        self, posed: Posed, couplings: Sequence[Coupling], memories: Mapping[str, Memory], held: Callable[..., Settled]
     ) -> None:
-        self.posed, self.couplings, self.memories = posed, couplings, memories
-        self.settle: Callable[[Posed, Mapping[str, Memory]], Settled] = lambda at, known: settle(
-            at, couplings, known, solver, rounds=rounds, progress=progress
-        )
+        self.posed, self.memories, self.settle = posed, memories, held
         self.law = next(c for c in couplings if isinstance(c, AdhesionCoupling)).law
         self.film = next(c for c in couplings if isinstance(c, MeniscusCoupling)).film
         self.pixel = self.film.suction * posed.operator.grid.pixel_area
@@ -181,7 +174,7 @@ class _Search:
             memories["adhesion"] = {**_UNKNOWN, **self.memories.get("adhesion", {}), **followed}
             pressure = before.contact.pressure
             posed = replace(posed, start=pressure if pressure.any() else posed.start)
-        return self.measured(self.settle(posed, memories))
+        return self.measured(self.settle(posed, memories=memories))
 
     def _bracket(self, near: _Held) -> tuple[_Held, _Held]:
         """Contacts on both sides of the force wanted, the nearer to the start first."""

@@ -22,8 +22,29 @@ PEAKS = (
 )
 
 
+class _Limit:
+    """The numbers of both limits, from what was ``found``."""
+
+    found: CylinderShakedown | SphereShakedown
+
+    @property
+    def peak_over_k(self) -> float:
+        """Peak pressure that certainly shakes down over the yield stress in shear."""
+        return self.found.peak_over_k
+
+    @property
+    def peak_over_Y(self) -> float:
+        """The same over the tensile yield stress."""
+        return self.found.peak_over_k / math.sqrt(3.0)
+
+    @property
+    def depth(self) -> float:
+        """Depth in contact radii (half-widths) where it is reached."""
+        return self.found.depth
+
+
 @dataclass(frozen=True)
-class ShakedownLine(Theory):
+class ShakedownLine(_Limit, Theory):
     """Elastic shakedown of a cylinder that rolls and slides: the largest peak pressure under which flow ceases after some passes.
 
         p^s = min_z 1/min_c max_x sqrt(((σ_xx - σ_zz)/2 - c)² + σ_xz²).
@@ -49,28 +70,13 @@ class ShakedownLine(Theory):
         object.__setattr__(self, "found", cylinder_shakedown(self.friction))
 
     @property
-    def peak_over_k(self) -> float:
-        """Peak pressure over the yield stress in shear."""
-        return self.found.peak_over_k
-
-    @property
-    def peak_over_Y(self) -> float:
-        """Peak pressure over the tensile yield stress."""
-        return self.found.peak_over_k / math.sqrt(3.0)
-
-    @property
-    def depth(self) -> float:
-        """Depth in half-widths."""
-        return self.found.depth
-
-    @property
     def residual(self) -> float:
         """Residual stress over the peak pressure."""
         return self.found.residual
 
 
 @dataclass(frozen=True)
-class ShakedownPoint(Theory):
+class ShakedownPoint(_Limit, Theory):
     """Elastic shakedown of a sphere that rolls and slides: peak pressures under which flow certainly ceases, and above which it certainly does not.
 
     J_2(σ + ρ) ≤ k²
@@ -92,21 +98,6 @@ class ShakedownPoint(Theory):
         object.__setattr__(self, "found", sphere_shakedown(self.friction, self.nu))
 
     @property
-    def peak_over_k(self) -> float:
-        """Peak pressure that certainly shakes down over the yield stress in shear."""
-        return self.found.peak_over_k
-
-    @property
-    def peak_over_Y(self) -> float:
-        """The same over the tensile yield stress."""
-        return self.found.peak_over_k / math.sqrt(3.0)
-
-    @property
     def bound_over_k(self) -> float:
         """Peak pressure above which flow never ceases over the yield stress in shear."""
         return self.found.bound_over_k
-
-    @property
-    def depth(self) -> float:
-        """Depth in contact radii where the former is reached."""
-        return self.found.depth
