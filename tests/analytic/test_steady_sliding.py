@@ -148,11 +148,115 @@ def test_load_that_reaches_a_position() -> None:
             ),
             "law of steady sliding",
         ),
+        (
+            lambda: asp.slide(
+                asp.ContactProblem(rough(), asp.Rigid(), counter_body=RUBBER, friction=asp.Coulomb(0.2)), LOAD, 1.0
+            ),
+            "friction and plastic_flow of steady sliding",
+        ),
+        (lambda: asp.slide(sticky(32, asp.JKRAdhesion(1e-4)), LIGHT, 1.0), "adhesion of viscoelastic bodies"),
+        (lambda: asp.slide(sticky(32, None), asp.Pull(1e-4), 1.0), "control of a problem without adhesion"),
+        (
+            lambda: asp.slide(sticky(32), LIGHT, 1.0, after=asp.slide(sticky(16), LIGHT, 1.0)),
+            "permanent indentation of the state",
+        ),
+        (lambda: asp.slide(sticky(32), LIGHT, 1.0).persson(), "adhesion and film beside Persson's theory"),
     ],
 )
 def test_what_is_refused(make: Callable[[], object], subject: str) -> None:
     with refused(asp.InputError, subject):
         make()
+
+
+# With adhesion and menisci.
+
+SLS = rubber("sls")
+LIGHT = asp.MeanPressure(0.1 * np.pi * 0.01)
+STICKY = asp.ExponentialAdhesion(2e-4, 2e-3)
+
+
+def sticky(
+    points: int, adhesion: asp.Adhesion | None = STICKY, body: asp.Elastic = SLS, film: asp.LiquidFilm | None = None
+) -> asp.ContactProblem:
+    return asp.ContactProblem(wave(points, 0.01, 1.0), asp.Rigid(), counter_body=body, adhesion=adhesion, film=film)
+
+
+def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
+    """Friction to the error of the steps of time (5e-3 at two steps a pixel); the two ways to it, work of pressure and attraction, by a pixel at the edges."""
+    steady, dry = asp.slide(sticky(64), LIGHT, 0.1), asp.slide(sticky(64, None), LIGHT, 0.1)
+    found = asp.slide_in_time(sticky(64), LIGHT, 0.1, 3.0)
+    assert found.mean_friction(1.0) == pytest.approx(steady.friction, rel=0.02)
+    assert found.last.area_fraction == pytest.approx(steady.normal.area_fraction, abs=1.5 / 64)
+    fine = asp.slide(sticky(256), LIGHT, 0.1)
+    assert fine.slope_friction == pytest.approx(fine.friction, rel=5e-3)
+    assert fine.friction == pytest.approx(steady.friction, rel=0.03)
+    assert steady.friction > 3.0 * dry.friction
+    assert steady.normal.external_force == pytest.approx(LIGHT.value, rel=1e-9)
+
+
+@pytest.mark.parametrize(("speed", "modulus", "error"), [(1e7, 10.0, 1e-6), (1e-8, 1.0, 1e-5)])
+def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float, error: float) -> None:
+    """The adhesive contact of the first instant or of the relaxed body: the lag goes with the ratio of times, 1e-7 of the displacement."""
+    found = asp.slide(sticky(64), LIGHT, speed)
+    elastic = asp.solve(sticky(64, body=asp.Elastic(modulus, 0.0)), LIGHT)
+    np.testing.assert_allclose(found.normal.pressure, elastic.pressure, atol=error * elastic.max_pressure)
+    assert found.normal.area_fraction == elastic.area_fraction
+    assert abs(found.friction) < 1e-5
+
+
+def test_full_adhesive_contact_has_no_edge() -> None:
+    """Both ways to the friction agree to the error of the displacement, and it is that of the wave in full contact: attraction changes no displacement."""
+    found = asp.slide(sticky(64), LIGHT, 0.01)
+    assert found.normal.area_fraction == 1.0
+    assert found.slope_friction == pytest.approx(found.friction, rel=1e-6)
+    pressed = asp.slide(sticky(64, None), asp.MeanPressure(1.0), 0.01)
+    assert pressed.normal.area_fraction == 1.0
+    assert found.friction_stress == pytest.approx(pressed.friction_stress, rel=1e-6)
+
+
+def test_adhesive_sliding_stays_on_its_branch() -> None:
+    """Under one load a steep wave touches in part after it was brought to touch, and everywhere after it was pressed there, under a pull as well."""
+    steep = asp.ContactProblem(wave(64, 0.02, 1.0), asp.Rigid(), counter_body=SLS, adhesion=STICKY)
+    touched = asp.slide(steep, LIGHT, 1e-3)
+    pressed = asp.slide(steep, asp.MeanPressure(0.5), 1e-3)
+    held = asp.slide(steep, LIGHT, 1e-3, after=pressed)
+    assert touched.normal.area_fraction < 0.5
+    assert held.normal.area_fraction == 1.0
+    assert held.friction > touched.friction
+    pulled = asp.slide(steep, asp.Pull(1e-3), 1e-3, after=held)
+    assert pulled.normal.area_fraction == 1.0
+    assert pulled.normal.external_force == pytest.approx(-1e-3, rel=1e-9)
+    assert pulled.friction_stress == pytest.approx(held.friction_stress, rel=1e-6)
+    assert np.isnan(pulled.friction)
+    with refused(asp.NoSolutionError, "force"):
+        asp.slide(steep, asp.Pull(1.0), 1e-3, after=held)
+
+
+def test_machine_that_gives_way_while_it_slides() -> None:
+    """The approach of the bodies is that of the grips less the force over the stiffness, and the contact is that at this approach, to the tolerance of the attraction."""
+    grips = asp.FixedGrips(4e-3, 5.0)
+    found = asp.slide(sticky(64), grips, 0.1)
+    force = found.normal.external_force
+    assert found.normal.approach == pytest.approx(grips.value - force / grips.stiffness, rel=1e-5)
+    again = asp.slide(sticky(64), asp.FixedGrips(found.normal.approach), 0.1)
+    assert again.normal.external_force == pytest.approx(force, rel=1e-4)
+    assert again.friction_stress == pytest.approx(found.friction_stress, rel=1e-4)
+
+
+@pytest.mark.parametrize("adhesion", [None, STICKY])
+def test_menisci_press_a_sliding_surface(adhesion: asp.Adhesion | None) -> None:
+    """The contact is that under the load and the force of the menisci together, and the coefficient is over the load."""
+    film = asp.LiquidFilm(surface_tension=2.5e-6, thickness=1e-3)
+    load = 0.1 * np.pi * 0.01
+    found = asp.slide(sticky(64, adhesion, film=film), asp.MeanPressure(load), 1.0)
+    menisci = found.normal.menisci
+    assert menisci is not None
+    assert menisci.meniscus_force > 0.0
+    assert found.normal.external_force == pytest.approx(load, rel=1e-4)
+    both = asp.slide(sticky(64, adhesion), asp.MeanPressure(load + menisci.meniscus_force), 1.0)
+    np.testing.assert_allclose(found.normal.pressure, both.normal.pressure, atol=2e-3 * both.normal.max_pressure)
+    assert found.friction_stress == pytest.approx(both.friction_stress, rel=1e-3)
+    assert found.friction == pytest.approx(found.friction_stress / load, rel=1e-3)
 
 
 # Persson's theory beside it.

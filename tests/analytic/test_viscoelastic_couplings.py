@@ -52,6 +52,18 @@ def test_slow_retraction_is_that_of_the_relaxed_body() -> None:
     assert slow.energies.relative_error < 0.02
 
 
+def test_machine_that_gives_way_while_the_body_relaxes() -> None:
+    """At once and after a long hold forces are those of the elastic contacts of the first and the relaxed modulus in the same machine, to the error of the steps."""
+    grips = asp.FixedGrips(float(PLACES[0]), 20.0)
+    found = asp.solve(sphere(RUBBER), asp.History([grips, asp.Step(grips, duration=1e3)]), time_steps=COARSE)
+    for step, modulus in zip(found.steps, (FIRST, RELAXED), strict=True):
+        elastic = asp.solve(sphere(asp.Elastic(modulus, 0.5)), grips)
+        assert step.external_force == pytest.approx(elastic.external_force, abs=5e-3 * elastic.force)
+        assert step.approach == pytest.approx(
+            grips.value - step.external_force / grips.stiffness, abs=1e-5 * grips.value
+        )
+
+
 def test_retraction_at_once_is_elastic_about_what_has_crept() -> None:
     """After the dwell the retarded displacement stays: an elastic contact of the first modulus of surfaces lowered by it."""
     found = retracted(RUBBER, np.inf)

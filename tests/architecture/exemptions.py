@@ -16,6 +16,8 @@ LIMITS: dict[str, dict[str, str]] = {
         "Indentation.of": "the same choices as those of the function",
         "StressPlanes.__init__": "independent keyword-only choices of the user, and the stress that a result knows beside its tractions",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
+        "finished": "what a solve ends with, and who asks: a history, a step of time or a sliding contact",
+        "slide": "independent keyword-only choices of the user, each with a default",
         "hertz_pass": "independent keyword-only choices of the user, each with a default",
         "hertz_steps": "the same choices as those of the pass",
         "sliding_pass": "independent keyword-only choices of the user, each with a default",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -268,6 +269,39 @@ def test_start_of_sliding_and_its_files(tmp_path: Path) -> None:
     assert texts[0].sentence == texts[1].sentence
 
 
+ATTRACTED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "adhesion": (
+        {"adhesion": {"law": "exponential", "work": "50 mJ/m^2", "range": "0.5 um"}},
+        {"adhesion": asp.ExponentialAdhesion(0.05, 0.5e-6)},
+    ),
+    "film": (
+        {"film": {"liquid": "water", "thickness": "0.3 um"}},
+        {"film": asp.LiquidFilm.of(asp.liquid("water"), 0.3e-6)},
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", ATTRACTED)
+def test_sliding_of_surfaces_that_attract_each_other(kind: str, tmp_path: Path) -> None:
+    """Adhesion and menisci stand beside sliding in documents with the numbers of Python, at rest, on the way and steadily; Persson's theory is left out."""
+    table, physics = ATTRACTED[kind]
+    dry, outcome = asp.run(START), asp.run(START | table)
+    problem = replace(build(checked(START)).problem, **physics)
+    load = asp.MeanPressure(0.2e6)
+    steady, start = asp.slide(problem, load, 0.01), asp.slide_in_time(problem, load, 0.01, 1e-3, steps_per_pixel=1)
+    assert outcome.values["hysteresis_friction"] == pytest.approx(steady.friction, rel=1e-9)
+    assert outcome.values["start_last_friction"] == pytest.approx(start.mean_friction(0.25e-3), rel=1e-9)
+    assert outcome.values["hysteresis_friction"] > dry.values["hysteresis_friction"]
+    assert outcome.values["sliding_area_fraction"] > dry.values["sliding_area_fraction"]
+    assert math.isnan(outcome.values["persson_friction"])
+    save_outcome(outcome, tmp_path / "sliding.nc")
+    again = load_outcome(tmp_path / "sliding.nc")
+    for each in (outcome, again):
+        words = next(words for part, words in each.sections if part.name == "hysteresis")
+        assert f"friction of {steady.friction:.3g}" in words.sentence
+        assert "knows no attraction" in " ".join(words.remarks)
+
+
 def test_start_of_sliding_that_leaves_its_grid_is_a_finding() -> None:
     table = ROLLER | {"hysteresis": ROLLER["hysteresis"] | {"distance": "2 um", "steps_per_pixel": 1}}
     assert "edge of the grid" not in {finding.criterion for finding in asp.run(table).findings}
@@ -383,7 +417,12 @@ REFUSED: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
         "direction of sliding (rad)",
     ),
     "hard rubber": (GROUND, {"law": {"kind": "hardness", "hardness": "5 GPa"}}, "law of steady sliding"),
-    "wet": (GROUND, {"film": {"liquid": "water", "humidity": "80 %"}}, "film"),
+    "sheared": (GROUND, {"friction": {"coefficient": 0.3}, "shear": {"shift": "1 nm"}}, "shear"),
+    "sticky without range": (
+        GROUND,
+        {"adhesion": {"law": "jkr", "work": "50 mJ/m^2"}},
+        "adhesion of viscoelastic bodies",
+    ),
 }
 
 

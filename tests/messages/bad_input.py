@@ -92,7 +92,7 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*ON_RUBBER, "--sliding-distance", "1km"),
     (*ON_RUBBER, "--slowest", "1m/s", "--fastest", "1mm/s"),
     (*ON_RUBBER, "--speed-points", "3"),
-    (*ON_RUBBER, "--adhesion", "50mJ/m**2", "--adhesion-range", "1nm"),
+    (*ON_RUBBER, "--adhesion", "50mJ/m**2", "--adhesion-law", "jkr"),
     (*COATED_RUBBER, "--friction", "0.3", "--shift", "5nm"),
     ("--body", "moduli=none.csv,nu=0.3", *LOAD),
     ("--body", "E=1GPa,power=0.1,shortest=1e-300s,longest=1e300s,nu=0.3", *LOAD),

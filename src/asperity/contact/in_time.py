@@ -35,13 +35,18 @@ if TYPE_CHECKING:
     from .solve import Prepared
 
 
-def require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
-    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
+def require_range(problem: ContactProblem) -> None:
+    """Refuse adhesion without range of bodies that relax with an InputError."""
     if isinstance(problem.adhesion, JKRAdhesion):
         raise InputError(
             "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
             "wavelengths. Take ExponentialAdhesion(work, range)."
         )
+
+
+def require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
+    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
+    require_range(problem)
     for coupling in couplings:
         if isinstance(coupling, SlidingCoupling) and coupling.feedback:
             materials = [m for solid, _ in deformable(problem.body, problem.counter_body) for m in materials_of(solid)]

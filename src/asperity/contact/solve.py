@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypedDict, Unpack, overload
 
@@ -280,49 +280,78 @@ class Prepared:
         in_time: tuple[Creeping, Moment] | None = None,
     ) -> ContactResult:
         """Result of what ``settled`` in so many ``seconds``, started from ``state``, with what happened in time."""
-        contact, problem = settled.contact, self.problem
         ends: dict[str, tuple[Memory, object]]
         if in_time is None:
-            ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in self.couplings}
+            ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in self.couplings}
         else:
             ends = {**in_time[1].ends, "creep": (in_time[1].past.memory, in_time[0])}
-        found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
-        lift = next((found[name].shear_displacement for name in ("sliding", "stick_slip") if name in found), None)
-        attraction = found["adhesion"].attraction if "adhesion" in found else None
-        if attraction is not None:
-            lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
-        residual = found["stick_slip"].complementarity if "stick_slip" in found else 0.0
-        certificate = replace(self._certificate(settled, seconds), complementarity=residual)
-        status = doubted(settled.status, certificate)
-        for name in ("stick_slip", "adhesion"):
-            if status.converged and name in found and not found[name].status.converged:
-                status = found[name].status
-        shown = replace(contact, solution=replace(contact.solution, status=status))
-        papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
-        return assemble(
-            problem,
-            shown,
+        found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items()}
+        sheared = [found[name].shear_displacement for name in ("sliding", "stick_slip") if found.get(name) is not None]
+        return finished(
+            self.problem,
+            settled,
+            ends,
+            self.solver,
             before=state,
-            memories={name: memory for name, (memory, _) in ends.items()},
-            lift=lift if lift is not None and lift.any() else None,
-            attraction=attraction,
+            lift=sheared[0] if sheared else None,
+            seconds=seconds,
             stiffness=self.keep.stiffness,
-            certificate=certificate,
-            outcomes=found,
-            citations=tuple(sorted({*problem.citation_keys, *self.solver.citation_keys, *papers})),
         )
 
-    def _certificate(self, settled: Settled, seconds: float) -> Certificate:
-        contact, name = settled.contact, self.solver.name
-        found = certify(
-            contact.qp,
-            contact.solution,
-            contact.totals,
-            solver=name,
-            tolerance=settled.tolerance,
-            wall_time=seconds,
-        )
-        return replace(found, couplings=settled.checks, rounds=settled.rounds)
+
+def finished(
+    problem: ContactProblem,
+    settled: Settled,
+    ends: Mapping[str, tuple[Memory, object]],
+    solver: Solver,
+    *,
+    before: InterfaceState | None,
+    lift: RealArray | None,
+    seconds: float,
+    stiffness: bool = False,
+) -> ContactResult:
+    """Result of what ``settled`` by ``solver`` in so many ``seconds`` from the interface ``before``, and of the ``ends`` of all couplings.
+
+    ``lift`` (nx, ny) in m is the elastic displacement that is neither by pressure nor by attraction.
+    """
+    contact = settled.contact
+    found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
+    attraction = found["adhesion"].attraction if "adhesion" in found else None
+    if attraction is not None:
+        lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
+    certificate = _certified(settled, solver, seconds)
+    if "stick_slip" in found:
+        certificate = replace(certificate, complementarity=found["stick_slip"].complementarity)
+    status = doubted(settled.status, certificate)
+    for name in ("stick_slip", "adhesion"):
+        if status.converged and name in found and not found[name].status.converged:
+            status = found[name].status
+    papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
+    return assemble(
+        problem,
+        replace(contact, solution=replace(contact.solution, status=status)),
+        before=before,
+        memories={name: memory for name, (memory, _) in ends.items()},
+        lift=lift if lift is not None and lift.any() else None,
+        attraction=attraction,
+        stiffness=stiffness,
+        certificate=certificate,
+        outcomes=found,
+        citations=tuple(sorted({*problem.citation_keys, *solver.citation_keys, *papers})),
+    )
+
+
+def _certified(settled: Settled, solver: Solver, seconds: float) -> Certificate:
+    contact = settled.contact
+    found = certify(
+        contact.qp,
+        contact.solution,
+        contact.totals,
+        solver=solver.name,
+        tolerance=settled.tolerance,
+        wall_time=seconds,
+    )
+    return replace(found, couplings=settled.checks, rounds=settled.rounds)
 
 
 def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:

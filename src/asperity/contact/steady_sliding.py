@@ -7,7 +7,8 @@ for each load, but there is no energy that it would minimise.
 
 With the symmetric operator S of the compliance 1/Re(1/c), of the storage modulus, K p = S p + (K - S) p. Contacts with S, whose profile is
 lowered by (K - S) p of the last one, approach the solution: in the norm of S each of them has at most sin(phi) times the error of the one
-before, phi being the largest loss angle, for |c - S|/S = sin(phi).
+before, phi being the largest loss angle, for |c - S|/S = sin(phi). Adhesion adds its attraction to what moves, so that p is the net traction, and a contact with S is an adhesive one, on a branch
+of its own; the bound by sin(phi) is then that of its linear part alone.
 """
 
 from __future__ import annotations
@@ -36,15 +37,18 @@ from ..surfaces.surface import Surface
 from ..theories.rough.persson import IsotropicSpectrum
 from ..theories.rough.rubber_friction import RubberFriction, rubber_friction
 from .boundary import Periodic
+from .couplings.adhesion import require_adhesion
+from .couplings.balance import balances, settle_forces
 from .couplings.driver import Rounds, Settled, settle
-from .couplings.hardness import ConstantHardness
-from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
+from .in_time import require_range
 from .laws import HardWall
 from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
 from .problem import ContactProblem, Control, Unloaded
-from .result import ContactResult, assemble, certify
+from .result import ContactResult
+from .solve import couplings_of, finished
 from .solvers.active_set.solver import ActiveSet
 
 TOLERANCE = 1e-7
@@ -102,7 +106,7 @@ class MovingKernel:
         return cls(whole, storage, along, RealTransform(grid.shape, threads))
 
     def lag(self, pressure: RealArray) -> RealArray:
-        """Displacement (nx, ny) in m by ``pressure`` (Pa) beyond that of the storage modulus."""
+        """Displacement (nx, ny) in m by ``pressure`` (Pa), net of attraction, beyond that of the storage modulus."""
         spectrum = self._spectrum(pressure)
         spectrum *= self.whole - self.storage
         return self.transform.backward(spectrum, np.empty(pressure.shape))
@@ -144,17 +148,20 @@ _ROWS = 64
 
 @dataclass(frozen=True, eq=False)
 class LagCoupling(Coupling):
-    """Displacement beyond that of the storage modulus, as a lift; it is the unknown."""
+    """Displacement by the net traction beyond that of the storage modulus, as a lift; it is the unknown."""
 
     kernel: MovingKernel | FreeMovingKernel = field(repr=False)
     feedback: bool = True
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "lag"
-    remedy: ClassVar[str] = "Allow more rounds, or loosen the tolerance of the lag."
+    remedy: ClassVar[str] = (
+        "Allow more rounds, or loosen the tolerance of the lag. Where adhesive contacts jump, prescribe the position or start from a contact of another speed (after=); "
+        "slide_in_time follows the motion."
+    )
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """None, or that under the pressure to start from."""
-        x = np.zeros(posed.profile.shape) if posed.start is None else self.kernel.lag(posed.start)
+        """None, or that remembered."""
+        x = np.asarray(memory["displacement"]) if memory else np.zeros(posed.profile.shape)
         return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
 
     def share(self, exchange: Exchange) -> Share:
@@ -162,10 +169,10 @@ class LagCoupling(Coupling):
         return Share(lift=exchange.x)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
-        """The displacement under the pressure of ``contact``."""
+        """The displacement under the traction of ``contact``."""
         if not self.feedback:
             return exchange
-        target = self.kernel.lag(contact.pressure)
+        target = self.kernel.lag(contact.traction)
         size, change = float(np.linalg.norm(target)), float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
 
@@ -178,8 +185,8 @@ class LagCoupling(Coupling):
         return f"The lag of the viscoelastic displacement still changes by {exchange.residual:.1e}"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
-        """Nothing to remember."""
-        return {}, None
+        """The displacement."""
+        return {"displacement": exchange.x}, None
 
 
 @dataclass(frozen=True)
@@ -210,34 +217,45 @@ class SteadySliding:
     Attributes
     ----------
     normal
-        Pressure, displacement, gap and areas; the friction here is not part of its problem.
+        Pressure, displacement, gap and areas, and what adhesion and menisci do; the friction here is not part of its problem.
     speed, direction
         Speed (m/s) and direction of the motion of the rough surface over the viscoelastic body, angle in rad from +x towards +y.
-    friction
-        Coefficient of hysteretic friction: loss in every wave of the pressure, over the mean pressure.
-    slope_friction
-        The same from the slope of the surface, mean of -p ∂h/∂x over the mean pressure. Both agree where the contact is solved and the
+    friction_stress
+        Force of hysteretic friction over nominal area, Pa: loss in every wave of the net traction.
+    slope_friction_stress
+        The same from the slope of the surface, mean of -(p - σ) ∂h/∂x, σ being the attraction. Both agree where the contact is solved and the
         grid resolves its edges; their difference is of first order in the pixel.
     energy_error
-        Bound on the energy (J) of the error of the pressure in the symmetric part of the operator, over p·Kp.
+        Bound on the energy (J) of the error of the pressure in the symmetric part of the operator, over p·Kp, at the attraction found.
     """
 
     normal: ContactResult
     speed: float
     direction: float
-    friction: float
-    slope_friction: float
+    friction_stress: float
+    slope_friction_stress: float
     energy_error: float
 
     @property
-    def friction_stress(self) -> float:
-        """Friction force over nominal area, Pa."""
-        return self.friction * self.normal.mean_pressure
+    def friction(self) -> float:
+        """Coefficient of hysteretic friction, ``friction_stress`` over the mean pressure from outside; zero or, with adhesion, NaN where none presses."""
+        return self._over_load(self.friction_stress)
+
+    @property
+    def slope_friction(self) -> float:
+        """The same by ``slope_friction_stress``."""
+        return self._over_load(self.slope_friction_stress)
 
     @property
     def friction_force(self) -> float:
         """Friction force, N."""
-        return self.friction * self.normal.force
+        return self.friction_stress * self.normal.problem.grid.area
+
+    def _over_load(self, stress: float) -> float:
+        load = self.normal.external_force / self.normal.problem.grid.area
+        if load > 0.0:
+            return stress / load
+        return 0.0 if stress == 0.0 else math.nan
 
     @property
     def heat(self) -> float:
@@ -249,9 +267,13 @@ class SteadySliding:
 
         The spectrum is the measured one, up to the shortest wave of the grid; ``reduction`` as of ``theories.rubber_friction``.
 
-        InputError if the problem is no periodic map, a body is layered, or it stands still.
+        InputError if the problem is no periodic map, a body is layered, something pulls, or it stands still.
         """
         problem = self.normal.problem
+        if problem.adhesion is not None or problem.film is not None:
+            raise InputError(
+                "adhesion and film beside Persson's theory must be None, for it is one of pressed surfaces, but one is given."
+            )
         if not isinstance(problem.boundary, Periodic) or min(problem.grid.shape) < 2:
             raise InputError(
                 f"boundary beside Persson's theory must be Periodic() on a map, but is {problem.boundary!r} on "
@@ -284,7 +306,7 @@ class SteadySliding:
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers behind the numbers."""
-        return tuple(sorted({"Hunter1961", "Carbone2013", *self.normal.citation_keys}))
+        return tuple(sorted({"Hunter1961", "Carbone2013", "Ferry1980", *self.normal.citation_keys}))
 
 
 def slide(
@@ -295,8 +317,9 @@ def slide(
     direction: float = 0.0,
     tolerance: float = TOLERANCE,
     rounds: Rounds = Rounds(),
+    after: SteadySliding | None = None,
 ) -> SteadySliding:
-    """Steady sliding of the rough body of ``problem`` over its viscoelastic one under ``control``, without adhesion and interfacial shear.
+    """Steady sliding of the rough body of ``problem`` over its viscoelastic one under ``control``, without interfacial shear.
 
     Friction is by hysteresis alone. What does not slide but rolls with its contact, as a smooth wheel, has the same pressure, and the
     friction is its rolling resistance.
@@ -304,11 +327,12 @@ def slide(
     Parameters
     ----------
     problem
-        Contact with a hard wall, without film and friction, on any boundary: on a free grid one body slides or rolls over the
-        half-space, all of which is at rest before it comes. The surfaces of viscoelastic bodies must be flat: roughness
+        Contact with a hard wall, without friction, on any boundary: on a free grid one body slides or rolls over the
+        half-space, all of which is at rest before it comes. Adhesion of finite range pulls along the motion too; menisci of a film
+        act by their normal force. The surfaces of viscoelastic bodies must be flat: roughness
         that moves with them causes no hysteresis. A rigid rough body on rubber: ``ContactProblem(rough, Rigid(), counter_body=rubber)``.
     control
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``; with adhesion also ``Pull`` and ``FixedGrips``.
     speed
         Of the rough body over the viscoelastic one, m/s, >= 0; zero finds the relaxed contact.
     direction
@@ -317,30 +341,39 @@ def slide(
         Largest relative change of the displacement from round to round.
     rounds
         When to give up.
+    after
+        Sliding of the same surfaces at another speed or load, whose contact this one starts from: with adhesion it stays on its branch.
 
     Raises
     ------
     InputError
-        If the problem has another law or physics, the direction is not along an axis of a free grid, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
+        If the problem has another law or physics, ``after`` another grid, the direction is not along an axis of a free grid, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
         waves that stand still in it.
     NoSolutionError
-        If a position has no solution.
+        If a position has no solution, or the surfaces part under a pull.
     ConvergenceError
         If pressure and displacement do not agree.
     """
     started = time.perf_counter()
     angle = require.finite(direction, "direction of sliding (rad)")
     require_slidable(problem, angle)
+    require_adhesion(problem, control)
     if isinstance(control, Unloaded):
         raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
     kernel, operator = _prepared(problem, v, angle)
-    profile = problem.profile()
-    couplings = ConstantHardness(HardWall()), LagCoupling(kernel, kernel.lags, tolerance)
-    posed = Posed(operator, profile, profile, control, float(profile.std()) or 1.0)
-    settled = settle(posed, couplings, {}, _SOLVER, rounds=rounds)
-    normal = _normal(problem, settled, couplings[0], kernel.lag(settled.contact.pressure), started)
-    result = _with_friction(normal, kernel, profile, v, angle)
+    profile, before = problem.profile(), None if after is None else after.normal.state
+    couplings = (*couplings_of(problem, operator, rounds), LagCoupling(kernel, kernel.lags, tolerance))
+    start = None
+    if before is not None:
+        before.require_shape(profile.shape)
+        start = before.pressure if before.pressure.any() else None
+    posed = Posed(operator, profile, profile, control, height_scale(profile, control, operator), start)
+    way = settle_forces if balances(couplings, posed) else settle
+    settled = way(posed, couplings, {} if before is None else before.memory, _SOLVER, rounds=rounds)
+    lag = kernel.lag(settled.contact.traction)
+    normal = _normal(problem, settled, couplings, lag, time.perf_counter() - started)
+    result = _with_friction(normal, kernel, settled.contact, profile, v, angle)
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
@@ -362,38 +395,23 @@ def _prepared(
 
 
 def _normal(
-    problem: ContactProblem, settled: Settled, hardness: ConstantHardness, lag: RealArray, started: float
+    problem: ContactProblem, settled: Settled, couplings: tuple[Coupling, ...], lag: RealArray, seconds: float
 ) -> ContactResult:
-    """Fields and scalars of the contact that ``settled``, whose displacement is beyond that of the storage modulus by ``lag``."""
-    contact, seconds = settled.contact, time.perf_counter() - started
-    certificate = certify(
-        contact.qp,
-        contact.solution,
-        contact.totals,
-        solver=_SOLVER.name,
-        tolerance=settled.tolerance,
-        wall_time=seconds,
-    )
-    return assemble(
-        problem,
-        replace(contact, solution=replace(contact.solution, status=settled.status)),
-        before=None,
-        memories={"hardness": hardness.end(settled.exchanges["hardness"], contact)[0]},
-        lift=lag,
-        attraction=None,
-        stiffness=False,
-        certificate=replace(certificate, couplings=settled.checks, rounds=settled.rounds),
-        outcomes={},
-        citations=tuple(sorted({*problem.citation_keys, *_SOLVER.citation_keys, "Ferry1980"})),
-    )
+    """Fields and scalars of the contact that ``settled``, whose displacement is beyond that of the storage modulus by ``lag`` (m)."""
+    ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in couplings}
+    return finished(problem, settled, ends, _SOLVER, before=None, lift=lag, seconds=seconds)
 
 
 def _with_friction(
-    normal: ContactResult, kernel: MovingKernel | FreeMovingKernel, profile: RealArray, speed: float, direction: float
+    normal: ContactResult,
+    kernel: MovingKernel | FreeMovingKernel,
+    contact: Contact,
+    profile: RealArray,
+    speed: float,
+    direction: float,
 ) -> SteadySliding:
     """Friction by the loss in all waves and by the slope of the surface, and the bound on the error."""
-    p = np.asarray(normal.pressure, dtype=float)
-    mean = float(p.mean())
+    p, traction = np.asarray(normal.pressure, dtype=float), np.asarray(contact.traction, dtype=float)
     gap = normal.displacement - profile
     bound = float((p * (gap - gap.min())).sum())
     work = float((p * normal.displacement).sum())
@@ -401,8 +419,8 @@ def _with_friction(
         normal,
         speed,
         direction,
-        kernel.dissipation(p) / mean if mean > 0.0 else 0.0,
-        -float((p * kernel.slope(profile)).mean()) / mean if mean > 0.0 else 0.0,
+        kernel.dissipation(traction),
+        -float((traction * kernel.slope(profile)).mean()),
         bound / work if work > 0.0 else 0.0,
     )
 
@@ -411,12 +429,16 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
     """Refuse with an InputError what is not steady in this ``direction`` (rad), or has no hysteresis."""
     if not isinstance(problem.boundary, Periodic):
         axis_of(direction, problem)
-    if not isinstance(problem.law, HardWall) or any(
-        each is not None for each in (problem.film, problem.friction, problem.adhesion)
-    ):
+    if not isinstance(problem.law, HardWall):
         raise InputError(
-            "law of steady sliding must be HardWall(), and film, friction and adhesion None: the friction found is that of hysteresis alone."
+            f"law of steady sliding must be HardWall(), but is {problem.law!r}: a hardness leaves a groove in the body at rest. "
+            "Follow it in steps of time, with slide_in_time."
         )
+    if problem.friction is not None or problem.plastic_flow is not None:
+        raise InputError(
+            "friction and plastic_flow of steady sliding must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+        )
+    require_range(problem)
     pairs: tuple[tuple[Body, object, str], ...] = (
         (problem.body, problem.surface, "surface"),
         (problem.counter_body, problem.counter_surface, "counter_surface"),

@@ -33,8 +33,8 @@ from .time_steps import Creeping, Moment
 COLUMNS = (
     Quantity("time", "s", "time since the virgin state"),
     Quantity("distance", "m", "distance moved"),
-    Quantity("mean_pressure", "Pa", "mean (nominal) pressure"),
-    Quantity("force", "N", "force"),
+    Quantity("mean_pressure", "Pa", "mean (nominal) pressure, from outside"),
+    Quantity("force", "N", "force between the solids, less the attraction"),
     Quantity("approach", "m", "approach from first touch"),
     Quantity("area_fraction", "1", "real contact area / nominal area (perimeter-corrected)"),
     Quantity("max_pressure", "Pa", "maximum pressure"),
@@ -84,8 +84,8 @@ class TransientSliding:
 
     @property
     def friction(self) -> RealArray:
-        """Coefficient of friction by the slope of what moves; zero without load."""
-        force = self.column("force")
+        """Coefficient of friction by the slope of what moves, over the force from outside; zero where none presses."""
+        force = self._load
         return np.divide(self.column("friction_force"), force, out=np.zeros(force.shape), where=force > 0.0)
 
     @property
@@ -94,21 +94,31 @@ class TransientSliding:
         return round(float(self.distance[-1]) / self.step)
 
     def mean_friction(self, last: float) -> float:
-        """Friction over the ``last`` distance (m) moved, mean force against the motion over the mean force."""
+        """Friction over the ``last`` distance (m) moved, mean force against the motion over the mean force from outside; NaN where that pulls."""
         part = self._part(last)
-        return float(self.column("friction_force")[part].mean() / self.column("force")[part].mean())
+        return self._over(float(self.column("friction_force")[part].mean()), part)
 
     def mean_loss(self, last: float) -> float:
         """The same from the heat of the solids over the ``last`` distance (m): in a steady state the two are equal, but for what jumps of
         adhesive contacts and dents take."""
         part = self._part(last)
         heat, way = self.column("dissipated")[part], self.distance[part]
-        return float((heat[-1] - heat[0]) / (way[-1] - way[0]) / self.column("force")[part].mean())
+        return self._over(float((heat[-1] - heat[0]) / (way[-1] - way[0])), part)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers behind the numbers."""
         return tuple(sorted({"Carbone2013", *self.last.citation_keys}))
+
+    @property
+    def _load(self) -> RealArray:
+        """Force (N) from outside."""
+        return self.column("mean_pressure") * self.last.problem.grid.area
+
+    def _over(self, force: float, part: slice) -> float:
+        """``force`` (N) over the mean load of a ``part`` of the way."""
+        load = float(self._load[part].mean())
+        return force / load if load > 0.0 else math.nan
 
     def _part(self, last: float) -> slice:
         require.positive(last, "distance (m) of a mean")
@@ -140,7 +150,7 @@ def slide_in_time(
         beside it as under any load. A rough surface that slides: ``ContactProblem(rough, Rigid(), counter_body=rubber)``. A rough body that rolls: its shape
         alone as this surface, and the roughness of both bodies as that of the viscoelastic one.
     control
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``, held throughout. At the start it is applied at once.
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``, with adhesion also ``Pull`` and ``FixedGrips``, held throughout. At the start it is applied at once.
     speed
         Of the surface that moves, m/s, > 0.
     distance

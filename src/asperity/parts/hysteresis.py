@@ -83,7 +83,11 @@ class HysteresisSettings(Settings):
 
 
 SCALARS = (
-    Quantity("hysteresis_friction", "1", "coefficient of hysteretic friction, by the loss in all waves"),
+    Quantity(
+        "hysteresis_friction",
+        "1",
+        "coefficient of hysteretic friction, by the loss in all waves, over the load from outside",
+    ),
     Quantity("hysteresis_slope_friction", "1", "coefficient of hysteretic friction, by the slope of the surface"),
     Quantity("hysteresis_friction_force", "N", "force of hysteretic friction"),
     Quantity("hysteresis_heat", "W/m^2", "heat of hysteretic friction per nominal area and time"),
@@ -96,7 +100,7 @@ SCALARS = (
         "persson_sliding_area_fraction", "1", "real contact area / nominal area while sliding by Persson's theory"
     ),
 )
-"""Numbers of a sliding contact; NaN where the theory does not hold."""
+"""Numbers of a sliding contact; NaN where the theory does not hold, and of coefficients where the load pulls."""
 
 FIELD = Quantity("sliding_pressure", "Pa", "contact pressure while sliding", ("x", "y"))
 
@@ -122,15 +126,15 @@ class Hysteresis(Part):
     quantities = (*SCALARS, FIELD, *COLUMNS)
 
     def asked(self, document: Any, folder: Path) -> HysteresisSettings | None:
-        """The table [hysteresis], beside nothing that would share the pressure."""
+        """The table [hysteresis], beside no other motion."""
         table: HysteresisSettings | None = document.hysteresis
         if table is None:
             return None
-        for name in ("film", "adhesion", "shear", "rolling"):
+        for name in ("shear", "rolling"):
             if getattr(document, name) is not None:
                 raise InputError(
                     f"{name} must be left out where hysteresis (--sliding-speed) is given, but both are: sliding over a viscoelastic body "
-                    "is solved without other physics of the interface."
+                    "is solved without another motion of the surfaces."
                 )
         return table
 
@@ -184,7 +188,7 @@ class Hysteresis(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Friction, area and heat, the theory beside them, and the curve."""
-        return hysteresis_words(found)
+        return hysteresis_words(found, solved.problem)
 
     def stored(self, found: Found) -> Stored:
         """Speed, direction and reduction."""
@@ -220,7 +224,7 @@ def _numbers(found: SteadySliding) -> dict[str, float]:
 
 
 def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
-    """Friction and area by Persson's theory; NaN where it does not hold: on layers, on a line, on a free grid, on a smooth surface, at rest."""
+    """Friction and area by Persson's theory; NaN where it does not hold: with adhesion or menisci, on layers, on a line, on a free grid, on a smooth surface, at rest."""
     try:
         theory = found.persson(reduction)
     except InputError:
@@ -258,14 +262,17 @@ def picture_of(found: Found, solved: Solved) -> SpeedPicture:
 
 # In words and tables.
 
-REMARK = (
-    "The rough body slides steadily without adhesion and interfacial shear: the friction is by hysteresis alone, and that of a flash temperature is not included. Persson's theory sums all waves of the mean "
-    "spectrum of the map, the shortest of which matter most."
-)
+REMARK = "The rough body slides steadily without interfacial shear: the friction is by hysteresis alone, and that of a flash temperature is not included."
 """What the model is."""
 
+OF_PRESSED = "Persson's theory sums all waves of the mean spectrum of the map, the shortest of which matter most."
+OF_PULLING = (
+    "What attracts the surfaces adds to the load that deforms the viscoelastic body, and the coefficient is over the load from outside. Persson's theory of friction knows no attraction "
+    "and is left out."
+)
 
-def hysteresis_words(found: Found) -> Words:
+
+def hysteresis_words(found: Found, problem: ContactProblem) -> Words:
     """Sentence, scalars and curve."""
     from ..io.words import value_text
 
@@ -280,13 +287,23 @@ def hysteresis_words(found: Found) -> Words:
             rows.append((item.label, value_text(item, value)))
     if math.isfinite(float(values["persson_friction"])):
         rows.append(("gamma of Persson's theory", f"{float(facts['reduction']):g}"))
-    friction = float(values["hysteresis_friction"])
+    friction, force = float(values["hysteresis_friction"]), show(float(values["hysteresis_friction_force"]), "N", 3)
+    pulls = math.isnan(friction)
+    said = (
+        f"a force of hysteretic friction of {force}"
+        if pulls
+        else f"a coefficient of hysteretic friction of {friction:.3g}"
+    )
     tables = (("Friction against speed", _curve_table(values)),) if COLUMNS[0].name in values else ()
     sentence = (
-        f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives a coefficient of hysteretic friction of {friction:.3g} on "
+        f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives {said} on "
         f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and {show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
     )
-    return Words(sentence, [("coefficient of hysteretic friction", f"{friction:.3g}")], rows, tables, (REMARK,))
+    shown = (
+        ("force of hysteretic friction", force) if pulls else ("coefficient of hysteretic friction", f"{friction:.3g}")
+    )
+    attracted = problem.adhesion is not None or problem.film is not None
+    return Words(sentence, [shown], rows, tables, (REMARK, OF_PULLING if attracted else OF_PRESSED))
 
 
 def _curve_table(values: Mapping[str, Any]) -> Table:

@@ -196,10 +196,12 @@ def start_words(found: Found) -> Words:
     way = show(float(values["way_distance"][-1]), "m", 3)
     friction, steady = float(values["start_last_friction"]), float(facts["hysteresis_friction"])
     beside = "" if math.isnan(steady) else f" (steady: {steady:.3g})"
+    came = f"coefficient of friction came to {friction:.3g}{beside}"
+    if math.isnan(friction):  # no load from outside presses
+        came = f"force of friction came to {show(float(values['way_friction_force'][-1]), 'N', 3)}"
     sentence = (
         f"Over the first {way} of sliding at {show(float(facts['speed']), 'm/s', 3)} the contact area went from "
-        f"{percent(float(values['start_first_area_fraction']))} to {percent(float(values['start_last_area_fraction']))} of the nominal area and the "
-        f"coefficient of friction came to {friction:.3g}{beside}."
+        f"{percent(float(values['start_first_area_fraction']))} to {percent(float(values['start_last_area_fraction']))} of the nominal area and the {came}."
     )
     table = "Start of sliding", _way_table(values)
     return Words(sentence, [], rows, (table,), (REMARK,))

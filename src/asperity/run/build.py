@@ -132,10 +132,10 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
     )
     known = known or parts()
     asks = {part.name: ask for part in known if (ask := part.asked(document, folder)) is not None}
+    problem = _with_physics(problem, asks, known)
     for part in known:
         if part.name in asks:
             part.check(asks[part.name], problem)
-    problem = _with_physics(problem, asks, known)
     control, path = build_course(document, asks, known, surface.size[1])
     solver = build_solver(document.solver, problem, sticks=sticks(problem, [as_step(item) for item in path], None))
     return Case(document, problem, control, path, solver, asks, known)

@@ -9,19 +9,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import ClassVar, Self
 
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError, NoSolutionError
-from ...core.grid import Grid
 from ...core.late import Shown
 from ...core.status import Status
-from ...solids.compliance.halfspace import Compliance
 from .. import measure
 from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
-from ..operators import Operator, prepare_operator
+from ..operators import Operator
+from ..operators.creep import SummedOperator
 from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
 from ..solvers.adhesion.front import MovingFront, step_compliance
 from ..solvers.adhesion.problem import Adhered, AdhesiveProblem
@@ -218,34 +218,23 @@ class _Note:
     mean: float | None
 
 
-@dataclass(frozen=True, eq=False)
-class Machine:
-    """Compliance of the bodies with that of a testing machine of ``stiffness`` (N/m) in series, on ``grid``."""
+class MachineOperator(SummedOperator):
+    """Operator of the ``bodies``, whatever it is made of, with a testing machine of ``stiffness`` (N/m) in series: each pixel moves all of it."""
 
-    bodies: Compliance
-    stiffness: float
-    grid: Grid
+    def __init__(self, bodies: Operator, stiffness: float) -> None:
+        kernel = np.array(bodies.kernel)
+        kernel[0, 0] += bodies.grid.pixel_area * math.prod(bodies.padded) / stiffness
+        super().__init__(bodies, bodies.compliance, kernel)
+        self.stiffness, self.zero_mean_mode = stiffness, False
 
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Those of the bodies."""
-        return self.bodies.citation_keys
+    @cached_property
+    def coarsened(self) -> Operator:
+        """The same machine on half as many points per side."""
+        return MachineOperator(self.whole.coarsened, self.stiffness)
 
-    def spectral(self, wavenumber: RealArray) -> RealArray:
-        """That of the bodies."""
-        return self.bodies.spectral(wavenumber)
-
-    def mean_mode(self) -> float:
-        """Of the bodies and, in the area of the grid, of the machine, in m/Pa."""
-        return self.bodies.mean_mode() + self.grid.area / self.stiffness
-
-    def influence(self, grid: Grid) -> RealArray:
-        """Coefficients in m/Pa, shape (nx, ny): a pixel moves the whole machine."""
-        return self.bodies.influence(grid) + grid.pixel_area / self.stiffness
-
-    def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Coefficients in m/Pa, shape (nx, 1)."""
-        return self.bodies.line_influence(grid, datum) + grid.pixel_area / self.stiffness
+    def matrix(self) -> RealArray:
+        """Dense matrix in m/Pa."""
+        return np.asarray(self.whole.matrix() + self.grid.pixel_area / self.stiffness)
 
 
 @dataclass(frozen=True, eq=False)
@@ -331,15 +320,11 @@ class AdhesionCoupling(Coupling):
         if isinstance(control, MeanGap):
             return self._at_gap(profile, cap, control.value, pull, pressure)
         stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
-        operator = self.operator if math.isinf(stiffness) else self._with_machine(stiffness)
+        operator = self.operator if math.isinf(stiffness) else MachineOperator(self.operator, stiffness)
         offset = posed.top - control.value
         _require_open(operator, profile, offset)
         problem = AdhesiveProblem(operator, profile, self.law, FixedOffset(offset), cap)
         return _of_bodies(self.solver.solve(problem, pull, pressure), operator, stiffness)
-
-    def _with_machine(self, stiffness: float) -> Operator:
-        own = self.operator
-        return prepare_operator(Machine(own.compliance, stiffness, own.grid), own.grid, own.boundary, engine=own.engine)
 
     def _at_gap(
         self, profile: RealArray, cap: float | RealArray, wanted: float, pull: RealArray, pressure: RealArray | None
@@ -373,7 +358,7 @@ class AdhesionCoupling(Coupling):
             constraint = FixedMean(mean) if mean > 0.0 else FixedOffset(note.solution.state.offset)
         load = float(exchange.x.sum()) * grid.pixel_area
         lift = -self.operator.apply(exchange.x) + (self.law.spacing - self._core(note.solution.state))
-        return Share(load=load, lift=lift, constraint=constraint)
+        return Share(load=load, lift=lift, constraint=constraint, attraction=exchange.x)
 
     def _core(self, state: Adhered) -> RealArray | float:
         """Gap (nx, ny) in m of the ``state`` up to that of the largest attraction, from which on points touch; none at a wall."""
@@ -500,8 +485,7 @@ def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> A
         return AdhesiveProblem(operator, note.base, law, FixedMean(force / operator.grid.area), contact.qp.cap)
     control: Control = note.posed.control
     if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
-        machine = Machine(operator.compliance, control.stiffness, operator.grid)
-        operator = prepare_operator(machine, operator.grid, operator.boundary, engine=operator.engine)
+        operator = MachineOperator(operator, control.stiffness)
     return AdhesiveProblem(operator, note.base, law, FixedOffset(-contact.level), contact.qp.cap)
 
 

@@ -221,6 +221,7 @@ class _Iteration:
         self.last: Contact | None = None
         self.memories, self.nested = memories, False
         self.indentation: RealArray | float = 0.0
+        self.attraction: RealArray | float = 0.0
         self.spent = 0, 0.0
 
     def settled(self) -> Settled:
@@ -326,6 +327,7 @@ class _Iteration:
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
             profile, self.indentation = self.posed.profile, sum(share.indentation for share in shares)
             cap: float | RealArray = np.inf
+            self.attraction = sum(share.attraction for share in shares)
             for lift in (*(share.lift for share in shares), self.indentation):
                 if isinstance(lift, np.ndarray):
                     profile = profile - lift
@@ -392,7 +394,7 @@ class _Iteration:
             if self.last is None and not self.active and isinstance(solver, ActiveSet):
                 begun = self._extrapolated(solver, qp)
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
-        contact = Contact(self.posed, qp, solution, self.indentation).with_work_of(self.last)
+        contact = Contact(self.posed, qp, solution, self.indentation, self.attraction).with_work_of(self.last)
         if self.last is None:
             contact = contact.after(*self.spent)
         if contact.pressure.any():

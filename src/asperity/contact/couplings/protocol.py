@@ -122,12 +122,16 @@ def height_scale(virgin: RealArray, control: Control, operator: Operator) -> flo
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """Normal contact of one round, solved; ``indentation`` (nx, ny) in m is the ``Share.indentation`` that it was posed with."""
+    """Normal contact of one round, solved.
+
+    ``indentation`` (nx, ny) in m and ``attraction`` (nx, ny) in Pa are the sums of what its ``Share``s give.
+    """
 
     posed: Posed
     qp: ContactQP
     solution: Solution
     indentation: RealArray | float = 0.0
+    attraction: RealArray | float = 0.0
 
     @cached_property
     def cap(self) -> float | RealArray:
@@ -141,6 +145,11 @@ class Contact:
     def pressure(self) -> RealArray:
         """Pressure (nx, ny) in Pa."""
         return self.solution.state.pressure
+
+    @property
+    def traction(self) -> RealArray:
+        """Pressure less attraction (nx, ny) in Pa."""
+        return self.pressure - self.attraction
 
     @cached_property
     def totals(self) -> Totals:
@@ -198,7 +207,8 @@ class Share:
     Shares combine: loads (N), lifts and indentations (m) add, the smallest cap (Pa) holds at every point. At a prescribed position
     the loads are passive: they change what holds the bodies there, not the contact. An indentation is a lift at points that
     yield in this step: their pressure is then what the limit must be. A coupling that finds the position itself gives the
-    ``constraint`` that takes the place of the control.
+    ``constraint`` that takes the place of the control. An attraction (Pa), whose displacement is in the lift, tells the other couplings
+    what acts on the surfaces beside the pressure.
     """
 
     load: float = 0.0
@@ -206,6 +216,7 @@ class Share:
     cap: RealArray | float = np.inf
     indentation: RealArray | float = 0.0
     constraint: Constraint | None = None
+    attraction: RealArray | float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
