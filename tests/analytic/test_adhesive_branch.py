@@ -14,7 +14,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.laws import DugdaleAdhesion, ExponentialAdhesion
-from asperity.core.errors import InputError
+from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.adhesion.spheres import maugis_at_ring
 
 
@@ -44,6 +44,36 @@ def test_unstable_branch_of_maugis():
     # the sign of the smallest eigenvalue changes at the fold, and nowhere else
     assert branch.stable[: fold.index + 1].all()
     assert not branch.stable[fold.index + 1 :].any()
+
+
+@pytest.mark.parametrize("points", [48, 72])
+def test_a_steep_fall_of_the_attraction_does_not_stop_a_branch(points):
+    """The zone of Dugdale's law loses single points of a coarse grid one after the other, which turns the branch back each time."""
+    law = DugdaleAdhesion(WORK, WORK / strength_of(1.0), smoothing=0.2)
+    problem = sphere(points, 4.5, law)
+    branch = asp.adhesive_branch(asp.solve(problem, asp.FixedGrips(0.0)), farthest=-1.2 * APPROACH)
+    assert branch.approach[-1] < -APPROACH
+    assert branch.force[-1] == pytest.approx(0.0, abs=1e-9 * FORCE)
+    row = next(row for row in reference("adhesion/maugis_transition") if row["lambda"] == 1.0)
+    assert branch.pull_off_force / FORCE == pytest.approx(row["minus_P_pulloff_norm"], rel=5e-3)
+    # two folds of the sphere, and on the coarser grid further ones of the last rings of points
+    first, *_, last = branch.folds
+    assert first.approach / APPROACH == pytest.approx(row["delta_fold_norm"], abs=0.015)
+    apex = 0.5 * problem.grid.spacing[0] * problem.grid.spacing[1] / (2.0 * RADIUS)
+    # the steps around the second fold are as long as the gap between the last two equilibria, 5 % of the range
+    assert last.approach == pytest.approx(-1.1 * law.range - apex, abs=0.05 * law.range)
+    assert problem.grid.spacing[0] < branch.needed_pixel
+
+
+def test_a_branch_that_single_points_cut_names_the_pixel_it_needs():
+    law = ExponentialAdhesion(WORK, WORK / strength_of(2.0))
+    deep = [asp.solve(sphere(points, 4.5, law), asp.FixedGrips(0.0)) for points in (16, 40)]
+    branch = asp.adhesive_branch(deep[1], farthest=-1.2 * APPROACH)
+    assert branch.approach[-1] < -APPROACH
+    pixels = [found.problem.grid.spacing[0] for found in deep]
+    assert pixels[1] < branch.needed_pixel < pixels[0]
+    with refused(NoSolutionError, "step along the branch", f"{branch.needed_pixel:.3g} m", f"{pixels[0]:.3g} m"):
+        asp.adhesive_branch(deep[0], farthest=-1.2 * APPROACH)
 
 
 @pytest.mark.parametrize("tabor", [1.0, 2.0])

@@ -91,6 +91,21 @@ def test_branch_and_jumps_on_request(run: Runner, tmp_path: Path) -> None:
     assert outcome.values["adhesive_energy_bound"] <= outcome.values["adhesive_energy"]
 
 
+def test_a_branch_of_single_points_names_the_pixel_it_needs() -> None:
+    table = {
+        "work": "50 mJ/m**2",
+        "strength": "130 kPa",
+        "law": "dugdale",
+        "retract": "1.4 um",
+        "steps": 4,
+        "branch": True,
+    }
+    outcome = asp.run(PROBLEM | {"adhesion": table, "control": {"approach": "0.1 um"}})
+    (finding,) = (item for item in outcome.findings if item.criterion == "branch")
+    assert "Take one of at most " in finding.message
+    assert "exponential" in finding.message.lower()
+
+
 def test_an_unresolved_zone_is_a_finding() -> None:
     coarse = PROBLEM | {"adhesion": {"work": "50 mJ/m**2", "strength": "300 kPa"}}
     outcome = asp.run(coarse)

@@ -56,6 +56,8 @@ class AdhesiveBranch:
         Area that touches over nominal area.
     fft_pairs
         Work in FFT pairs of the size of the grid.
+    needed_pixel
+        Largest pixel in m with which branches can be followed for sure; above it single points snap, and folds are those of the grid.
     """
 
     length: RealArray
@@ -66,6 +68,7 @@ class AdhesiveBranch:
     energy: RealArray
     contact_fraction: RealArray
     fft_pairs: float
+    needed_pixel: float
 
     @property
     def stable(self) -> BoolArray:
@@ -140,7 +143,7 @@ def adhesive_branch(
         If the problem has no adhesion, or a hardness, film or friction beside it; or its law no range (JKR) or a step (Dugdale without
         smoothing); or a number is out of range.
     NoSolutionError
-        If the contact is no equilibrium, or the branch cannot be followed.
+        If the contact is no equilibrium, or the branch cannot be followed; the message names the pixel needed where that is the reason.
     """
     problem = result.problem
     _require_smooth(result)
@@ -167,7 +170,7 @@ def adhesive_branch(
         if len(found) >= points:
             break
     length, at, force, turn, margin, energy, touching = np.array(found).T
-    return AdhesiveBranch(length, at, force, turn, margin, energy, touching, way.pairs)
+    return AdhesiveBranch(length, at, force, turn, margin, energy, touching, way.pairs, way.needed_pixel)
 
 
 def _numbers(posed: AdhesiveProblem, point: BranchPoint, approach: float) -> tuple[float, ...]:

@@ -57,10 +57,22 @@ def branch_of(solved: Solved, farthest: float) -> tuple[AdhesiveBranch | None, t
     assert solved.path is not None
     deepest = max(solved.path.steps, key=lambda step: step.approach)
     try:
-        return adhesive_branch(deepest, farthest=farthest), ()
+        branch = adhesive_branch(deepest, farthest=farthest)
+        return branch, _of_pixels(branch, max(solved.problem.grid.spacing))
     except (InputError, NoSolutionError) as error:
         text = f"The branch between the jumps was not followed: {error}"
         return None, (Advice("warning", "branch", text),)
+
+
+def _of_pixels(branch: AdhesiveBranch, pixel: float) -> tuple[Advice, ...]:
+    """That folds of the ``branch`` may be those of single points, where the ``pixel`` (m) is larger than it needs."""
+    if pixel <= branch.needed_pixel:
+        return ()
+    text = (
+        f"The branch between the jumps may have folds of single points of the grid: its pixel is {show(pixel, 'm', 3)}. Take one of at most "
+        f"{show(branch.needed_pixel, 'm', 3)}, or a law that falls more gently, such as exponential."
+    )
+    return (Advice("warning", "branch", text),)
 
 
 def branch_values(branch: AdhesiveBranch | None) -> dict[str, Any]:
