@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cli.conftest import Runner
+from refusals import refused, subject_of
 
 import asperity as asp
 from asperity.contact.stickiness import stickiness
@@ -185,6 +186,7 @@ def test_criteria_stand_beside_a_rough_contact() -> None:
         {"work": "50 mJ/m**2", "range": "1 nm", "branch": True},
         {"work": "50 mJ/m**2", "pair": "polystyrene/wax", "range": "1 nm"},
         {"pair": "polystyrene", "range": "1 nm"},
+        {"pair": "polystyrene/unobtainium", "range": "1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "jump_tolerance": "0.1 nm"},
         {"work": "50 mJ/m**2", "range": "1 nm", "retract": "1 um", "steps": 1},
     ],
@@ -194,7 +196,20 @@ def test_tables_that_make_no_sense_are_refused(table: dict[str, Any]) -> None:
         checked(PROBLEM | {"adhesion": table})
 
 
+def test_an_unknown_solid_is_refused_where_the_document_is_read(run: Runner, tmp_path: Path) -> None:
+    table = {"pair": "unobtainium/polystyrene", "range": "1 nm"}
+    with refused(
+        InputError, "problem document: adhesion.pair (--adhesion-pair)", "'unobtainium'", "paraffin wax", "polystyrene"
+    ):
+        checked(PROBLEM | {"adhesion": table})
+    document = tmp_path / "case.toml"
+    document.write_text(dumps(checked(PROBLEM | {"adhesion": None})), encoding="utf-8")
+    options = ("--adhesion-pair", "unobtainium/polystyrene", "--adhesion-range", "1nm")
+    done = run("contact", "--from", document, *options, "--out", tmp_path / "out")
+    assert "--adhesion-pair" in subject_of(done)
+    assert not (tmp_path / "out").exists()
+
+
 def test_parting_needs_an_approach() -> None:
-    with pytest.raises(InputError) as refused:
+    with refused(InputError, "approach"):
         build(checked(PROBLEM | {"control": {"mean_pressure": "1 kPa"}}))
-    assert refused.value.subject == "approach"

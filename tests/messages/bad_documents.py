@@ -138,6 +138,7 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"adhesion": {"work": "50 mJ/m**2", "range": "1 nm", "strength": "50 MPa"}},
     {"adhesion": {"work": "50 mJ/m**2", "pair": "polystyrene/paraffin wax", "range": "1 nm"}},
     {"adhesion": {"pair": "polystyrene", "range": "1 nm"}},
+    {"adhesion": {"pair": "polystyrene/unobtainium", "range": "1 nm"}},
     {"adhesion": {"work": "50 mJ/m**2", "range": "1 nm", "law": "morse"}},
     {"adhesion": {"work": "50 mJ/m**2", "range": "1 nm", "law": "jkr"}},
     {"adhesion": {"work": "50 mJ/m**2", "range": "0 nm"}},
