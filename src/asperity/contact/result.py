@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
 
 import numpy as np
 
@@ -166,28 +166,32 @@ WET_SCALARS = (
 """Every scalar of the menisci, in the order of tables."""
 
 
+Value = TypeVar("Value")
+
+
 @dataclass(frozen=True)
 class Later:
-    """Number that takes long: ``compute`` makes it, from the object whose field it is."""
+    """Value that takes long: ``compute`` makes it, from the object whose field it is."""
 
-    compute: Callable[[Any], float]
+    compute: Callable[[Any], Any]
 
 
-class LateNumber:
-    """Field of a dataclass that takes a number or a ``Later``, which is computed when the field is first read."""
+class Late(Generic[Value]):
+    """Field of a dataclass that takes a value or a ``Later``, which is computed when the field is first read."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def __get__(self, owner: Any, kind: type | None = None) -> float:
+    def __get__(self, owner: Any, kind: type | None = None) -> Value:
         if owner is None:
             raise AttributeError(self._name)  # so that the field has no default
         values = vars(owner)
         if isinstance(values[self._name], Later):
             values[self._name] = values[self._name].compute(owner)
-        return float(values[self._name])
+        found: Value = values[self._name]
+        return found
 
-    def __set__(self, owner: Any, value: float | Later) -> None:
+    def __set__(self, owner: Any, value: Value | Later) -> None:
         vars(owner)[self._name] = value
 
 
@@ -233,8 +237,10 @@ class ContactResult(Stored):
     normal_stiffness
         d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out (``Keep``); infinite in periodic
         full contact.
-    n_spots, spot_areas, mean_spot_area, contact_perimeter
-        Number of contact spots, their areas (m², largest first) and mean, perimeter along pixel edges (m).
+    contact_perimeter
+        Perimeter along pixel edges, m.
+    spot_areas
+        Areas of the contact spots, largest first, m²; counted when they are first read.
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
@@ -271,14 +277,12 @@ class ContactResult(Stored):
     indented_area: float
     plastic_volume: float
     max_permanent_indentation: float
-    n_spots: int
-    spot_areas: RealArray
-    mean_spot_area: float
     contact_perimeter: float
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
-    normal_stiffness: LateNumber = LateNumber()
+    normal_stiffness: Late[float] = Late()
+    spot_areas: Late[RealArray] = Late()
     couplings: Mapping[str, Any] = field(default_factory=dict)
     memory: Mapping[str, Memory] = field(default_factory=dict)
     earlier: RealArray | None = None
@@ -286,7 +290,17 @@ class ContactResult(Stored):
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
-        return {**vars(self), "normal_stiffness": self.normal_stiffness}
+        return {**vars(self), "normal_stiffness": self.normal_stiffness, "spot_areas": self.spot_areas}
+
+    @property
+    def n_spots(self) -> int:
+        """Number of contact spots."""
+        return int(self.spot_areas.size)
+
+    @property
+    def mean_spot_area(self) -> float:
+        """Mean area of a contact spot, m²; zero without contact."""
+        return float(self.spot_areas.mean()) if self.n_spots else 0.0
 
     @property
     def menisci(self) -> Menisci | None:
@@ -490,7 +504,6 @@ def assemble(
     capped = np.zeros_like(contact) if found.qp.elastic else contact & (p >= found.cap)
     pixels = int(np.count_nonzero(contact))
     area = measure.corrected_area(contact, grid, wraps=wraps)
-    spots = measure.contact_spots(contact, wraps=wraps) * grid.pixel_area
     load, work = found.totals.pressure, found.totals.deflected
     if lift is not None:
         work += float(np.multiply(p, lift, dtype=np.float64).sum())
@@ -518,9 +531,7 @@ def assemble(
         elastic_energy=0.5 * work * grid.pixel_area if creeping is None else creeping.stored_energy,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
         normal_stiffness=later,
-        n_spots=int(spots.size),
-        spot_areas=spots,
-        mean_spot_area=float(spots.mean()) if spots.size else 0.0,
+        spot_areas=Later(_spot_areas),
         contact_perimeter=measure.contact_perimeter(contact, grid, wraps=wraps),
         certificate=certificate,
         status=found.solution.status,
@@ -531,6 +542,11 @@ def assemble(
         deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
         **_indentation(problem, before, memories["hardness"], outcomes.get("plastic_flow")),
     )
+
+
+def _spot_areas(result: ContactResult) -> RealArray:
+    problem = result.problem
+    return measure.contact_spots(result.contact, wraps=problem.boundary.wraps) * problem.grid.pixel_area
 
 
 def _deflections(found: Contact, before: InterfaceState | None) -> Deflections:
@@ -555,12 +571,12 @@ def _indentation(
     """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the imprint of ``flow``."""
     permanent, total = memory["indentation"], float(memory["work"])
     dent = permanent if flow is None else np.maximum(permanent + flow.displacement, 0.0)
-    pixel = problem.grid.pixel_area
+    pixel, virgin = problem.grid.pixel_area, flow is None and not permanent.any()
     return {
         "permanent_indentation": permanent,
         "plastic_work": total - (0.0 if state is None else state.plastic_work),
         "total_plastic_work": total,
-        "indented_area": int(np.count_nonzero(permanent)) * pixel,
-        "plastic_volume": float(dent.sum()) * pixel,
-        "max_permanent_indentation": float(dent.max()),
+        "indented_area": 0.0 if virgin else int(np.count_nonzero(permanent)) * pixel,
+        "plastic_volume": 0.0 if virgin else float(dent.sum()) * pixel,
+        "max_permanent_indentation": 0.0 if virgin else float(dent.max()),
     }

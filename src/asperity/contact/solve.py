@@ -211,6 +211,7 @@ class Prepared:
         _require_same_problem(self.operator, problem)
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile, self.time_steps = problem.profile(), time_steps
+        self._measured: tuple[RealArray, float] | None = None
         creep = contact_creep(problem.body, problem.counter_body)
         self.remembering: Remembering | None = None
         self.in_time: InTime | None = None
@@ -238,14 +239,15 @@ class Prepared:
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
-            dented = self.profile - state.permanent_indentation
+            if (indentation := state.permanent_indentation).any():
+                dented = self.profile - indentation
             start = state.pressure if state.pressure.any() else None
         require_adhesion(self.problem, control)
         if isinstance(control, Approach | MeanGap):
             require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded | Pull | FixedGrips):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
-        scale = height_scale(self.profile, control, self.operator)
+        scale = self._rms(self.profile) or height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
         lift: RealArray | float = 0.0
         if retarded is not None:
@@ -257,6 +259,12 @@ class Prepared:
         joined = self.couplings if couplings is None else couplings
         way = settle_forces if balances(joined, posed) else settle
         return way(posed, joined, memories, self.solver, rounds=self.rounds, progress=self.progress)
+
+    def _rms(self, profile: RealArray) -> float:
+        """Rms height (m), computed once for the steps of a surface at rest."""
+        if self._measured is None or self._measured[0] is not profile:
+            self._measured = profile, float(profile.std())
+        return self._measured[1]
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""

@@ -48,7 +48,7 @@ class InterfaceState:
             fields.append((self.earlier, "earlier pressure (Pa)"))
         for values, what in fields:
             found = require.field(values, f"{what} of an interface state")
-            if not np.isfinite(found).all() or found.min() < 0.0:
+            if not (found.min() >= 0.0 and found.max() < np.inf):  # false for NaN as well
                 raise InputError(
                     f"{what} of an interface state must be finite and not negative, but its smallest value is "
                     f"{found.min():g}. Pass the state of an earlier result."

@@ -56,7 +56,10 @@ if TYPE_CHECKING:
     from ..fem.history import IndentationState
     from ..fem.passes import PassState
 
-_STORED = tuple(item for item in ALL_SCALARS if item is not AREA_ERROR)  # the error follows from the fields
+_FOLLOWING = {AREA_ERROR.name, "n_spots", "mean_spot_area"}
+"""Scalars that follow from fields and spots."""
+
+_STORED = tuple(item for item in ALL_SCALARS if item.name not in _FOLLOWING)
 
 Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressField | IndentationState | PassState"
 """What result files hold."""

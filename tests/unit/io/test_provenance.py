@@ -48,7 +48,11 @@ def test_tables_of_labels_are_complete() -> None:
     other = {"problem", "control", "plastic", "spot_areas", "certificate", "status", "citation_keys"}
     other |= {"couplings", "memory", "earlier", "deflections"}
     labelled = {item.name for item in (*FIELDS, *ALL_SCALARS)}
-    assert labelled | other == {f.name for f in fields(ContactResult)} | {"area_fraction_error"}  # a property
+    assert labelled | other == {f.name for f in fields(ContactResult)} | {
+        "area_fraction_error",
+        "n_spots",
+        "mean_spot_area",
+    }  # properties
     assert [item.name for item in CERTIFICATE] == [
         f.name for f in fields(Certificate) if f.name not in ("couplings", "rounds", "complementarity")
     ]

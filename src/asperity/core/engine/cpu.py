@@ -448,6 +448,12 @@ class CpuEngine:
         s = self.blocks.sums(self.blocks.kernels.violation, p.size, 3, *arguments)
         return Violation(float(s[:, 0].sum()), float(s[:, 1].sum()), float(s[:, 2].max()))
 
+    def beyond(self, late: RealArray, early: RealArray, ratio: float) -> RealArray:
+        """late + ratio (late - early), a new array."""
+        out = np.empty_like(late)
+        self.blocks.run(self.blocks.kernels.beyond, out.size, late.ravel(), early.ravel(), ratio, out.ravel())
+        return out
+
     def add(self, field: RealArray, factor: float, values: RealArray) -> None:
         """values += factor field."""
         row, stride = field.shape[1], field.strides[0] // field.itemsize

@@ -162,6 +162,13 @@ def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def beyond(span, late, early, ratio, out):  # type: ignore[no-untyped-def]
+    """out = late + ratio (late - early); zero where both are."""
+    for i in range(span[0] * BLOCK, min(span[1] * BLOCK, out.size)):
+        out[i] = late[i] + ratio * (late[i] - early[i])
+
+
+@compiled
 def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-def]
     """values += factor field in the rows of the span, of length ``row``, those of the field ``stride`` apart."""
     for i in range(span[0], span[1]):

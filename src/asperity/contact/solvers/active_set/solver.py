@@ -258,7 +258,7 @@ class ActiveSet:
             return None
         products = sum(load.deflection is None for load in (last, earlier))
         known = zip(*(load.known(qp) for load in (last, earlier)), strict=True)
-        pressure, deflection = (_beyond(late, early, ratio) for late, early in known)
+        pressure, deflection = (engine.beyond(late, early, ratio) for late, early in known)
         work = Workspace.of(qp, self.precision, pressure, deflection)
         survey = work.survey()
         negative = pressure[pressure < 0.0]
@@ -432,14 +432,6 @@ class ActiveSet:
         if not (self.monotone or self._guess) and least <= wanted < _LAST_STEP:
             return Stopping(0.0, most.max_steps, wanted / _LAST_STEP)
         return Stopping(min(_REDUCTION, max(wanted, most.reduction)), most.max_steps)
-
-
-def _beyond(late: RealArray, early: RealArray, ratio: float) -> RealArray:
-    """late + ratio (late - early), in one array."""
-    out: RealArray = late - early
-    out *= ratio
-    out += late
-    return out
 
 
 class _Guess(ActiveSet):
