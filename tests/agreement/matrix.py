@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
+import asperity as asp
 from asperity.theories import catalogue
 from asperity.theories.protocol import ContactAnswer, Prediction
 from asperity.theories.rough.persson import IsotropicSpectrum
@@ -107,6 +108,38 @@ def adhesive_cylinder(work: float) -> float:
     """Load of an adhesive cylinder against the one without adhesion, at a half-width of R/10."""
     found, expected = make("jkr-cylinder", E, R, work), make("hertz-line", E, R)
     return apart(found.at_half_width([0.1 * R]).load, expected.at_half_width([0.1 * R]).load)
+
+
+COATED = {"thickness": 1e-5, "radius": 1e-4, "work": 2.0, "coating_nu": 0.25, "base_nu": 0.3}
+"""An adhesive sphere on a coating of a tenth of its radius."""
+
+
+def equal_coating(_: float) -> float:
+    """Coating and base of the same solid against JKR's sphere."""
+    coated = make("jkr-coated-sphere", 1e6, 1e6, **COATED | {"base_nu": 0.25})
+    sphere = make("jkr", 1e6 / (1.0 - 0.25**2), 1e-4, 2.0)
+    found, expected = (theory.at_radius(1e-4 * np.array([0.1, 0.3, 0.5])) for theory in (coated, sphere))
+    return max(contacts_apart(found, expected), apart(found.load, expected.load), apart(coated.pull_off_ratio, 1.0))
+
+
+def coated_pull_off(thickness: float) -> float:
+    """Pull-off from a coating ten times as stiff as the base against 1.5πwR, that from either alone."""
+    return apart(make("jkr-coated-sphere", 1e7, 1e6, **COATED | {"thickness": thickness}).pull_off_ratio, 1.0)
+
+
+def coating_on_a_grid(points: float) -> float:
+    """Pull-off from a coating four times softer than the base on a grid, with adhesion without range."""
+    solids = {"coating_nu": 0.3, "base_nu": 0.3, "thickness": 0.5, "radius": 1.0, "work": 0.02}
+    theory = make("jkr-coated-sphere", 0.25, 1.0, **solids)
+    pixel = 1.8 / points
+    x = (np.arange(int(points)) - 0.5 * (points - 1.0)) * pixel
+    body = asp.Layered([asp.Layer(asp.Elastic(0.25, 0.3), 0.5)], asp.Elastic(1.0, 0.3))
+    surface = asp.Surface(-0.5 * (x[:, None] ** 2 + x[None, :] ** 2), pixel)
+    problem = asp.ContactProblem(surface, body, boundary=asp.Free(), adhesion=asp.JKRAdhesion(0.02))
+    approach = float(theory.at_radius(theory.pull_off_radius).approach)
+    steps = approach + abs(approach) * np.array([1.5, 0.6, 0.3, 0.15, 0.0, -0.1, -0.2, -0.3, -0.4, -0.5])
+    found = asp.solve(problem, asp.History([asp.FixedGrips(float(step)) for step in steps]))
+    return apart(-found.external_force.min(), theory.pull_off)
 
 
 def adhesive_wave(work: float) -> float:
@@ -582,6 +615,42 @@ MATRIX: tuple[Agreement, ...] = (
         (1e-5, 1e-7, 1e-9),
         5e-3,
         "goes as the square root of the work",
+    ),
+    Agreement(
+        "jkr-coated-sphere",
+        "jkr",
+        "coating and base of one solid",
+        equal_coating,
+        (),
+        1e-8,
+        "the same half-space; the place of the largest load is known to the root of the rounding",
+    ),
+    Agreement(
+        "jkr-coated-sphere",
+        "jkr",
+        "thick stiff coating",
+        coated_pull_off,
+        (1e-4, 1e-3, 1e-2),
+        1e-7,
+        "pull-off; goes as the cube of the contact radius over the thickness",
+    ),
+    Agreement(
+        "jkr-coated-sphere",
+        "jkr",
+        "thin stiff coating",
+        coated_pull_off,
+        (1e-5, 2e-6, 5e-7),
+        0.02,
+        "pull-off; about as the thickness over the contact radius, 1/78 at the last",
+    ),
+    Agreement(
+        "jkr-coated-sphere",
+        "adhesion without range on a grid",
+        "soft coating, pixels to zero",
+        coating_on_a_grid,
+        (24.0, 48.0, 96.0),
+        0.06,
+        "pull-off; too large by 1.2 to 1.9 pixels over the contact radius, 33 pixels at the last",
     ),
     Agreement(
         "jkr-wave",

@@ -10,6 +10,7 @@ REFERENCES = {
     "Almqvist2007": "Almqvist, A., Sahlin, F., Larsson, R., Glavatskih, S. (2007). On the dry elasto-plastic contact of nominally flat surfaces. Tribology International 40, 574-579.",
     "Anderson1965": "Anderson, D. G. (1965). Iterative procedures for nonlinear integral equations. Journal of the ACM 12, 547-560.",
     "Ausloos1985": "Ausloos, M., Berman, D. H. (1985). A multivariate Weierstrass-Mandelbrot function. Proceedings of the Royal Society A 400, 331-350.",
+    "Barthel2007": "Barthel, E., Perriot, A. (2007). Adhesive contact to a coated elastic substrate. Journal of Physics D: Applied Physics 40, 1059-1067.",
     "Beck2009": "Beck, A., Teboulle, M. (2009). A fast iterative shrinkage-thresholding algorithm for linear inverse problems. SIAM Journal on Imaging Sciences 2, 183-202.",
     "Bemporad2015": "Bemporad, A., Paggi, M. (2015). Optimization algorithms for the solution of the frictionless normal contact between rough surfaces. International Journal of Solids and Structures 69-70, 94-105.",
     "Bertsekas1976": "Bertsekas, D. P. (1976). On the Goldstein-Levitin-Polyak gradient projection method. IEEE Transactions on Automatic Control 21, 174-184.",

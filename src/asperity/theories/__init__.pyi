@@ -1,4 +1,5 @@
 from .adhesion.adhesive_shapes import AdhesiveCylinder, AdhesivePowerLaw, AdhesiveWave
+from .adhesion.coated_sphere import AdhesiveCoatedSphere
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_parameter
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
@@ -137,6 +138,7 @@ __all__ = [
     "FAMILIES",
     "JKR",
     "THEORIES",
+    "AdhesiveCoatedSphere",
     "AdhesiveCylinder",
     "AdhesivePowerLaw",
     "AdhesiveWave",

@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from ..core.errors import InputError
 from .adhesion.adhesive_shapes import AdhesiveCylinder, AdhesivePowerLaw, AdhesiveWave
+from .adhesion.coated_sphere import AdhesiveCoatedSphere
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
@@ -127,6 +128,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             MaugisDugdale,
             AdhesivePowerLaw,
             AdhesiveCylinder,
+            AdhesiveCoatedSphere,
             ChangEtsionBogySphere,
             KogutEtsionSphere,
             JacksonGreenSphere,

@@ -101,6 +101,7 @@ EXAMPLES = {
     "maugis-dugdale": {**BALL, "work": 0.05, "attraction": 1e8},
     "jkr-power-law": {"E_star": 1e6, "coefficient": 0.1, "exponent": 1.0, "work": 0.05},
     "jkr-cylinder": {"E_star": 1e6, "radius": 1e-4, "work": 0.05},
+    "jkr-coated-sphere": {"coating": 1e7, "base": 1e6, "thickness": 1e-5, "radius": 1e-4, "work": 0.05},
     "chang-etsion-bogy-sphere": {**BALL, "hardness": 8e9},
     "kogut-etsion-sphere": {**BALL, "hardness": 8e9},
     "jackson-green-sphere": {**BALL, "yield_stress": 3e9},

@@ -176,6 +176,8 @@ class WavyJKR:
 
 
 _PANELS, _NODES, _DECAY = 60, 20, 40.0
+_FINER = 6.0, 2.5
+"""Further points over the contact, and panels of wavenumbers in all, per thickness in its radius: a hundred of these leave 1e-11."""
 _HALVED = 5
 """Times that the first panel of wavenumbers is halved: a film passes from bending to its own modulus at q h of (6 E2/E1)^(1/3), for
 E1/E2 = 50 within that panel, where 20 nodes lost 2e-8 of the approach."""
@@ -204,7 +206,7 @@ class CoatedJKR:
     work
         Work of adhesion in J/m².
     nodes
-        Points of Gauss' quadrature over the contact; 48 leave 1e-12.
+        Points of Gauss' quadrature over a contact smaller than the depth, more over larger ones; 48 leave 1e-12.
     """
 
     top_modulus: float
@@ -217,14 +219,15 @@ class CoatedJKR:
     def at_radius(self, radius: float) -> CoatedState:
         """The contact of this ``radius`` in m, > 0, without and with adhesion."""
         a = require.positive(radius, "contact radius (m)")
-        x, weight = (part[0] for part in gauss(np.array([[0.0, a]]), self.nodes))
+        nodes = self.nodes + int(_FINER[0] * a / self.depth)
+        x, weight = (part[0] for part in gauss(np.array([[0.0, a]]), nodes))
         points = np.append(x, a)
-        equal = np.linspace(0.0, _DECAY / self.depth, _PANELS + 1)
+        equal = np.linspace(0.0, _DECAY / self.depth, max(_PANELS, math.ceil(_FINER[1] * a / self.depth)) + 1)
         ends = np.concatenate([[0.0], equal[1] * 0.5 ** np.arange(_HALVED, 0, -1), equal[1:]])
         q, weight_q = (part.ravel() for part in gauss(np.stack([ends[:-1], ends[1:]], axis=-1), _NODES))
         cosines = np.cos(np.outer(points, q))
         kernel = 2.0 / math.pi * (cosines * (self.excess(q) * weight_q)) @ cosines.T
-        matrix = np.eye(self.nodes) + kernel[:-1, :-1] * weight
+        matrix = np.eye(nodes) + kernel[:-1, :-1] * weight
         right = 2.0 * self.top_modulus * np.stack([np.ones_like(x), x**2 / self.radius], axis=1)
         found = np.linalg.solve(matrix, right)
         edge_right = 2.0 * self.top_modulus * np.array([1.0, a**2 / self.radius])
