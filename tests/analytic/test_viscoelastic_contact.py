@@ -13,8 +13,8 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.couplings.creep import TimeWeights
+from asperity.contact.measure import normal_stiffness
 from asperity.contact.solve import steps
-from asperity.contact.solvers.active_set.stiffness import normal_stiffness
 from asperity.solids.compliance.creep import LayeredCreep, SharedCreep, complex_compliance, contact_creep
 
 PRONY = {

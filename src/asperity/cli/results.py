@@ -117,8 +117,10 @@ def cite(
         say(references(build(load_document(file), file.parent)))
         return
     result, text = load(file), document_in(file)
-    asked = None if text is None else Stress().asked(loads(text), file.parent)
-    say(references(result, *(() if asked is None else (Planned(asked, contact_of(result).problem),))))
+    document, part = None if text is None else loads(text), Stress()
+    stressed = document is not None and part.settings_in(document) is not None
+    planned = [Planned(part.asked(document, file.parent), contact_of(result).problem)] if stressed else []
+    say(references(result, *planned))
 
 
 # The stresses in a contact that has been solved and saved.

@@ -370,3 +370,12 @@ class ContactProblem(Shown):
 def _require(value: object, kind: object, what: str, must_be: str) -> None:
     if not isinstance(value, kind):  # type: ignore[arg-type]
         raise InputError(f"{what} of a ContactProblem must be {must_be}, but is {type(value).__name__}.")
+
+
+def require_adhesion(problem: ContactProblem, control: Control) -> None:
+    """Refuse with an InputError what only adhesion bears, in a ``problem`` without."""
+    if problem.adhesion is None and isinstance(control, Pull | FixedGrips):
+        raise InputError(
+            f"control of a problem without adhesion must be one that presses, but is {control!r}. Give "
+            "ContactProblem(..., adhesion=ExponentialAdhesion(work, range)), or prescribe Force(...) or Approach(...)."
+        )

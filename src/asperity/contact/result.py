@@ -24,7 +24,6 @@ from .couplings.protocol import Contact, Deflections, Memory
 from .couplings.sliding import GrossSliding
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Control
-from .solvers.active_set.stiffness import normal_stiffness
 from .solvers.protocol import ContactQP, FixedMean, Solution, best_level, least_length, level_of
 from .state import InterfaceState
 
@@ -562,7 +561,7 @@ def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operato
     """Incremental stiffness of ``result`` in Pa/m, from one linear solve by its ``operator``, made on ``engine`` if there is none."""
     problem = result.problem
     operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-    return normal_stiffness(operator, result.contact & ~result.plastic)
+    return measure.normal_stiffness(operator, result.contact & ~result.plastic)
 
 
 def _indentation(

@@ -15,9 +15,10 @@ from ..core.engine import Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
 from ..solids.compliance.creep import contact_creep
+from ..solids.layers import relaxes
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
-from .couplings.adhesion import AdhesionCoupling, require_adhesion
-from .couplings.balance import balances, settle_forces
+from .couplings.adhesion import AdhesionCoupling
+from .couplings.balance import settle_forces
 from .couplings.creep import CreepCoupling, Remembering, remembering
 from .couplings.driver import Rounds, Settled, settle
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
@@ -47,6 +48,7 @@ from .problem import (
     Unloaded,
     as_step,
     mean_pressure,
+    require_adhesion,
 )
 from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
 from .solvers.active_set.solver import ActiveSet
@@ -212,7 +214,8 @@ class Prepared:
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile, self.time_steps = problem.profile(), time_steps
         self._measured: tuple[RealArray, float] | None = None
-        creep = contact_creep(problem.body, problem.counter_body)
+        relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
+        creep = contact_creep(problem.body, problem.counter_body) if relaxing else None
         self.remembering: Remembering | None = None
         self.in_time: InTime | None = None
         if creep is not None:
@@ -257,8 +260,7 @@ class Prepared:
         posed = Posed(operator, self.profile, dented, control, scale, start, earlier, tangential, lift, known, ahead)
         memories = {} if state is None else state.memory
         joined = self.couplings if couplings is None else couplings
-        way = settle_forces if balances(joined, posed) else settle
-        return way(posed, joined, memories, self.solver, rounds=self.rounds, progress=self.progress)
+        return settled_with(joined, posed, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
     def _rms(self, profile: RealArray) -> float:
         """Rms height (m), computed once for the steps of a surface at rest."""
@@ -305,6 +307,18 @@ class Prepared:
             seconds=seconds,
             stiffness=self.keep.stiffness,
         )
+
+
+def settled_with(
+    couplings: tuple[Coupling, ...], posed: Posed, memories: Mapping[str, Memory], solver: Solver, **options: Any
+) -> Settled:
+    """Contact that agrees with all ``couplings``; where adhesion and menisci carry a force together, by a search for their balance.
+
+    Arguments and errors are those of ``settle``.
+    """
+    both = {AdhesionCoupling, MeniscusCoupling} <= {type(coupling) for coupling in couplings}
+    way = settle_forces if both and posed.balances_force else settle
+    return way(posed, couplings, memories, solver, **options)
 
 
 def finished(

@@ -28,27 +28,23 @@ from ..core.spectral import RealTransform
 from ..core.status import Status
 from ..solids.compliance.creep import complex_compliance
 from ..solids.compliance.halfspace import Compliance
-from ..solids.elastic import Elastic
-from ..solids.layers import Body, Layered, materials_of
-from ..solids.viscoelastic import Viscoelastic
+from ..solids.layers import Body, Layered, relaxes
 from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from ..theories.rough.persson import IsotropicSpectrum
 from ..theories.rough.rubber_friction import RubberFriction, rubber_friction
 from .boundary import Periodic
-from .couplings.adhesion import require_adhesion
-from .couplings.balance import balances, settle_forces
-from .couplings.driver import Rounds, Settled, settle
+from .couplings.driver import Rounds, Settled
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
 from .in_time import require_range
 from .laws import HardWall
 from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
-from .problem import ContactProblem, Control, Unloaded
+from .problem import ContactProblem, Control, Unloaded, require_adhesion
 from .result import ContactResult
-from .solve import couplings_of, finished
+from .solve import couplings_of, finished, settled_with
 from .solvers.active_set.solver import ActiveSet
 
 TOLERANCE = 1e-7
@@ -369,8 +365,7 @@ def slide(
         before.require_shape(profile.shape)
         start = before.pressure if before.pressure.any() else None
     posed = Posed(operator, profile, profile, control, height_scale(profile, control, operator), start)
-    way = settle_forces if balances(couplings, posed) else settle
-    settled = way(posed, couplings, {} if before is None else before.memory, _SOLVER, rounds=rounds)
+    settled = settled_with(couplings, posed, {} if before is None else before.memory, _SOLVER, rounds=rounds)
     lag = kernel.lag(settled.contact.traction)
     normal = _normal(problem, settled, couplings, lag, time.perf_counter() - started)
     result = _with_friction(normal, kernel, settled.contact, profile, v, angle)
@@ -443,7 +438,7 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
         (problem.body, problem.surface, "surface"),
         (problem.counter_body, problem.counter_surface, "counter_surface"),
     )
-    relaxing = [(surface, name) for body, surface, name in pairs if any(map(_relaxes, materials_of(body)))]
+    relaxing = [(surface, name) for body, surface, name in pairs if relaxes(body)]
     if not relaxing:
         raise InputError(
             "body or counter_body of steady sliding must be viscoelastic, but neither is. Give a Viscoelastic(...)."
@@ -454,7 +449,3 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
                 f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on it is at rest, but is rough. "
                 'Write ContactProblem(rough, Rigid(), counter_body=rubber); on the command line --body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5".'
             )
-
-
-def _relaxes(material: Elastic) -> bool:
-    return isinstance(material, Viscoelastic) and bool(material.spectrum)

@@ -20,8 +20,7 @@ from ..core.grid import Grid
 from ..core.quantity import Quantity
 from ..core.spectral import RealTransform
 from ..core.status import NoProgress, Progress
-from ..solids.layers import materials_of
-from ..solids.viscoelastic import Viscoelastic
+from ..solids.layers import relaxes
 from ..surfaces.surface import Surface
 from .boundary import Periodic
 from .couplings.driver import Rounds
@@ -329,7 +328,7 @@ def _moving(problem: ContactProblem, control: Control) -> str:
         )
     if isinstance(control, Unloaded):
         raise InputError("control of sliding in time must be a load or position, but is Unloaded().")
-    relaxing = [any(map(_relaxes, materials_of(body))) for body in (problem.body, problem.counter_body)]
+    relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
     if sum(relaxing) != 1:
         raise InputError(
             f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
@@ -341,7 +340,3 @@ def _moving(problem: ContactProblem, control: Control) -> str:
             f"{name} of sliding in time must be a Surface, for it moves over the viscoelastic body, but is Flat()."
         )
     return name
-
-
-def _relaxes(material: object) -> bool:
-    return isinstance(material, Viscoelastic) and bool(material.spectrum)

@@ -206,11 +206,9 @@ class Adhesion(Part):
 
         return (*ADHESION_SCALARS, *LOOP_SCALARS, *STICKINESS, *ENERGY, *BRANCH, SOURCES)
 
-    def asked(self, document: Any, folder: Path) -> Asked | None:
+    def asked(self, document: Any, folder: Path) -> Asked:
         """The table [adhesion] with its law."""
-        table: AdhesionSettings | None = document.adhesion
-        if table is None:
-            return None
+        table: AdhesionSettings = document.adhesion
         if table.retract is not None and document.control.approach is None:
             raise InputError(
                 "approach must be given as the deepest position of approach and parting (adhesion.retract, --retract), but is not. Give "

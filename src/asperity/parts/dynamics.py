@@ -195,11 +195,9 @@ class Dynamics(Part):
         )
         return (*SCALARS, *BLOCK_SCALARS, *CURVE, *SPEEDS, *STABILITY, time, *traces)
 
-    def asked(self, document: Any, folder: Path) -> Moving | None:
+    def asked(self, document: Any, folder: Path) -> Moving:
         """The table [dynamics] with speed and friction."""
-        settings: DynamicsSettings | None = document.dynamics
-        if settings is None:
-            return None
+        settings: DynamicsSettings = document.dynamics
         friction = document.friction
         if settings.model != "mass" and not friction.speed:
             raise InputError(

@@ -214,10 +214,8 @@ class Menisci(Part):
 
         return WET_SCALARS
 
-    def asked(self, document: Any, folder: Path) -> Wetted | None:
+    def asked(self, document: Any, folder: Path) -> Wetted:
         """The film of the table [film], with the friction of the table [friction]."""
-        if document.film is None:
-            return None
         law = friction_law(document.friction, sheared=sticks(document))
         return Wetted(_film(document.film, folder), law)
 

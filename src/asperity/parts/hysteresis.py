@@ -125,11 +125,9 @@ class Hysteresis(Part):
     settings = HysteresisSettings
     quantities = (*SCALARS, FIELD, *COLUMNS)
 
-    def asked(self, document: Any, folder: Path) -> HysteresisSettings | None:
+    def asked(self, document: Any, folder: Path) -> HysteresisSettings:
         """The table [hysteresis], beside no other motion."""
-        table: HysteresisSettings | None = document.hysteresis
-        if table is None:
-            return None
+        table: HysteresisSettings = document.hysteresis
         for name in ("shear", "rolling"):
             if getattr(document, name) is not None:
                 raise InputError(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
@@ -123,11 +122,6 @@ class Indentation(Part):
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars, cut, curve and imprint."""
         return (*SCALARS, *quantities_of(PREFIX))
-
-    def asked(self, document: Any, folder: Path) -> IndentationSettings | None:
-        """The table [indentation]."""
-        found: IndentationSettings | None = document.indentation
-        return found
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""

@@ -180,7 +180,7 @@ class Part:
         return found if self.table else True
 
     def asked(self, document: Any, folder: Path) -> Any:
-        """What ``document``, whose relative paths start at ``folder``, requests of this part; None for nothing."""
+        """What a ``document`` with the settings of this part, whose relative paths start at ``folder``, requests of it; None for nothing."""
         return self.settings_in(document)
 
     def check(self, ask: Any, problem: ContactProblem) -> None:

@@ -186,11 +186,9 @@ class Passes(Part):
         profile = tuple(replace(item, dims=("passes_row",)) for item in PROFILE)
         return (*SCALARS, *quantities_of(PREFIX), *each, *profile)
 
-    def asked(self, document: Any, folder: Path) -> Passing | None:
+    def asked(self, document: Any, folder: Path) -> Passing:
         """The table [passes] with the friction of the contact."""
-        table: PassesSettings | None = document.passes
-        if table is None:
-            return None
+        table: PassesSettings = document.passes
         friction = document.friction
         return Passing(table, float(friction.coefficient or 0.0) if friction.law == "coulomb" else 0.0)
 

@@ -98,8 +98,8 @@ class PlasticFlow(Part):
 
     def asked(self, document: Any, folder: Path) -> Flows | None:
         """The table [plastic_flow], unless it is switched off."""
-        table: PlasticFlowSettings | None = document.plastic_flow
-        return None if table is None or not table.active else Flows(table)
+        table: PlasticFlowSettings = document.plastic_flow
+        return Flows(table) if table.active else None
 
     def check(self, ask: Flows, problem: ContactProblem) -> None:
         """Refuse bodies that cannot flow, before the contact is solved."""

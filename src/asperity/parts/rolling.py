@@ -149,11 +149,9 @@ class Rolling(Part):
 
         return (*SCALARS, *FIELDS, *_columns("creep", (*CREEPAGES, *FORCES), CURVE), *_columns("rolled", MOVES, PATH))
 
-    def asked(self, document: Any, folder: Path) -> Rolls | None:
+    def asked(self, document: Any, folder: Path) -> Rolls:
         """The table [rolling] with the law of friction."""
-        table: RollingSettings | None = document.rolling
-        if table is None:
-            return None
+        table: RollingSettings = document.rolling
         friction = document.friction
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(

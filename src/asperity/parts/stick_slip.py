@@ -227,11 +227,9 @@ class StickSlip(Part):
         found: ShearSettings | None = document.shear
         return ShearSettings() if found is None and sticks(document) else found
 
-    def asked(self, document: Any, folder: Path) -> Sheared | None:
+    def asked(self, document: Any, folder: Path) -> Sheared:
         """The table [shear] with the direction of the friction."""
-        settings = self.settings_in(document)
-        if settings is None:
-            return None
+        settings = self.settings_in(document) or ShearSettings()
         friction = document.friction
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(

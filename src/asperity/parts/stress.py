@@ -170,9 +170,9 @@ class Stress(Part):
         Quantity("interface_max_peel", "Pa", "largest peel of the interface", dims=("interface",)),
     )
 
-    def asked(self, document: Any, folder: Path) -> StressRequest | None:
+    def asked(self, document: Any, folder: Path) -> StressRequest:
         """The request of the table [stress], with the friction of the table [friction]."""
-        return None if document.stress is None else stress_request(document.stress, document.friction)
+        return stress_request(document.stress, document.friction)
 
     def check(self, ask: StressRequest, problem: ContactProblem) -> None:
         """Refuse what the problem has no stress for, in the words of documents and options."""

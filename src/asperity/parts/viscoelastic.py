@@ -157,14 +157,18 @@ class Viscoelasticity(Part):
         moments = (replace(item, name=f"moment_{item.name}", dims=(MOMENT,)) for item in COLUMNS)
         return (*SCALARS, *OSCILLATION, *STEPS, *moments)
 
-    def asked(self, document: Any, folder: Path) -> InTime | None:
-        """The table [viscoelastic], or its defaults where a body relaxes, with the turning points of the load path."""
-        table: ViscoelasticSettings | None = document.viscoelastic
-        if table is None and not any(_relaxes_in(body) for body in (document.body, document.counter_body)):
-            return None
+    def settings_in(self, document: Any) -> ViscoelasticSettings | None:
+        """The table [viscoelastic], or its defaults where a body relaxes."""
+        found: ViscoelasticSettings | None = document.viscoelastic
+        relaxing = found is None and any(_relaxes_in(body) for body in (document.body, document.counter_body))
+        return ViscoelasticSettings() if relaxing else found
+
+    def asked(self, document: Any, folder: Path) -> InTime:
+        """The settings with the turning points of the load path."""
+        settings = self.settings_in(document) or ViscoelasticSettings()
         path, slides = document.control.path, document.hysteresis is not None
         every, first = (1, False) if path is None else (path.steps, path.mean_gap is not None)
-        return InTime(table or ViscoelasticSettings(), every, first, slides)
+        return InTime(settings, every, first, slides)
 
     def check(self, ask: InTime, problem: ContactProblem) -> None:
         """Refuse times where nothing relaxes, and a temperature without a shift."""

@@ -24,7 +24,17 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
-from ..io.schemas.bodies import BodyTable, GradedTable, LayerTable, body_from_text
+from ..io.schemas.bodies import (
+    FLOW,
+    AnyHardening,
+    BodyTable,
+    GradedTable,
+    LayerTable,
+    LinearHardeningTable,
+    MaterialTable,
+    SwiftTable,
+    body_from_text,
+)
 from ..io.schemas.problem import (
     EFFECTIVE,
     FROM_BODY,
@@ -38,10 +48,20 @@ from ..io.schemas.problem import (
     ProblemDocument,
     SolverTable,
 )
+from ..io.schemas.relaxation import (
+    ArrheniusTable,
+    KelvinVoigtTable,
+    MaxwellTable,
+    MeasuredTable,
+    PowerLawTable,
+    PronyTable,
+    Relaxing,
+    StandardLinearTable,
+)
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
 from ..parts.part import Part
 from ..parts.registry import parts
-from ..solids.elastic import Rigid
+from ..solids.elastic import Elastic, Hardening, Rigid, Strength
 from ..solids.layers import (
     Body,
     Bonded,
@@ -57,11 +77,15 @@ from ..solids.layers import (
     graded,
     surface_material,
 )
+from ..solids.library import material
+from ..solids.moduli_file import read_moduli
+from ..solids.plasticity import LinearHardening, Swift, Voce
+from ..solids.strength import flow_stress
+from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
 from ..surfaces.read import read
 from ..surfaces.surface import Surface
-from .materials import build_material
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +155,8 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
         build_law(document.law, (body, counter_body)),
     )
     known = known or parts()
-    asks = {part.name: ask for part in known if (ask := part.asked(document, folder)) is not None}
+    concerned = (part for part in known if part.settings_in(document) is not None)
+    asks = {part.name: ask for part in concerned if (ask := part.asked(document, folder)) is not None}
     problem = _with_physics(problem, asks, known)
     for part in known:
         if part.name in asks:
@@ -400,3 +425,91 @@ def build_part(value: Any, folder: Path) -> Any:
         if key in arguments and "amplitude" in inspect.signature(value.makes).parameters:
             arguments["amplitude"] = amplitude(arguments.pop(key))
     return value.makes(**arguments)
+
+
+# Materials: from the library, of elastic constants, or viscoelastic.
+
+
+def build_material(table: MaterialTable, library: Path | None, folder: Path) -> Elastic:
+    """Material of ``table``; names are looked up in the file ``library`` too, and paths of files start at ``folder``."""
+    if table.material is not None:
+        found = material(table.material, library=library)
+        given = [key for key in FLOW if getattr(table, key) is not None]
+        kept = tuple(source for source in found.sources if source.partition(":")[0] not in given)
+        sources = (*kept, *(f"{key}: user" for key in given))
+        return replace(found, strength=strength_of(table, found), sources=sources) if given else found
+    assert table.poisson_ratio is not None
+    strength = strength_of(table, None)
+    more: dict[str, Any] = {"strength": strength, "name": table.name or "", "sources": ("user",)}
+    if table.relaxation is not None:
+        return viscoelastic(table.relaxation, float(table.poisson_ratio), folder, **more)
+    return Elastic(_known(table.youngs_modulus), table.poisson_ratio, **more)
+
+
+def strength_of(table: MaterialTable, known: Elastic | None) -> Strength:
+    """Strength that ``table`` gives, in place of what is ``known`` of its material; a hardening begins at the yield stress, or at that of the hardness."""
+    before = Strength() if known is None else known.strength
+    given = table.yield_stress is not None
+    strength = Strength(
+        before.hardness if table.hardness is None else float(table.hardness),
+        _known(table.yield_stress) if given else before.yield_stress,
+        None if given or table.hardening is not None else before.hardening,
+        before.kinematic if table.kinematic is None else float(table.kinematic),
+        before.recall if table.recall is None else float(table.recall),
+    )
+    if table.hardening is None:
+        return strength
+    first, modulus = flow_stress(strength).value, known.youngs_modulus if known else _known(table.youngs_modulus)
+    if math.isnan(first):
+        raise InputError(
+            "yield stress must be given together with a hardening, but is not known. Give yield_stress (Y in the text of a body).",
+            subject="yield stress",
+        )
+    return replace(strength, yield_stress=first, hardening=_hardening(table.hardening, first, modulus))
+
+
+def _hardening(table: AnyHardening, first: float, youngs_modulus: float) -> Hardening:
+    if isinstance(table, LinearHardeningTable):
+        return LinearHardening(first, float(table.modulus))
+    if isinstance(table, SwiftTable):
+        strain = first / youngs_modulus if table.reference_strain is None else float(table.reference_strain)
+        return Swift(first, strain, float(table.exponent))
+    return Voce(first, float(table.gain), float(table.rate))
+
+
+def viscoelastic(table: Relaxing, nu: float, folder: Path, **more: Any) -> Viscoelastic:
+    """Viscoelastic material that relaxes as ``table`` says, of Poisson's ratio ``nu``; ``more`` are fields of it."""
+    more |= {"elastic_bulk": table.elastic_bulk, "shift": _shift(table)}
+    if isinstance(table, PronyTable):
+        terms = tuple((float(e), float(t)) for e, t in zip(table.moduli, table.times, strict=True))
+        return Viscoelastic.prony(float(table.relaxed), terms, nu, **more)
+    if isinstance(table, StandardLinearTable):
+        return Viscoelastic.standard_linear(
+            float(table.relaxed), float(table.instantaneous), float(table.time), nu, **more
+        )
+    if isinstance(table, MaxwellTable):
+        return Viscoelastic.maxwell(float(table.modulus), float(table.time), nu, **more)
+    if isinstance(table, KelvinVoigtTable):
+        ratio = float(table.instantaneous)
+        return Viscoelastic.kelvin_voigt(float(table.relaxed), float(table.time), nu, instantaneous=ratio, **more)
+    if isinstance(table, PowerLawTable):
+        ends = {"shortest": float(table.shortest), "longest": float(table.longest)}
+        return Viscoelastic.power_law(float(table.coefficient), float(table.exponent), nu, **ends, **more)
+    if not isinstance(table, MeasuredTable):
+        raise InputError(f"relaxation must be one of the kinds of documents, but is {table!r}.")
+    columns = read_moduli(folder / table.moduli_file)
+    more["sources"] = (*more.get("sources", ()), f"relaxation: {table.moduli_file}")
+    return fitted_solid(*columns, poisson_ratio=nu, per_decade=table.per_decade, **more).solid
+
+
+def _shift(table: Relaxing) -> TemperatureShift | None:
+    shift = table.shift
+    if shift is None:
+        return None
+    if isinstance(shift, ArrheniusTable):
+        return Arrhenius(float(shift.reference), float(shift.activation_energy))
+    return WilliamsLandelFerry(float(shift.reference), float(shift.c1), float(shift.c2))
+
+
+def _known(value: float | str | None) -> float:
+    return math.nan if value is None else float(value)

@@ -169,6 +169,11 @@ def materials_of(body: Body) -> tuple[Elastic, ...]:
     return tuple(part for part in parts if isinstance(part, Elastic))
 
 
+def relaxes(body: Body) -> bool:
+    """Whether a material of ``body`` that takes part is viscoelastic, and its modulus falls in time."""
+    return any(isinstance(material, Viscoelastic) and material.spectrum for material in materials_of(body))
+
+
 def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered, float], ...]:
     """The bodies that deform, each with the sign of the tractions it carries: 1 for ``body``, -1 for ``counter_body``.
 

@@ -15,7 +15,7 @@ import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solve import default_solver
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
-from asperity.contact.solvers.active_set import clipping, first_guess, linear_system
+from asperity.contact.solvers.active_set import bounds, first_guess, linear_system
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.first_guess import COARSEST, coarsened, highest_points, nested_start
 from asperity.contact.solvers.protocol import relative_error
@@ -289,7 +289,7 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
         f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
         f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
         f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
-        f"θ ≥ {clipping.LEAST_SHARE}:",
+        f"θ ≥ {bounds.LEAST_SHARE}:",
         f"square of {SQUARE_SIDE} pixels",
         f"${first_guess._FINE_STIFFNESS}/\\hat c_0$",
         f"erf({first_guess._AREA_PER_LOAD:g} p̄/E*s)",

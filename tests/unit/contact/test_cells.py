@@ -7,7 +7,7 @@ import pytest
 
 import asperity as asp
 from asperity.contact.solvers.active_set import linear_system
-from asperity.contact.solvers.active_set.entering import free_set
+from asperity.contact.solvers.active_set.bounds import free_set
 from asperity.contact.solvers.active_set.linear_system import (
     CoarseCorrection,
     LinearSystem,

@@ -18,7 +18,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
-from asperity.contact.solvers.active_set.entering import _PRIOR, entering_levels, free_set
+from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, CoarseCompliance, Engine, Hierarchy, Load, Merge
 from asperity.core.engine.cpu import SERIAL_BELOW

@@ -15,14 +15,14 @@ from typing import ClassVar, Self
 import numpy as np
 
 from ...core.arrays import BoolArray, RealArray
-from ...core.errors import InputError, NoSolutionError
+from ...core.errors import NoSolutionError
 from ...core.late import Shown
 from ...core.status import Status
 from .. import measure
 from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
 from ..operators import Operator
 from ..operators.creep import SummedOperator
-from ..problem import ContactProblem, Control, FixedGrips, MeanGap, Pull
+from ..problem import ContactProblem, Control, FixedGrips, MeanGap
 from ..solvers.adhesion.front import MovingFront, step_compliance
 from ..solvers.adhesion.problem import Adhered, AdhesiveProblem
 from ..solvers.adhesion.soft_core import SoftCoreNewton
@@ -553,12 +553,3 @@ def in_time(
         total_dissipated=before.total + lost,
     )
     return found.memory(contact.gap, approach), found
-
-
-def require_adhesion(problem: ContactProblem, control: Control) -> None:
-    """Refuse with an InputError what only adhesion bears, in a ``problem`` without."""
-    if problem.adhesion is None and isinstance(control, Pull | FixedGrips):
-        raise InputError(
-            f"control of a problem without adhesion must be one that presses, but is {control!r}. Give "
-            "ContactProblem(..., adhesion=ExponentialAdhesion(work, range)), or prescribe Force(...) or Approach(...)."
-        )

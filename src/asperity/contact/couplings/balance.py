@@ -62,13 +62,6 @@ class _Held:
         return self.solids - self.liquid
 
 
-def balances(couplings: Sequence[Coupling], posed: Posed) -> bool:
-    """Whether menisci and adhesion are to be balanced together: both are there, and the control is a force or a machine that gives way."""
-    kinds = {type(coupling) for coupling in couplings}
-    gives = isinstance(posed.control, FixedGrips) and math.isfinite(posed.control.stiffness)
-    return {AdhesionCoupling, MeniscusCoupling} <= kinds and (posed.external_force is not None or gives)
-
-
 def settle_forces(
     posed: Posed,
     couplings: Sequence[Coupling],
@@ -78,7 +71,7 @@ def settle_forces(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """``settle`` for couplings that hold adhesion and menisci, under a force or on a machine; the arguments are the same.
+    """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the arguments are the same.
 
     Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's if that is larger, the approach is searched for.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -105,6 +106,12 @@ class Posed:
         if isinstance(self.control, MeanPressure | Force):
             return mean_pressure(self.control, self.operator.grid) * self.operator.grid.area
         return None
+
+    @property
+    def balances_force(self) -> bool:
+        """Whether the force has to come out right: a prescribed one, or that of a machine that gives way."""
+        gives = isinstance(self.control, FixedGrips) and math.isfinite(self.control.stiffness)
+        return self.external_force is not None or gives
 
 
 def height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:

@@ -18,7 +18,7 @@ from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ..elastic import Elastic
-from ..layers import Body, Layered, deformable, materials_of
+from ..layers import Body, Layered, deformable, materials_of, relaxes
 from ..relaxation import Creep, Terms, merged
 from ..viscoelastic import Viscoelastic, alike
 from .halfspace import Compliance, contact_compliance
@@ -155,9 +155,9 @@ def contact_creep(body: Body, counter_body: Body) -> AnyCreep | None:
     InputError if both are rigid.
     """
     solids = tuple(solid for solid, _ in deformable(body, counter_body))
-    materials = tuple(material for solid in solids for material in materials_of(solid))
-    if not any(_relaxes(material) for material in materials):
+    if not any(map(relaxes, solids)):
         return None
+    materials = tuple(material for solid in solids for material in materials_of(solid))
     if len(materials) == len(solids) and not any(_stacked(solid).layers for solid in solids):
         total = _creep(materials[0])
         for material in materials[1:]:
@@ -187,10 +187,6 @@ def complex_compliance(body: Body, counter_body: Body, wavenumber: RealArray, om
     solids = (_stacked(solid) for solid, _ in deformable(body, counter_body))
     first, *others = (operational_compliance(solid, wavenumber, 1j * omega) for solid in solids)
     return sum(others, start=first)
-
-
-def _relaxes(material: Elastic) -> bool:
-    return isinstance(material, Viscoelastic) and bool(material.spectrum)
 
 
 def _creep(material: Elastic) -> Creep:

@@ -33,8 +33,7 @@ from ..protocol import (
     scaled_error,
 )
 from ..reference.steepest_descent import descend, levelling_step
-from .clipping import add_clipped, clear_tension, clipped_update
-from .entering import free_set
+from .bounds import add_clipped, clear_tension, clipped_update, free_set
 from .first_guess import COARSE_ITERATIONS, COARSEST, nested_start
 from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
 

@@ -30,7 +30,7 @@ from ....core.engine.cpu import CpuCells
 from ....core.status import NoProgress, Progress
 from ...operators.convolution import restricted
 from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
-from .entering import free_set
+from .bounds import free_set
 from .first_guess import COARSEST, coarse_tolerance, coarsened
 from .linear_system import PIXEL_SHARE, Workspace, hierarchies, pixel_compliance
 from .solver import ActiveSet, plane_level, relative_error

@@ -27,7 +27,7 @@ from ....core.engine.cpu import CpuCells
 from ...laws import FrictionLaw
 from ...laws.friction import at_points
 from ...operators.tangential import TangentialOperator
-from ..active_set.entering import free_set
+from ..active_set.bounds import free_set
 from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
 from ..protocol import ContactQP, FixedMean, FixedOffset, multiplier
 from .linear_system import NewtonSystem, Workspace, gmres
