@@ -15,15 +15,10 @@ from ..core.errors import InputError
 from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
-from ..io.export import export_csv, export_stress_vtk, export_vtk
-from ..io.stress_files import save_stress
 from ..parts.dynamics import Dynamics
-from ..report.animation import save_plastic_animation
-from ..report.folder import names_in_folder, write_run
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
-from .campaigns import solve_files
 from .declared import ADVANCED, FILE, Given, Option, offers, part_names, part_options, sorted_out, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import BASIC, CORE, OUTPUT, composed, document_options, names_in, overlaid, own_option
@@ -136,6 +131,8 @@ def contact(
             raise InputError(
                 f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out with many files: --out DIR holds the table of all."
             )
+        from .campaigns import solve_files
+
         raise typer.Exit(solve_files(document, file, out, yes=bool(given.get("yes"))))
     confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
     raise typer.Exit(_perform(document, base, out, files, force=force))
@@ -204,14 +201,29 @@ def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple
 
 def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dict[str, Path], *, force: bool) -> int:
     """Run ``document``, whose relative paths start at ``base``; write what is asked for, print; the exit code."""
-    case = build(document, base)
+    case, in_folder = build(document, base), []
     with output_folder(out, force=force) as folder:
         outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
         if folder is not None and out is not None:
-            moved = relocated(document, base, out)
-            write_run(outcome, folder, moved)
+            from ..report.folder import names_in_folder, write_run
+
+            write_run(outcome, folder, relocated(document, base, out))
+            in_folder = [out / name for name in names_in_folder(outcome)]
     if "save_document" in files:
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
+    if files.keys() - {"save_document"}:
+        _write_files(outcome, files, force=force)
+    print_problem(outcome, document.title or "Contact")
+    print_result(outcome)
+    print_files([*in_folder, *files.values()])
+    return OK if outcome.converged else NOT_CONVERGED
+
+
+def _write_files(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:
+    """Write the numbers, fields and pictures of ``outcome`` to the ``files`` that are asked for."""
+    from ..io.export import export_csv, export_vtk
+    from ..report.animation import save_plastic_animation
+
     if "csv" in files:
         export_csv(outcome.result, files["csv"], scalars=outcome.scalars, overwrite=force)
     if "vtk" in files:
@@ -219,14 +231,13 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
     write_volume(outcome, files, force=force)
     if "animation" in files:
         save_plastic_animation(outcome, files["animation"], overwrite=force)
-    print_problem(outcome, document.title or "Contact")
-    print_result(outcome)
-    print_files([*([] if out is None else [out / name for name in names_in_folder(outcome)]), *files.values()])
-    return OK if outcome.converged else NOT_CONVERGED
 
 
 def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:
     """Write all planes of the stresses of ``outcome`` to the ``files`` that are asked for."""
+    from ..io.export import export_stress_vtk
+    from ..io.stress_files import save_stress
+
     if "stress" in outcome.found:
         survey = outcome.found["stress"].detail
         for name, write in (("stress_nc", save_stress), ("stress_vtk", export_stress_vtk)):

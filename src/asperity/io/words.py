@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
-from typing import Protocol, TypeAlias, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from ..contact.advice import doubts
-from ..contact.couplings.adhesion import AdhesiveContact
 from ..contact.couplings.menisci import Menisci
 from ..contact.history import HistoryResult
 from ..contact.laws import LayeredHardness
@@ -24,11 +23,11 @@ from ..core.units import percent, show
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
-from ..stress.field import DERIVED, StressField
-from ..stress.yielding import YieldReport
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
-from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
+
+if TYPE_CHECKING:
+    from ..stress.field import StressField
 
 LINE = 100
 """Letters of a value in a ``repr``."""
@@ -436,6 +435,8 @@ def surface_text(surface: Surface) -> str:
 
 def field_rows(field: StressField) -> Rows:
     """Planes and largest stresses of a stress ``field``."""
+    from ..stress.field import DERIVED
+
     counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
     first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
     rows = [
@@ -471,6 +472,9 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     InputError
         If nothing is known of such a thing.
     """
+    from ..stress.field import StressField
+    from ..surfaces.characterise.summary import Characterisation
+
     if isinstance(thing, Surface):
         steps = len(thing.origin.history)
         rows = [row for row in surface_rows(thing)[:8] if not row[0].startswith("step ")]
@@ -512,6 +516,8 @@ def _doubt_rows(*results: ContactResult) -> Rows:
 
 def text(thing: object) -> str:
     """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
+    from ..stress.field import StressField
+
     if not isinstance(thing, Surface | ContactProblem | ContactResult | HistoryResult | StressField):
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
@@ -520,6 +526,9 @@ def text(thing: object) -> str:
 
 
 def _line(thing: object) -> str:
+    from ..contact.couplings.adhesion import AdhesiveContact
+    from ..stress.yielding import YieldReport
+
     if isinstance(thing, Elastic):
         return f"{type(thing).__name__} {body_text(thing)}"
     if isinstance(thing, Layered):

@@ -332,6 +332,11 @@ def plots_of(result: ContactResult) -> tuple[Plot, ...]:
     return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
 
 
+def contact_figures(result: ContactResult) -> tuple[Figure, ...]:
+    """Figures of any ``result``."""
+    return drawn(PLOTS, result)
+
+
 def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
     """Names of all figures of a ``result`` (a contact or load path), each with what draws its PNG."""
     found: dict[str, Callable[[], bytes]] = {}

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ..contact.history import HistoryResult
 from ..contact.operators import Operator, prepare_operator
@@ -29,11 +29,12 @@ from ..parts.registry import parts, with_own
 from ..parts.stick_slip import StickSlip
 from ..parts.stress import Stress, Yielding, stress_request
 from ..parts.viscoelastic import Viscoelasticity
-from ..plots.contact import PLOTS
-from ..plots.picture import Figure, drawn
 from .build import Case, build
 from .document import TRACTIONS, ProblemDocument, checked, read_table
-from .tractions import TractionsDocument, build_tractions, checked_tractions
+
+if TYPE_CHECKING:
+    from ..plots.picture import Figure
+    from .tractions import TractionsDocument
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +121,9 @@ class Outcome:
     @cached_property
     def pictures(self) -> tuple[Figure, ...]:
         """Figures of the contact itself; drawn once."""
-        return drawn(PLOTS, self.result)
+        from ..plots.contact import contact_figures
+
+        return contact_figures(self.result)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -183,6 +186,8 @@ def run(
         folder, where = Path(document).parent if base_folder is None else folder, f"{where} {document}"
         document = read_table(document)
     if isinstance(document, Mapping) and TRACTIONS in document:
+        from .tractions import checked_tractions
+
         return run_tractions(checked_tractions(document, where), folder, stage=stage)
     known = with_own(parts)
     if not isinstance(document, ProblemDocument):
@@ -236,6 +241,8 @@ def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = n
     InputError
         If the document asks for what its body or grid does not have.
     """
+    from .tractions import build_tractions
+
     loaded: Any = build_tractions(document, folder)
     request = stress_request(document.stress, FrictionSettings())
     Stress().check(request, loaded.problem)
