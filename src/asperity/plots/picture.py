@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import io
+import struct
+import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -11,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core import units
 from ..core.arrays import RealArray
@@ -256,8 +260,12 @@ class Plot:
 _PAD = 0.06
 """White border of a picture in inches."""
 
-_LEVEL, _RUN_LENGTHS = 4, 3
-"""Level and strategy of the PNG encoder: pictures are 16 % larger than by default and take half as long to encode."""
+_ROOM = 0.9
+"""Room in inches around all axes, legends and texts for what belongs to them; where that takes more, all artists are asked for their places."""
+
+_LEVEL = 3
+"""Level of compression of a picture. Rows of a picture are alike: with each stored as its difference from the last it is a tenth larger than by
+Pillow's default, which tries five filters a row, and takes a quarter of the time."""
 
 BESIDE = " Beside it the part within the rectangle, enlarged."
 
@@ -322,18 +330,91 @@ def png(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    buffer = io.BytesIO()
-    with style():
+    with style(), _no_search_for_garbage():
         figure = Figure(figsize=size, dpi=dpi)
-        renderer: Any = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
+        FigureCanvasAgg(figure)
         draw(figure.add_subplot(projection=projection))
-        # bbox_inches="tight" finds the same box after drawing the whole figure once more
-        content = figure.get_tightbbox(renderer).padded(_PAD)
+        pixels, content = content_of(figure)
         if curves is not None:
             curves.extend(_curves_of(figure, content))
-        how = {"compress_level": _LEVEL, "compress_type": _RUN_LENGTHS}
-        figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=content, pil_kwargs=how)
-    return buffer.getvalue()
+    return encoded(pixels, dpi)
+
+
+@contextmanager
+def _no_search_for_garbage() -> Iterator[None]:
+    """Within it Python does not look for garbage: a figure makes some 10⁴ objects that all live as long as it does, a tenth of its time."""
+    searches = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if searches:
+            gc.enable()
+
+
+def content_of(figure: Any) -> tuple[NDArray[np.uint8], Any]:
+    """Pixels of what is drawn on ``figure``, (rows, columns, 3) from the top, and the box in inches that they fill.
+
+    To draw a figure with room around it and look where it is white takes less time than to ask its artists for their places, which
+    lays out all texts once more.
+    """
+    from matplotlib.transforms import Bbox
+
+    pixels, box = _drawn(figure, Bbox.union(list(_places(figure))).padded(_ROOM))
+    inked = pixels.view(np.uint32)[:, :, 0] != 0xFFFFFFFF
+    rows, columns = (np.flatnonzero(inked.any(axis=axis)) for axis in (1, 0))
+    pad = round(_PAD * figure.dpi)
+    (top, bottom), (first, last) = ((int(ends[0]) - pad, int(ends[-1]) + pad + 1) for ends in (rows, columns))
+    if min(top, first) < 0 or bottom > pixels.shape[0] or last > pixels.shape[1]:
+        pixels, box = _drawn(figure, figure.get_tightbbox(figure.canvas.get_renderer()).padded(_PAD))
+        return pixels[:, :, :3], box
+    x, y = box.x0 + np.array((first, last)) / figure.dpi, box.y1 - np.array((bottom, top)) / figure.dpi
+    return pixels[top:bottom, first:last, :3], Bbox.from_extents(x[0], y[0], x[1], y[1])
+
+
+def _places(figure: Any) -> Iterator[Any]:
+    """Box in inches of every axes of ``figure``, put where its aspect and its locator want it, and of the texts and legends on it."""
+    waiting, renderer = list(figure.axes), figure.canvas.get_renderer()
+    while waiting:
+        ax = waiting.pop()
+        locate = ax.get_axes_locator()
+        ax.apply_aspect(locate(ax, renderer) if locate else None)
+        waiting += ax.child_axes
+        for artist in filter(None, (ax.patch, *ax.texts, ax.get_legend())):
+            yield artist.get_window_extent(renderer).transformed(figure.dpi_scale_trans.inverted())
+
+
+def _drawn(figure: Any, box: Any) -> tuple[NDArray[np.uint8], Any]:
+    """Pixels of ``figure`` (rows, columns, 4) within a ``box`` (in inches), widened to whole pixels, and that box."""
+    from matplotlib.transforms import Bbox
+
+    first, last = np.floor(box.min * figure.dpi), np.ceil(box.max * figure.dpi)
+    columns, rows = (last - first).astype(int)
+    buffer, rounding = io.BytesIO(), 1e-3  # the sides are cut off to whole pixels
+    within = Bbox([first / figure.dpi, (last + rounding) / figure.dpi])
+    figure.savefig(buffer, format="rgba", dpi=figure.dpi, bbox_inches=within)
+    return np.frombuffer(buffer.getbuffer(), np.uint8).reshape(rows, columns, 4), within
+
+
+def encoded(pixels: NDArray[np.uint8], dpi: float) -> bytes:
+    """PNG of red, green and blue ``pixels`` (rows, columns, 3) from the top, at ``dpi`` dots per inch."""
+    height, width, _ = pixels.shape
+    rows = np.empty((height, 1 + 3 * width), np.uint8)
+    rows[:, 0] = 2  # filter "up"
+    values = rows[:, 1:].reshape(pixels.shape)
+    values[0] = pixels[0]
+    np.subtract(pixels[1:], pixels[:-1], out=values[1:])
+    metre = round(dpi / 0.0254)
+    chunks = (
+        (b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),
+        (b"pHYs", struct.pack(">IIB", metre, metre, 1)),
+        (b"IDAT", zlib.compress(rows.tobytes(), _LEVEL)),
+        (b"IEND", b""),
+    )
+    written = (
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(written)
 
 
 def _curves_of(figure: Any, content: Any) -> Iterator[AxesCurves]:
