@@ -463,3 +463,24 @@ def test_a_study_over_the_time_of_a_hold(tmp_path: Path) -> None:
     alone = asp.run(table | {"viscoelastic": {"hold": "10 s", "steps": 4}}).values
     assert float(data["viscoelastic_heat"][1]) == pytest.approx(alone["viscoelastic_heat"], rel=1e-9)
     assert float(data["approach"][0]) < float(data["approach"][1])
+
+
+def test_motion_that_comes_to_another_steady_contact_is_a_finding() -> None:
+    """An adhesive wave that is pressed and slides jumps into full contact on the way, where the steady state found at once touches in part."""
+    wave = {"kind": "sinusoid", "points": [64, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}
+    table = {
+        "version": 2,
+        "surface": wave,
+        "body": "rigid",
+        "counter_body": "E=3MPa+3MPa@0.1s+10MPa@10ms,nu=0.5",
+        "control": {"mean_pressure": "5 kPa"},
+        "adhesion": {"work": "50 mJ/m^2", "range": "0.2 um"},
+        "hysteresis": {"speed": "1.2 cm/s", "distance": "1 mm", "steps_per_pixel": 1},
+    }
+    outcome = asp.run(table)
+    assert outcome.values["start_last_area_fraction"] == 1.0
+    assert outcome.values["sliding_area_fraction"] < 0.5
+    assert "two steady states" in {finding.criterion for finding in outcome.findings}
+    fast = asp.run(table | {"hysteresis": table["hysteresis"] | {"speed": "1.5 cm/s"}})
+    assert fast.values["start_last_area_fraction"] == fast.values["sliding_area_fraction"]
+    assert "two steady states" not in {finding.criterion for finding in fast.findings}

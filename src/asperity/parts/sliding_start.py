@@ -26,6 +26,9 @@ LAST = 0.25
 UNSTEADY = 0.1
 """Relative difference of the friction by slope and by heat from which on the motion is not steady."""
 
+OTHER_BRANCH = 0.2
+"""Relative difference of the area of a motion that is steady from that of the steady state from which on they are two contacts."""
+
 LEAST, MOST = 4, 100_000
 """Smallest and largest number of steps of time."""
 
@@ -103,7 +106,8 @@ class SlidingStart(Part):
         steady = solved.found["hysteresis"].values if "hysteresis" in solved.found else {}
         for name in ("hysteresis_friction", "sliding_area_fraction"):
             facts[name] = float(steady.get(name, math.nan))
-        return Found(values, facts, _findings(values, found), found.citation_keys)
+        findings = (*_findings(values, found), *_other_branch(values, facts))
+        return Found(values, facts, findings, found.citation_keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of sliding over viscoelastic bodies."""
@@ -158,6 +162,21 @@ def _findings(values: Mapping[str, Any], found: TransientSliding) -> tuple[Advic
         text = "After the distance the contact has come to an edge of its grid, beyond which nothing is known. Take a shorter distance (--sliding-distance), or a larger surface."
         made.append(Advice("warning", "edge of the grid", text))
     return tuple(made)
+
+
+def _other_branch(values: Mapping[str, Any], facts: Mapping[str, float]) -> tuple[Advice, ...]:
+    """That the motion has come to another steady contact than the one found at once, as adhesive contacts may."""
+    slope, heat, area = (float(values[f"start_last_{name}"]) for name in ("friction", "heat_friction", "area_fraction"))
+    steady = float(facts["sliding_area_fraction"])
+    if math.isnan(steady) or abs(slope - heat) > UNSTEADY * max(abs(slope), abs(heat)):
+        return ()
+    if abs(area - steady) <= OTHER_BRANCH * max(area, steady):
+        return ()
+    text = (
+        f"The motion has come to {percent(area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(steady)} with "
+        f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
+    )
+    return (Advice("warning", "two steady states", text),)
 
 
 def picture_of(found: Found, solved: Solved) -> StartPicture:
