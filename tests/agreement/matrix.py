@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
 import asperity as asp
+from asperity.contact.stickiness import stickiness
 from asperity.theories import catalogue
 from asperity.theories.protocol import ContactAnswer, Prediction
 from asperity.theories.rough.persson import IsotropicSpectrum
@@ -140,6 +141,31 @@ def coating_on_a_grid(points: float) -> float:
     steps = approach + abs(approach) * np.array([1.5, 0.6, 0.3, 0.15, 0.0, -0.1, -0.2, -0.3, -0.4, -0.5])
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(step)) for step in steps]))
     return apart(-found.external_force.min(), theory.pull_off)
+
+
+def rough_and_attractive(share: float) -> float:
+    """Mean pressure over E* at which a twentieth of a rough map touches, of an attraction whose number is ``share`` of the limit of stickiness."""
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=96.0, shortest_wavelength=12.0
+    )
+    surface, body = asp.generate.gaussian(asp.Grid((192, 192), (1.0, 1.0)), spectrum, seed=2), asp.Elastic(0.91, 0.3)
+    unit = asp.ContactProblem(surface, body, adhesion=asp.DugdaleAdhesion(1.0, 0.25, 1.0))
+    law = asp.DugdaleAdhesion(stickiness(unit).share_of_limit / share, 0.25, 1.0)
+    deepest = 0.7 * float(surface.heights.max() - surface.heights.mean())
+    steps = [asp.FixedGrips(float(approach)) for approach in np.linspace(0.0, deepest, 8)]
+    found = asp.solve(asp.ContactProblem(surface, body, adhesion=law), asp.History(steps))
+    areas = [step.area_fraction for step in found.steps]
+    assert areas[-1] > 0.05
+    return float(np.interp(0.05, areas, found.external_force)) / surface.grid.area
+
+
+def stickiness_of_a_map(_: float) -> float:
+    """Share of the limit at which that pressure changes its sign, tensile below and compressive above, against 1."""
+    shares = np.array([1.0, 2.0, 4.0])
+    pressure = np.array([rough_and_attractive(share) for share in shares])
+    assert pressure[0] < 0.0 < pressure[-1]
+    assert (np.diff(pressure) > 0.0).all()
+    return apart(np.exp(np.interp(0.0, pressure, np.log(shares))), 1.0)
 
 
 def adhesive_wave(work: float) -> float:
@@ -651,6 +677,15 @@ MATRIX: tuple[Agreement, ...] = (
         (24.0, 48.0, 96.0),
         0.06,
         "pull-off; too large by 1.2 to 1.9 pixels over the contact radius, 33 pixels at the last",
+    ),
+    Agreement(
+        "pastewka-robbins",
+        "adhesive contact on a grid",
+        "rough map: pressure at 5 % of area, tensile or not",
+        stickiness_of_a_map,
+        (),
+        1.5,
+        "a criterion of orders: d_att and d_rep are estimates, and κ_rep = 2; the sign changes at 2.0 of its limit",
     ),
     Agreement(
         "jkr-wave",
