@@ -293,6 +293,51 @@ SOUND = (
 LINES = (*SOUND * 20, *(("contact", "matrix.txt", *SCALE, *options) for options in CONTACT))
 
 
+BALL = {
+    "version": 2,
+    "surface": {"kind": "sphere", "points": [16, 16], "size": "60 um", "radius": "100 um"},
+    "body": "E=0.91MPa,nu=0.3",
+    "boundary": {"kind": "free"},
+    "control": {"approach": "0.3 um"},
+    "solver": {"threads": 1},
+}
+RUBBER = small(DOCUMENTS["sliding over rubber"])
+LOOP = {"work": "50 mJ/m**2", "strength": "60 kPa", "retract": "0.6 um", "steps": 3}
+ADHESIVE: dict[str, dict[str, Any]] = {
+    "loop": {**BALL, "adhesion": {**LOOP, "law": "dugdale", "cycles": 2, "stiffness": "10 N/m"}},
+    "branch": {**BALL, "adhesion": {**LOOP, "branch": True, "jump_tolerance": "0.1 um"}},
+    "pair": {**BALL, "adhesion": {"pair": "polystyrene/paraffin wax", "range": "0.5 um", "law": "linear"}},
+    "core": {**BALL, "adhesion": {"work": "50 mJ/m**2", "range": "0.8 um", "law": "lennard-jones"}},
+    "spacing": {
+        **BALL,
+        "adhesion": {"work": "50 mJ/m**2", "law": "van der waals", "range": "0.5 um"},
+        "control": {"force": "10 uN"},
+    },
+    "no range": {**BALL, "adhesion": {"work": "50 mJ/m**2", "law": "jkr"}, "control": {"force": "10 uN"}},
+    "rough": {**small(DOCUMENTS["plain"]), "adhesion": {"work": "10 mJ/m**2", "range": "5 nm"}},
+}
+SLIDING: dict[str, dict[str, Any]] = {
+    "distance": {**RUBBER, "hysteresis": {**RUBBER["hysteresis"], "distance": "4 um"}},
+    "curve": {
+        **RUBBER,
+        "hysteresis": {"speed": "1 mm/s", "slowest": "0.1 mm/s", "fastest": "10 mm/s", "points": 2, "reduction": 0.7},
+    },
+    "sticky": {
+        **RUBBER,
+        "adhesion": {"work": "10 mJ/m**2", "range": "5 nm"},
+        "hysteresis": {"speed": "1 mm/s", "distance": "4 um", "steps_per_pixel": 1},
+    },
+    "roller": {
+        **BALL,
+        "body": "rigid",
+        "counter_body": "E=3MPa+3MPa@0.1s,nu=0.5",
+        "control": {"force": "1 uN"},
+        "hysteresis": {"speed": "20 um/s"},
+    },
+}
+"""Documents with the tables [adhesion] and [hysteresis], in which every key of theirs is found."""
+
+
 READ: tuple[Arguments, ...] = (("info", DAMAGED, *SCALE), ("info", DAMAGED))
 SOLVE: tuple[Arguments, ...] = (("contact", "--from", DAMAGED),)
 REPORT: tuple[Arguments, ...] = (("export", DAMAGED, "--csv", "x.csv", "--force"), ("cite", DAMAGED), ("info", DAMAGED))
@@ -319,6 +364,8 @@ def surface(folder: Path) -> dict[str, bytes]:
 TARGETS: Mapping[str, Callable[[Path], Target]] = {
     "problem documents (TOML)": lambda _: Target(in_json(documents(), "toml"), as_toml, SOLVE),
     "problem documents (JSON)": lambda _: Target(in_json(documents(), "json"), as_json, SOLVE),
+    "documents of adhesion": lambda _: Target(in_json(ADHESIVE, "toml"), as_toml, SOLVE),
+    "documents of sliding": lambda _: Target(in_json(SLIDING, "toml"), as_toml, SOLVE),
     "study documents": lambda _: Target(in_json(STUDIES, "toml"), as_toml, (("run", DAMAGED),)),
     "finished studies": lambda folder: Campaigns(
         campaign(folder), mutate.in_text, (*[("status", "study")] * 9, ("collect", "study"))

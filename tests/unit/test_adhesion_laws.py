@@ -116,7 +116,10 @@ def test_own_laws_that_do_not_hold_together_are_refused():
     ("make", "what"),
     [
         (lambda: ExponentialAdhesion(0.0, RANGE), "work of adhesion (J/m^2)"),
+        (lambda: ExponentialAdhesion(1e-299, RANGE), "work of adhesion (J/m^2)"),
         (lambda: DugdaleAdhesion(WORK, -1.0), "range of the adhesion (m)"),
+        (lambda: DugdaleAdhesion(WORK, 1e160), "range of the adhesion (m)"),
+        (lambda: LinearAdhesion.of_strength(WORK, 1e-299), "strength of the adhesion (Pa)"),
         (lambda: LinearAdhesion.of_strength(WORK, 0.0), "strength of the adhesion (Pa)"),
         (lambda: VanDerWaalsAdhesion(WORK, 1e-9, 0.5e-9), "reach of the adhesion (m)"),
         (lambda: LennardJonesAdhesion(WORK, math.nan), "equilibrium gap (m)"),

@@ -78,8 +78,9 @@ class _BesideWall:
     spacing: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
-        require.positive(self.work, "work of adhesion (J/m^2)")
+        require.magnitude(self.work, "work of adhesion (J/m^2)")
         require.positive(self.range, "range of the adhesion (m)", "It is the work of adhesion over the largest stress.")
+        require.magnitude(self.range, "range of the adhesion (m)")
 
     @property
     def strength(self) -> float:
@@ -89,8 +90,8 @@ class _BesideWall:
     @classmethod
     def of_strength(cls, work: float, strength: float) -> Self:
         """Law with this work of adhesion (J/m²) and largest attraction (Pa), both > 0; InputError if one is not."""
-        require.positive(strength, "strength of the adhesion (Pa)")
-        return cls(work, require.positive(work, "work of adhesion (J/m^2)") / strength)  # type: ignore[call-arg]
+        require.magnitude(strength, "strength of the adhesion (Pa)")
+        return cls(work, require.magnitude(work, "work of adhesion (J/m^2)") / strength)  # type: ignore[call-arg]
 
 
 @dataclass(frozen=True)
@@ -248,8 +249,8 @@ class VanDerWaalsAdhesion:
     spacing: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
-        require.positive(self.work, "work of adhesion (J/m^2)")
-        require.positive(self.spacing_at_contact, "spacing at contact (m)")
+        require.magnitude(self.work, "work of adhesion (J/m^2)")
+        require.magnitude(self.spacing_at_contact, "spacing at contact (m)")
         if not self.reach > self.spacing_at_contact:
             raise InputError(
                 f"reach of the adhesion (m) must be more than the spacing at contact {self.spacing_at_contact:g}, but is {self.reach:g}."
@@ -329,8 +330,8 @@ class LennardJonesAdhesion:
     citation_keys: ClassVar[tuple[str, ...]] = ("Greenwood1997",)
 
     def __post_init__(self) -> None:
-        require.positive(self.work, "work of adhesion (J/m^2)")
-        require.positive(self.equilibrium, "equilibrium gap (m)")
+        require.magnitude(self.work, "work of adhesion (J/m^2)")
+        require.magnitude(self.equilibrium, "equilibrium gap (m)")
 
     @property
     def spacing(self) -> float:

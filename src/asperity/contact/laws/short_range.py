@@ -46,7 +46,7 @@ class JKRAdhesion:
     steepest: ClassVar[float] = math.inf
 
     def __post_init__(self) -> None:
-        require.positive(self.work, "work of adhesion (J/m^2)")
+        require.magnitude(self.work, "work of adhesion (J/m^2)")
 
     def attraction(self, gap: RealArray) -> RealArray:
         """σ in Pa: infinite where the gap is zero, none beyond."""
