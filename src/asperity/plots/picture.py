@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import gc
 import io
-import struct
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -263,9 +261,8 @@ _PAD = 0.06
 _ROOM = 0.9
 """Room in inches around all axes, legends and texts for what belongs to them; where that takes more, all artists are asked for their places."""
 
-_LEVEL = 3
-"""Level of compression of a picture. Rows of a picture are alike: with each stored as its difference from the last it is a tenth larger than by
-Pillow's default, which tries five filters a row, and takes a quarter of the time."""
+_LEVEL, _RUN_LENGTHS = 1, 3
+"""Level and strategy of the PNG encoder: pictures are a tenth larger than by its usual level and take two thirds of the time to encode."""
 
 BESIDE = " Beside it the part within the rectangle, enlarged."
 
@@ -398,23 +395,12 @@ def _drawn(figure: Any, box: Any) -> tuple[NDArray[np.uint8], Any]:
 
 def encoded(pixels: NDArray[np.uint8], dpi: float) -> bytes:
     """PNG of red, green and blue ``pixels`` (rows, columns, 3) from the top, at ``dpi`` dots per inch."""
-    height, width, _ = pixels.shape
-    rows = np.empty((height, 1 + 3 * width), np.uint8)
-    rows[:, 0] = 2  # filter "up"
-    values = rows[:, 1:].reshape(pixels.shape)
-    values[0] = pixels[0]
-    np.subtract(pixels[1:], pixels[:-1], out=values[1:])
-    metre = round(dpi / 0.0254)
-    chunks = (
-        (b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),
-        (b"pHYs", struct.pack(">IIB", metre, metre, 1)),
-        (b"IDAT", zlib.compress(rows.tobytes(), _LEVEL)),
-        (b"IEND", b""),
-    )
-    written = (
-        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks
-    )
-    return b"\x89PNG\r\n\x1a\n" + b"".join(written)
+    from PIL import Image
+
+    buffer = io.BytesIO()
+    image = Image.fromarray(np.ascontiguousarray(pixels))
+    image.save(buffer, format="png", dpi=(dpi, dpi), compress_level=_LEVEL, compress_type=_RUN_LENGTHS)
+    return buffer.getvalue()
 
 
 def _curves_of(figure: Any, content: Any) -> Iterator[AxesCurves]:
