@@ -91,7 +91,7 @@ def independent(name: str) -> dict[str, float]:
             pull = latest
         extra = {"extra": pull}
     elif name == "sliding":
-        shear = ShearKernel(problem, (MU * np.cos(0.3), MU * np.sin(0.3)))
+        shear = ShearKernel.of(problem, (MU * np.cos(0.3), MU * np.sin(0.3)))
         lift = np.zeros(problem.grid.shape)
         for _ in range(300):
             found = dense.solved(mean, lift)

@@ -199,8 +199,7 @@ def test_menisci_beside_creep_find_a_balance(
 @pytest.mark.parametrize("body", [SOFT, COATED])
 def test_hardness_menisci_and_friction_together_beside_creep(body: asp.Elastic | asp.Layered) -> None:
     film = asp.LiquidFilm(surface_tension=0.02, thickness=2e-8, meniscus_height=5e-8)
-    friction = asp.Coulomb(0.3, coupled=body is SOFT)
-    problem = asp.ContactProblem(GROUND, body, film=film, law=asp.Hardness(8e5), friction=friction)
+    problem = asp.ContactProblem(GROUND, body, film=film, law=asp.Hardness(8e5), friction=asp.Coulomb(0.3))
     found = asp.solve(problem, HOLD)
     assert found.last.max_pressure <= 8e5 * (1.0 + 1e-9)
     assert found.last.total_plastic_work >= found.steps[0].total_plastic_work > 0.0
@@ -221,11 +220,6 @@ def test_hardness_of_layers_with_menisci_beside_creep(boundary: asp.Free | asp.P
 
 
 def test_what_is_not_followed_is_named() -> None:
-    slipping = asp.ContactProblem(GROUND, COATED, friction=asp.Coulomb(0.3))
-    with refused(asp.InputError, "friction of viscoelastic layers that stick and slip (coupling stick_slip)"):
-        asp.solve(slipping, asp.Step(LOAD, asp.Shift(1e-9)))
-    with refused(asp.InputError, "friction of viscoelastic bodies", "sliding"):
-        asp.solve(asp.ContactProblem(GROUND, COATED, friction=asp.Coulomb(0.3)), LOAD)
     endless = asp.ContactProblem(GROUND, SOFT, boundary=asp.Free(), adhesion=asp.JKRAdhesion(0.05))
     with refused(asp.InputError, "adhesion of viscoelastic bodies", "JKRAdhesion"):
         asp.solve(endless, LOAD)

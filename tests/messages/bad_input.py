@@ -15,7 +15,6 @@ import asperity as asp
 FLOWS = ("--body", "E=200GPa,nu=0.3,Y=400MPa")
 RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
 ON_RUBBER = ("--body", "rigid", "--counter", RUBBER[1], *LOAD, "--sliding-speed", "1mm/s")
-COATED_RUBBER = ("--body", f"{RUBBER[1]}:1um/steel", *LOAD)
 STRESS: tuple[tuple[str, ...], ...] = (
     ("--friction", "-0.1"),
     ("--direction", "90"),
@@ -93,7 +92,6 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*ON_RUBBER, "--slowest", "1m/s", "--fastest", "1mm/s"),
     (*ON_RUBBER, "--speed-points", "3"),
     (*ON_RUBBER, "--adhesion", "50mJ/m**2", "--adhesion-law", "jkr"),
-    (*COATED_RUBBER, "--friction", "0.3", "--shift", "5nm"),
     ("--body", "moduli=none.csv,nu=0.3", *LOAD),
     ("--body", "E=1GPa,power=0.1,shortest=1e-300s,longest=1e300s,nu=0.3", *LOAD),
     (*BODY, *LOAD, "--tolerance", "2"),

@@ -11,13 +11,12 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.status import Outcome, Status
-from ..solids.compliance.creep import AnyCreep, SharedCreep
-from ..solids.layers import deformable, materials_of
-from ..solids.viscoelastic import alike
+from ..solids.compliance.creep import SharedCreep
 from . import measure
 from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
-from .couplings.creep import Past, Remembering, SharedPast, TimeWeights
+from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
 from .couplings.driver import Settled
+from .couplings.layered_shear import LayeredShear
 from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
 from .couplings.shear_creep import ShearMemory
@@ -25,6 +24,7 @@ from .couplings.sliding import SlidingCoupling
 from .couplings.stick_slip import StickSlip, StickSlipCoupling
 from .laws import JKRAdhesion
 from .operators import Operator
+from .operators.tangential import NO_COUPLING
 from .problem import Approach, ContactProblem, Control, MeanGap, Step, as_step
 from .result import ContactResult
 from .solvers.protocol import ContactQP, FixedOffset, Solution, SolverState
@@ -44,30 +44,37 @@ def require_range(problem: ContactProblem) -> None:
         )
 
 
-def require_followed(couplings: tuple[Coupling, ...], creep: AnyCreep, problem: ContactProblem) -> None:
-    """Refuse shear whose creep is not followed, of sticking surfaces and of moduli that do not all relax alike, and adhesion without range."""
-    require_range(problem)
-    for coupling in couplings:
-        if isinstance(coupling, SlidingCoupling) and coupling.feedback:
-            materials = [m for solid, _ in deformable(problem.body, problem.counter_body) for m in materials_of(solid)]
-            if not isinstance(creep, SharedCreep) or not alike(tuple(materials)):
-                raise InputError(
-                    "friction of viscoelastic bodies must be None, or their moduli must all relax alike, but here they do not, and how shear "
-                    "makes them creep (coupling sliding) is not followed. Leave it out, or write Coulomb(mu, coupled=False)."
-                )
-
-
 class InTime:
     """Steps of time of a prepared problem with viscoelastic bodies."""
 
     def __init__(self, prepared: Prepared, remembering: Remembering) -> None:
         self.prepared, self.remembering = prepared, remembering
-        self.shear: ShearMemory | None = None
-        if any(isinstance(coupling, StickSlipCoupling) for coupling in prepared.couplings):
-            engine = prepared.operator.engine
-            self.shear = ShearMemory.prepared(
-                prepared.problem, prepared.operators.creep, getattr(engine, "threads", None)
-            )
+        self.shear: ShearMemory | LayeredShear | None = None
+        if any(isinstance(coupling, StickSlipCoupling | SlidingCoupling) for coupling in prepared.couplings):
+            self.shear = self._prepared_shear()
+            prepared.couplings = tuple(self._lifting(coupling) for coupling in prepared.couplings)
+
+    @property
+    def _sticks(self) -> bool:
+        return any(isinstance(coupling, StickSlipCoupling) for coupling in self.prepared.couplings)
+
+    def _prepared_shear(self) -> ShearMemory | LayeredShear:
+        threads = getattr(self.prepared.operator.engine, "threads", None)
+        if isinstance(self.remembering, LayeredPast):
+            return LayeredShear.prepared(self.prepared.problem, self.remembering, threads)
+        creep = self.prepared.operators.creep
+        assert isinstance(creep, SharedCreep)
+        return ShearMemory.prepared(self.prepared.problem, creep, threads)
+
+    def _lifting(self, coupling: Coupling) -> Coupling:
+        """Shear that lifts the surfaces now or later, as that of bodies which are equal at the first instant only."""
+        assert self.shear is not None
+        if isinstance(coupling, StickSlipCoupling):
+            return coupling.lifting(coupled=any(operator.coupled for operator in self.shear.operators))
+        if isinstance(coupling, SlidingCoupling):
+            largest = max(operator.coupling.largest for operator in self.shear.operators)
+            return replace(coupling, feedback=largest > NO_COUPLING * float(self.prepared.operator.kernel.max()))
+        return coupling
 
     @property
     def area(self) -> float:
@@ -106,6 +113,8 @@ class InTime:
     def begin(self, state: InterfaceState | None) -> Moment:
         """What the interface is before a step, from its ``state``."""
         past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
+        if state is not None and "stick_slip" not in state.memory and self._sticks:
+            past = replace(past, shear=None)  # of gross sliding, which leaves no traction to stick to
         profile = self.prepared.profile
         mean, approach, gap = past.place
         if np.isnan(gap):
@@ -150,6 +159,7 @@ class InTime:
         if isinstance(adhesive, AdhesiveContact):
             heat = past.dissipated - moment.past.dissipated
             ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
+        past = self._slid(moment, past, contact.pressure, weights)
         past, sheared, works = self._sheared(moment, past, traction, weights, ends, couplings)
         stored += sheared
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
@@ -171,9 +181,9 @@ class InTime:
         couplings: tuple[Coupling, ...],
     ) -> tuple[Past, float, tuple[float, float]]:
         """``past`` after a step with the memory and heat of shear, the energy (J) that it stores, which is noted in ``ends``, and its works (J)."""
-        if self.shear is None:
+        coupling = next((each for each in couplings if isinstance(each, StickSlipCoupling)), None)
+        if self.shear is None or coupling is None:
             return past, 0.0, (0.0, 0.0)
-        coupling = next(each for each in couplings if isinstance(each, StickSlipCoupling))
         memory, found = ends["stick_slip"]
         assert isinstance(found, StickSlip)
         before = _traction_before(moment.state, pressure.shape)
@@ -181,6 +191,15 @@ class InTime:
         ends["stick_slip"] = memory, replace(found, tangential_energy=more)
         works = _works(moment, found, coupling, self.prepared.problem.grid.pixel_area)
         return replace(past, shear=shear, dissipated=past.dissipated + heat), more, works
+
+    def _slid(self, moment: Moment, past: Past, pressure: RealArray, weights: TimeWeights) -> Past:
+        """``past`` after a step with the memory of the shear of gross sliding under the ``pressure`` (nx, ny) in Pa of the contact."""
+        for coupling in self.prepared.couplings:
+            if isinstance(coupling, SlidingCoupling) and coupling.feedback:
+                assert self.shear is not None
+                tractions = coupling.traction(_pressure_before(moment)), coupling.traction(pressure)
+                return replace(past, shear=self.shear.advanced(moment.past, *tractions, weights))
+        return past
 
     def _couplings(self, operator: Operator, moment: Moment, weights: TimeWeights) -> tuple[Coupling, ...]:
         """Couplings of the problem with the ``operator`` of the step, and shear with what the past of the ``moment`` left."""
@@ -190,9 +209,9 @@ class InTime:
             if isinstance(coupling, AdhesionCoupling):
                 found.append(replace(coupling, operator=operator))
             elif isinstance(coupling, SlidingCoupling) and coupling.feedback:
-                assert isinstance(self.remembering, SharedPast)
-                growth = 1.0 + float(self.remembering.creep.shares @ weights.after)
-                found.append(coupling.in_time(growth, self.remembering.held(past, weights)))
+                assert self.shear is not None
+                lifted = self.shear.lifted(past, coupling.traction(_pressure_before(moment)), weights)
+                found.append(coupling.in_time(self.shear.operator(weights).coupling, lifted))
             elif isinstance(coupling, StickSlipCoupling):
                 assert self.shear is not None
                 held = self.shear.held(past, _traction_before(moment.state, past.pressure.shape), weights)
@@ -236,11 +255,17 @@ class InTime:
             (first.past, second.past, third.past),
         )
         found = self.remembering.curvature(pasts, weights)
-        if self.shear is None:
+        if self.shear is None or not self._sticks:
             return found
         shape = third.past.pressure.shape
         tractions = tuple(_traction_before(moment.state, shape) for moment in (first, second, third))
         return max(found, self.shear.curvature(pasts, tractions, weights))
+
+
+def _pressure_before(moment: Moment) -> RealArray:
+    """Pressure (nx, ny) in Pa of the contact at a ``moment``, without what adhesion pulls; a first guess alone is none."""
+    state = moment.state
+    return moment.past.pressure if state is None or "creep" not in state.memory else state.pressure
 
 
 def _traction_before(state: InterfaceState | None, shape: tuple[int, ...]) -> RealArray:

@@ -33,7 +33,7 @@ from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
 from .couplings.stick_slip import StickSlipCoupling
 from .cut_steps import in_parts
 from .history import History, HistoryResult
-from .in_time import InTime, require_followed
+from .in_time import InTime, require_range
 from .laws import Coulomb, LimitByDepth
 from .operators import Operator, prepare_operator
 from .operators.creep import OperatorsInTime
@@ -214,12 +214,13 @@ class Prepared:
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile, self.time_steps = problem.profile(), time_steps
         self._measured: tuple[RealArray, float] | None = None
+        shear = any(isinstance(coupling, SlidingCoupling | StickSlipCoupling) for coupling in self.couplings)
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
-        creep = contact_creep(problem.body, problem.counter_body) if relaxing else None
+        creep = contact_creep(problem.body, problem.counter_body, shear=shear) if relaxing else None
         self.remembering: Remembering | None = None
         self.in_time: InTime | None = None
         if creep is not None:
-            require_followed(self.couplings, creep, problem)
+            require_range(problem)
             self.remembering = remembering(creep, self.operator)
             self.operators = OperatorsInTime(creep, self.operator)
             self.couplings = (*self.couplings, CreepCoupling())

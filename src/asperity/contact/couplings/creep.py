@@ -17,6 +17,7 @@ import numpy as np
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
 from ...core.engine.cpu import SERIAL_BELOW, Blocks
+from ...core.errors import InputError
 from ...core.spectral import PaddedTransform, RealTransform, wrapped
 from ...solids.compliance.creep import AnyCreep, LayeredCreep, SharedCreep
 from ..boundary import Periodic
@@ -103,11 +104,11 @@ class Products:
 class ShearPast:
     """Memory of shear tractions.
 
-    ``xi`` are the internal tractions (terms, 2, nx, ny) in Pa, of a fluid in Pa s; ``squares`` (parts, terms) their energies and those of the
-    coupling with the internal pressures, J, of a fluid in J s².
+    ``xi`` are the internal tractions (terms, 2, nx, ny) in Pa or their half spectra, of a fluid in Pa s; ``squares`` (parts, terms) their energies
+    and those of the coupling with the internal pressures, J, of a fluid in J s².
     """
 
-    xi: RealArray
+    xi: RealArray | ComplexArray
     squares: RealArray
 
 
@@ -158,7 +159,9 @@ class Past:
         """Named real arrays; complex ones have a last axis of real and imaginary parts."""
         numbers = {"time": self.time, "dissipated": self.dissipated, "place": self.place}
         fields = {"pressure": self.pressure, "response": self.response, "xi": self.xi, "squares": self.squares}
-        shear = {} if self.shear is None else {"shear_xi": self.shear.xi, "shear_squares": self.shear.squares}
+        shear = (
+            {} if self.shear is None else {"shear_xi": _real_view(self.shear.xi), "shear_squares": self.shear.squares}
+        )
         return {
             **{name: np.asarray(value, dtype=float) for name, value in numbers.items()},
             **{name: _real_view(value) for name, value in fields.items()},
@@ -231,15 +234,10 @@ class SharedPast:
 
     def lift(self, past: Past, weights: TimeWeights) -> RealArray:
         """K_0 sum shares_k (e_k xi_k + before_k p)."""
-        total = self.held(past, weights)
-        return self.operator.apply(total) if total.any() else total
-
-    def held(self, past: Past, weights: TimeWeights) -> RealArray:
-        """sum shares_k (e_k xi_k + before_k p): pressure (Pa) that would displace as much at the first instant."""
         total = float(self.creep.shares @ weights.before) * past.pressure
         for share, e, xi in zip(self.creep.shares, weights.e, past.xi, strict=True):
             total += share * e * xi
-        return total
+        return self.operator.apply(total) if total.any() else total
 
     def after(
         self,
@@ -273,7 +271,7 @@ class SharedPast:
 
     def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
         """|K_0 p''| sum shares_k G_k over |K_0 p| (1 + sum shares_k after_k)."""
-        second = _second_difference(pasts, tuple(past.response for past in pasts))
+        second = second_difference(pasts, tuple(past.response for past in pasts))
         size = float(np.linalg.norm(pasts[2].response)) * (1.0 + float(self.creep.shares @ weights.after))
         found = float(np.linalg.norm(second)) * float(self.creep.shares @ weights.of_curvature)
         return found / size if size else 0.0
@@ -328,7 +326,7 @@ class LayeredPast:
 
     @classmethod
     def prepared(cls, creep: LayeredCreep, operator: Operator) -> LayeredPast:
-        """Kernels of all terms on the grid of the ``operator`` at the first instant."""
+        """Kernels of all terms on the grid of the ``operator`` at the first instant; those of pressure alone are cut where they do not show."""
         engine, grid = operator.engine, operator.grid
         threads = engine.threads_for(operator.padded) if isinstance(engine, CpuEngine) else 1
         boundary, transform = operator.boundary, RealTransform(operator.padded, threads)
@@ -341,7 +339,10 @@ class LayeredPast:
                 kernels.append(transform.forward(influence, _spectrum(transform)).real.copy())
         free = None if isinstance(boundary, Periodic) else PaddedTransform(grid.shape, operator.padded, threads)
         stacked = np.stack(kernels)
-        cuts = _cuts(stacked, operator.kernel)
+        whole = np.full(stacked.shape[:2], stacked.shape[2])
+        cuts = (
+            _cuts(stacked, operator.kernel) if creep.shear is None else whole
+        )  # what pressure hardly feels may move along the surface
         return cls(creep, operator, stacked, free or transform, Passes(threads, cuts))
 
     @property
@@ -357,7 +358,11 @@ class LayeredPast:
         """The past in a ``memory``; a virgin one of an empty memory."""
         if memory:
             past = Past.of(memory)
-            return replace(past, response=_complex_view(memory["response"]), xi=_complex_view(memory["xi"]))
+            _require_terms(past, self.times)
+            shear = past.shear and replace(past.shear, xi=_complex_view(memory["shear_xi"]))
+            return replace(
+                past, response=_complex_view(memory["response"]), xi=_complex_view(memory["xi"]), shear=shear
+            )
         count, none = self.times.size, np.zeros_like(_spectrum(self.transform))
         xi = np.zeros((count, *none.shape), dtype=complex)
         return Past(0.0, np.zeros(self.operator.grid.shape), none, xi, np.zeros(count), 0.0, VIRGIN)
@@ -387,7 +392,7 @@ class LayeredPast:
         )  # what is never written takes no memory
         own = np.zeros((len(response), self.times.size, 5))
         factors = np.stack([weights.e, weights.before, weights.after])
-        fields = self.kernels, self._counted, _parts(past.response), _parts(response), _parts(past.xi), _parts(xi), own
+        fields = self.kernels, self.counted, _parts(past.response), _parts(response), _parts(past.xi), _parts(xi), own
         self.passes.run("advance", response, self.passes.cuts, factors, *fields)
         products = Products(past.squares, *own.sum(axis=0).T)
         squares, ones = weights.advanced(products), np.ones(self.times.size)
@@ -417,7 +422,7 @@ class LayeredPast:
         return self.transform.backward(spectrum, np.empty(self.operator.grid.shape))
 
     @cached_property
-    def _counted(self) -> RealArray:
+    def counted(self) -> RealArray:
         """Area (m²) by which the products of a half spectrum count, (columns,): twice where it stands for two waves (Parseval)."""
         (nx, ny), columns = self.operator.padded, self.kernels.shape[2]
         found = np.full(columns, 2.0)
@@ -441,6 +446,15 @@ def _parts(spectra: RealArray | ComplexArray) -> RealArray:
     return np.ascontiguousarray(spectra, dtype=complex).view(float)
 
 
+def _require_terms(past: Past, times: RealArray) -> None:
+    """A past of another series of retardations, as of the same layers without shear, would be taken for what it is not."""
+    if len(past.squares) != times.size:
+        raise InputError(
+            f"state of viscoelastic layers must remember {times.size} retardation times, those of the bodies of this problem, but remembers {len(past.squares)}. "
+            "Begin with a state of the same bodies, and of steps whose shear was solved for if it is solved for here."
+        )
+
+
 VIRGIN = (0.0, 0.0, math.nan)
 """Place before any load; the mean gap is then that at first touch."""
 
@@ -449,7 +463,7 @@ def _spectrum(transform: RealTransform | PaddedTransform) -> ComplexArray:
     return np.empty(transform.spectrum_shape, np.complex128)
 
 
-def _second_difference(
+def second_difference(
     pasts: tuple[Past, Past, Past], values: tuple[RealArray | ComplexArray, ...]
 ) -> RealArray | ComplexArray:
     """Second derivative in time of what has these ``values`` in the three ``pasts``."""

@@ -2,7 +2,7 @@
 
 The displacements (along the surface, and up and down) by shear tractions q and pressures p are a sum over parts, each of which grows in time by
 one factor: u(t) = sum_i C_i [tau + sum_k s_ik xi_k], tau = (q, p), lambda_k d(xi_k)/dt = tau - xi_k as for pressure alone (``couplings.creep``).
-A part is a body, or layers, whose moduli all relax alike. The compliance of a half-space with an elastic bulk has two: in 1/G, that of an
+A part is a body, or layers, whose moduli all relax alike (of others see ``layered_shear``). The compliance of a half-space with an elastic bulk has two: in 1/G, that of an
 incompressible solid, and in z = 3/2(3K + G), in which 1 - nu = G (1/2G + z).
 """
 
@@ -16,8 +16,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.engine import CpuEngine
-from ...core.errors import InputError
-from ...solids.compliance.creep import AnyCreep, SharedCreep
+from ...solids.compliance.creep import SharedCreep
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, deformable, materials_of
 from ...solids.relaxation import Creep, Relaxation
@@ -25,7 +24,7 @@ from ...solids.viscoelastic import Viscoelastic, alike
 from ..operators.tangential import TangentialOperator
 from ..operators.tangential_sum import SummedTangential
 from ..problem import ContactProblem
-from .creep import Past, Products, ShearPast, TimeWeights
+from .creep import Past, Products, ShearPast, TimeWeights, second_difference
 from .stick_slip import Held
 
 _EQUAL = 1e-6
@@ -48,16 +47,8 @@ class ShearMemory:
     times: RealArray
 
     @classmethod
-    def prepared(cls, problem: ContactProblem, creep: AnyCreep, threads: int | None) -> ShearMemory:
-        """For the bodies of ``problem``, whose normal compliance has this ``creep``.
-
-        InputError if there are layers whose moduli do not relax alike.
-        """
-        if not isinstance(creep, SharedCreep):
-            raise InputError(
-                "friction of viscoelastic layers that stick and slip (coupling stick_slip) must be None where their moduli do not all relax "
-                "alike, since how shear makes such layers creep is not followed. Take half-spaces, layers that relax alike, or leave it out."
-            )
+    def prepared(cls, problem: ContactProblem, creep: SharedCreep, threads: int | None) -> ShearMemory:
+        """For the bodies of ``problem``, whose normal compliance has this ``creep``."""
         bodies, engine = (problem.body, problem.counter_body), CpuEngine(threads)
 
         def operator(*pair: Body) -> TangentialOperator:
@@ -79,12 +70,16 @@ class ShearMemory:
                 found.append(ShearPart(made, _shares(growth, creep.times)))
         return cls(tuple(found), creep.times)
 
+    @property
+    def operators(self) -> tuple[TangentialOperator, ...]:
+        """Those of all parts."""
+        return tuple(part.operator for part in self.parts)
+
     def operator(self, weights: TimeWeights) -> TangentialOperator:
         """Operator of a step of time."""
         if len(self.parts) == 1 and not weights.after.any():
             return self.parts[0].operator
-        factors = [1.0 + float(part.shares @ weights.after) for part in self.parts]
-        return SummedTangential([part.operator for part in self.parts], factors)
+        return SummedTangential(self.operators, [1.0 + float(part.shares @ weights.after) for part in self.parts])
 
     def virgin(self, shape: tuple[int, ...]) -> ShearPast:
         """No shear so far, on a grid of this ``shape``."""
@@ -100,6 +95,15 @@ class ShearMemory:
             start = start + part.operator.displacement(traction) + part.operator.drawn(past.pressure)
         return Held(left, lift, start)
 
+    def lifted(self, past: Past, traction: RealArray, weights: TimeWeights) -> RealArray:
+        """Normal displacement (nx, ny) in m at the end of a step by the shear of a ``past`` that ended with this ``traction`` (2, nx, ny) in Pa."""
+        shear = past.shear or self.virgin(past.pressure.shape)
+        lift = np.zeros(past.pressure.shape)
+        for part in self.parts:
+            q = float(part.shares @ weights.before) * traction + np.tensordot(part.shares * weights.e, shear.xi, axes=1)
+            lift += part.operator.coupling.lift(q)
+        return lift
+
     def _left(self, past: Past, traction: RealArray, weights: TimeWeights) -> tuple[RealArray, RealArray]:
         """Displacement along the surface and up by sum s_k (e_k xi_k + before_k tau)."""
         shear = past.shear or self.virgin(past.pressure.shape)
@@ -114,6 +118,12 @@ class ShearMemory:
             lift = lift + part.operator.lift(q)
         return along, lift
 
+    def advanced(self, past: Past, before: RealArray, traction: RealArray, weights: TimeWeights) -> ShearPast:
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without its energies."""
+        shear = past.shear or self.virgin(past.pressure.shape)
+        e, b, a = (values[:, None, None, None] for values in (weights.e, weights.before, weights.after))
+        return ShearPast(e * shear.xi + b * before + a * traction, shear.squares)
+
     def after(
         self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
     ) -> tuple[ShearPast, float, float]:
@@ -127,22 +137,19 @@ class ShearMemory:
             squares[number] = weights.advanced(products)
             heat += weights.dissipated(part.shares, products)
             stored += 0.5 * float(products.p11) + 0.5 * float(part.shares[solid] @ squares[number][solid])
-        shape = (-1, *(1,) * traction.ndim)
-        e, b, a = (values.reshape(shape) for values in (weights.e, weights.before, weights.after))
-        return ShearPast(e * shear.xi + b * before + a * traction, squares), stored, heat
+        return ShearPast(self.advanced(past, before, traction, weights).xi, squares), stored, heat
 
     def curvature(
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights
     ) -> float:
         """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
-        first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
-        bent = 2.0 * ((tractions[2] - tractions[1]) / last - (tractions[1] - tractions[0]) / first) / (first + last)
+        curved = second_difference(pasts, tractions)
         size = float(np.hypot(np.linalg.norm(tractions[2]), np.linalg.norm(pasts[2].pressure)))
         each = [
             float(part.shares @ weights.of_curvature) / (1.0 + float(part.shares @ weights.after))
             for part in self.parts
         ]
-        return max(each) * float(np.linalg.norm(bent)) / size if size else 0.0
+        return max(each) * float(np.linalg.norm(curved)) / size if size else 0.0
 
     def _products(
         self,

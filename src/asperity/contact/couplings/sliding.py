@@ -15,6 +15,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.spectral import thread_count
+from ...solids.compliance.tensor import BodiesSurface
 from ..laws import Coulomb
 from ..operators.tangential import NO_COUPLING, CouplingKernel
 from ..problem import ContactProblem
@@ -48,11 +49,15 @@ class ShearKernel:
     incompressible body against a rigid one. On a free line shear along y moves nothing up or down.
     """
 
-    def __init__(self, problem: ContactProblem, ratios: tuple[float, float], *, threads: int | None = None) -> None:
-        bodies = problem.body, problem.counter_body
-        coupling = CouplingKernel.of(problem.grid, bodies, problem.boundary, thread_count(threads))
+    def __init__(self, coupling: CouplingKernel, ratios: tuple[float, float]) -> None:
         self._transform = coupling.transform
         self._kernel = 1j * (ratios[0] * coupling.zx + ratios[1] * coupling.zy)
+
+    @classmethod
+    def of(cls, problem: ContactProblem, ratios: tuple[float, float], *, threads: int | None = None) -> Self:
+        """That of the bodies of ``problem``."""
+        compliance = BodiesSurface(problem.body, problem.counter_body)
+        return cls(CouplingKernel.of(problem.grid, compliance, problem.boundary, thread_count(threads)), ratios)
 
     @property
     def largest(self) -> float:
@@ -71,14 +76,13 @@ class ShearKernel:
 class SlidingCoupling(Coupling):
     """Lift by the shear of ``friction``; the unknown is that displacement (nx, ny) in m.
 
-    Of viscoelastic bodies whose moduli relax alike it is ``growth`` times that of the first instant, and ``retarded`` (m) by earlier pressures.
+    In a step of time of viscoelastic bodies the ``kernel`` is that of the step, and ``retarded`` (m) what earlier shear displaces at its end.
     """
 
     friction: Coulomb
     kernel: ShearKernel = field(repr=False)
     feedback: bool = True
     tolerance: float = TOLERANCE
-    growth: float = 1.0
     retarded: RealArray | float = 0.0
     name: ClassVar[str] = "sliding"
     remedy: ClassVar[str] = "Tighten the solver's tolerance, allow more change, or lower the friction coefficient."
@@ -88,19 +92,27 @@ class SlidingCoupling(Coupling):
         cls, problem: ContactProblem, friction: Coulomb, stiffest: float, tolerance: float, threads: int | None
     ) -> Self:
         """Coupling of the bodies of ``problem``; passive where it is nothing beside ``stiffest``, the largest normal compliance (m/Pa)."""
-        mu, angle = friction.largest, friction.direction
-        kernel = ShearKernel(problem, (mu * math.cos(angle), mu * math.sin(angle)), threads=threads)
+        kernel = ShearKernel.of(problem, _ratios(friction), threads=threads)
         return cls(friction, kernel, kernel.largest > NO_COUPLING * stiffest, tolerance)
 
-    def in_time(self, growth: float, held: RealArray) -> Self:
-        """The same in a step of time, where the past displaces like the pressure ``held`` (Pa) at the first instant."""
-        return replace(self, growth=growth, retarded=replace(self, growth=1.0, retarded=0.0)._displacement(held))
+    def in_time(self, coupling: CouplingKernel, retarded: RealArray) -> Self:
+        """The same in a step of time with this ``coupling``, at whose end the past displaces ``retarded`` (nx, ny) in m."""
+        return replace(self, kernel=ShearKernel(coupling, _ratios(self.friction)), retarded=retarded)
+
+    def traction(self, pressure: RealArray) -> RealArray:
+        """Shear traction (2, nx, ny) in Pa under ``pressure`` (nx, ny) in Pa."""
+        ratios = np.array(_ratios(self.friction))
+        return ratios[:, None, None] * self._weighted(pressure)
+
+    def _weighted(self, pressure: RealArray) -> RealArray:
+        """``pressure`` times the friction coefficient over its largest, which the kernel holds."""
+        if isinstance(self.friction.coefficient, np.ndarray):
+            return np.asarray(pressure * (self.friction.coefficient / self.friction.largest))
+        return pressure
 
     def _displacement(self, pressure: RealArray) -> RealArray:
-        """Normal displacement (nx, ny) in m under friction times ``pressure``; the kernel holds the largest coefficient."""
-        if isinstance(self.friction.coefficient, np.ndarray):
-            pressure = pressure * (self.friction.coefficient / self.friction.largest)
-        return self.growth * self.kernel.displacement(pressure) + self.retarded
+        """Normal displacement (nx, ny) in m under friction times ``pressure``, and by earlier shear."""
+        return self.kernel.displacement(self._weighted(pressure)) + self.retarded
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The displacement under the pressure to start from."""
@@ -132,3 +144,9 @@ class SlidingCoupling(Coupling):
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, GrossSliding]:
         """Nothing to remember: the displacement follows from the pressure."""
         return {}, GrossSliding(self.friction.coefficient, self.friction.direction, exchange.x)
+
+
+def _ratios(friction: Coulomb) -> tuple[float, float]:
+    """Shear along x and y over pressure where the coefficient is largest."""
+    mu, angle = friction.largest, friction.direction
+    return mu * math.cos(angle), mu * math.sin(angle)

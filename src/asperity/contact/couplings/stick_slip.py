@@ -259,9 +259,14 @@ class StickSlipCoupling(Coupling):
                 "layers of a body with stick and slip must be bonded, but one is Frictionless(): nothing would hold it. Use Bonded()."
             )
         operator = TangentialOperator(problem.grid, bodies, problem.boundary, engine=CpuEngine(threads))
-        lifts = operator.coupled and not (isinstance(law, Coulomb) and not law.coupled)
+        found = cls(law, operator, StickSlipNewton(_FINER * tolerance), tolerance=tolerance)
+        return found.lifting(coupled=operator.coupled)
+
+    def lifting(self, *, coupled: bool) -> Self:
+        """The same for bodies that are ``coupled``: whether shear lifts their surfaces now or later."""
+        lifts = coupled and not (isinstance(self.law, Coulomb) and not self.law.coupled)
         finer = _COUPLED if lifts else _FINER
-        return cls(law, operator, StickSlipNewton(finer * tolerance), lifts, tolerance)
+        return replace(self, feedback=lifts, solver=replace_tolerance(self.solver, finer * self.tolerance))
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """What is remembered, with the displacement by the shear traction under the pressure to start from."""

@@ -23,13 +23,20 @@ _OCTAVES_AHEAD = 8
 """Octaves computed in advance beyond the largest wavenumber asked for: from the coarsest grid of 64² points up to 16384²."""
 
 
+class Spectral(Protocol):
+    """A function of the wavenumber."""
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """Displacement per traction in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
+
+
 class Octaves:
     """Compliance at the few wavenumbers, an octave apart, that preconditioners of all grids need; values are kept.
 
     Few values cost as much as one: 3 ms for 32 sublayers, twenty times in one solve at 1024² if nothing is kept.
     """
 
-    def __init__(self, compliance: Compliance) -> None:
+    def __init__(self, compliance: Spectral) -> None:
         self._compliance = compliance
         self._known: dict[int, float] = {}
 

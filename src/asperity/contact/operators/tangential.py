@@ -17,15 +17,8 @@ from ...core.engine import CpuEngine
 from ...core.engine.vectors import VectorConvolution
 from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
-from ...solids.compliance.tensor import (
-    coupling_influence,
-    coupling_strips,
-    influence_tensor,
-    plane_compliance,
-    shear_strips,
-    surface_tensor,
-)
-from ...solids.layers import Body, Layered, deformable
+from ...solids.compliance.tensor import BodiesSurface, SurfaceCompliance
+from ...solids.layers import Body, Layered
 from ..boundary import Boundary, Free, FreeLine, Periodic
 from .convolution import Octaves, Operator, coarse_grid
 
@@ -45,10 +38,10 @@ class CouplingKernel:
     transform: RealTransform | PaddedTransform
 
     @classmethod
-    def of(cls, grid: Grid, bodies: tuple[Body, Body], boundary: Boundary, threads: int) -> CouplingKernel:
-        """Coupling of ``bodies``, the one that carries the traction first. On a free line shear along y moves nothing up or down."""
+    def of(cls, grid: Grid, compliance: SurfaceCompliance, boundary: Boundary, threads: int) -> CouplingKernel:
+        """Coupling of a ``compliance``. On a free line shear along y moves nothing up or down."""
         if isinstance(boundary, Periodic):
-            tensor = surface_tensor(grid, *bodies)
+            tensor = compliance.tensor(grid)
             return cls(-tensor.xz, -tensor.yz, RealTransform(grid.shape, threads))
         padded = padded_shape(grid)
         transform = RealTransform(padded, threads)
@@ -58,12 +51,17 @@ class CouplingKernel:
             return transform.forward(kernel).imag.copy()
 
         if isinstance(boundary, Free):
-            xz, yz = coupling_influence(grid, *bodies)  # C_zx = -C_xz
+            xz, yz = compliance.coupling_pixels(grid)  # C_zx = -C_xz
             zx, zy = spectrum(-xz, odd_x=True), spectrum(-yz, odd_x=False)
         else:
-            zx = spectrum(coupling_strips(grid, *bodies), odd_x=True)
+            zx = spectrum(compliance.coupling_strips(grid), odd_x=True)
             zy = np.zeros_like(zx)
         return cls(zx, zy, PaddedTransform(grid.shape, padded, threads))
+
+    @property
+    def largest(self) -> float:
+        """Largest displacement by a wave of unit traction, m/Pa."""
+        return max(float(np.abs(kernel).max()) for kernel in (self.zx, self.zy))
 
     def lift(self, traction: RealArray) -> RealArray:
         """Normal displacement (nx, ny) in m under the ``traction`` (2, nx, ny) in Pa."""
@@ -90,22 +88,6 @@ def padded_shape(grid: Grid) -> tuple[int, int]:
     return fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1)
 
 
-@dataclass(frozen=True)
-class ShearCompliance:
-    """Mean over the two tangential directions of the compliance of ``bodies``, a function of the wavenumber alone."""
-
-    bodies: tuple[Body, Body]
-
-    def spectral(self, wavenumber: RealArray) -> RealArray:
-        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m); the half-space value where a layer slips freely."""
-        q = np.asarray(wavenumber, dtype=float)
-        total = np.zeros(q.shape)
-        for solid, _ in deformable(*self.bodies):
-            found = plane_compliance(solid, q)
-            total += 0.5 * (found.LL + found.T)
-        return total
-
-
 class TangentialOperator:
     """u = C q for shear tractions q on ``grid``: periodic by the spectrum, free by influence coefficients.
 
@@ -114,47 +96,51 @@ class TangentialOperator:
     grid, boundary
         Those of the contact.
     bodies
-        The body that carries the traction, and the counter body.
+        The body that carries the traction, and the counter body; or a compliance.
     engine
         Processors to use; those of ASPERITY_THREADS or all cores by default.
 
     Raises
     ------
     InputError
-        If both bodies are rigid, or on a free boundary a layer may slip: it would move without end.
+        If both bodies are rigid, or, when ``entries`` are first read, on a free boundary a layer may slip: it would move without end.
     """
 
     def __init__(
         self,
         grid: Grid,
-        bodies: tuple[Body, Body],
+        bodies: tuple[Body, Body] | SurfaceCompliance,
         boundary: Boundary = Periodic(),
         *,
         engine: CpuEngine | None = None,
         entries: tuple[RealArray, RealArray, RealArray] | None = None,
         octaves: Octaves | None = None,
     ) -> None:
-        self.grid, self.bodies, self.boundary = grid, bodies, boundary
+        self.grid, self.boundary = grid, boundary
+        self.compliance: SurfaceCompliance = BodiesSurface(*bodies) if isinstance(bodies, tuple) else bodies
         self.engine = engine or CpuEngine()
         self.padded = grid.shape if isinstance(boundary, Periodic) else padded_shape(grid)
-        self.octaves = octaves or Octaves(ShearCompliance(bodies))  # type: ignore[arg-type]
-        self.entries = self._made() if entries is None else entries
+        self.octaves = octaves or Octaves(self.compliance)
+        self._entries = entries
         self._convolutions: dict[str, VectorConvolution] = {}
         self._coupled_convolutions: dict[str, VectorConvolution] = {}
         pruned = 1.0 if self.padded == grid.shape else 0.75 * self.padded[0] * self.padded[1] / grid.n_points
         self.pairs_per_application = 2.0 * pruned
 
-    def _made(self) -> tuple[RealArray, RealArray, RealArray]:
+    @cached_property
+    def entries(self) -> tuple[RealArray, RealArray, RealArray]:
+        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded form."""
+        if self._entries is not None:
+            return self._entries
         if isinstance(self.boundary, Periodic):
-            tensor = surface_tensor(self.grid, *self.bodies)
+            tensor = self.compliance.tensor(self.grid)
             return tensor.xx, tensor.yy, tensor.xy
         if isinstance(self.boundary, FreeLine):
             datum = self.grid.size[0] if self.boundary.datum is None else self.boundary.datum
-            xx, yy = shear_strips(self.grid, *self.bodies, datum=datum)
+            xx, yy = self.compliance.shear_strips(self.grid, datum)
             xy = np.zeros_like(xx)
         else:
-            tensor_of_pixels = influence_tensor(self.grid, *self.bodies)
-            xx, yy, xy = tensor_of_pixels.xx, tensor_of_pixels.yy, tensor_of_pixels.xy
+            xx, yy, xy = self.compliance.shear_pixels(self.grid)
         transform = RealTransform(self.padded, self.engine.threads)
         odd = {"odd_x": True, "odd_y": True}
         kernels = wrapped(xx, self.padded), wrapped(yy, self.padded), wrapped(xy, self.padded, **odd)
@@ -163,13 +149,12 @@ class TangentialOperator:
     @cached_property
     def coupling(self) -> CouplingKernel:
         """Coupling with the normal direction."""
-        return CouplingKernel.of(self.grid, self.bodies, self.boundary, self.engine.threads_for(self.padded))
+        return CouplingKernel.of(self.grid, self.compliance, self.boundary, self.engine.threads_for(self.padded))
 
     @cached_property
     def coupled(self) -> bool:
         """Whether shear moves the surfaces up and down, and pressure moves them sideways."""
-        largest = max(float(np.abs(kernel).max()) for kernel in (self.coupling.zx, self.coupling.zy))
-        return largest > NO_COUPLING * self.largest
+        return self.coupling.largest > NO_COUPLING * self.largest
 
     @property
     def mean(self) -> float:
@@ -226,7 +211,7 @@ class TangentialOperator:
                 xy[:, columns // 2] = 0.0
             entries = xx, yy, xy
         return TangentialOperator(
-            grid, self.bodies, self.boundary, engine=self.engine, entries=entries, octaves=self.octaves
+            grid, self.compliance, self.boundary, engine=self.engine, entries=entries, octaves=self.octaves
         )
 
 

@@ -18,16 +18,14 @@ class SummedTangential(TangentialOperator):
     def __init__(self, parts: Sequence[TangentialOperator], factors: Sequence[float]) -> None:
         self.parts, self.factors = tuple(parts), tuple(float(factor) for factor in factors)
         first = self.parts[0]
-        entries = tuple(self._sum([part.entries[number] for part in self.parts]) for number in range(3))
         octaves = _SummedOctaves([part.octaves for part in self.parts], self.factors)
-        super().__init__(
-            first.grid,
-            first.bodies,
-            first.boundary,
-            engine=first.engine,
-            entries=entries,  # type: ignore[arg-type]
-            octaves=octaves,
-        )
+        super().__init__(first.grid, first.compliance, first.boundary, engine=first.engine, octaves=octaves)
+
+    @cached_property
+    def entries(self) -> tuple[RealArray, RealArray, RealArray]:
+        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded form."""
+        xx, yy, xy = (self._sum([part.entries[number] for part in self.parts]) for number in range(3))
+        return xx, yy, xy
 
     def _sum(self, values: Sequence[RealArray]) -> RealArray:
         return np.asarray(sum(factor * each for factor, each in zip(self.factors, values, strict=True)))

@@ -8,13 +8,14 @@ it at each wavenumber with one set of times for all (``LayeredCreep``).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 
-from ...core.arrays import ComplexArray, RealArray
+from ...core.arrays import BoolArray, ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ..elastic import Elastic
@@ -23,7 +24,17 @@ from ..relaxation import Creep, Terms, merged
 from ..viscoelastic import Viscoelastic, alike
 from .halfspace import Compliance, contact_compliance
 from .influence import Limits, line_kernel, patch_coefficients, point_kernel, strip_coefficients, wavenumber_grid
-from .layered import operational_compliance
+from .layered import Modulus, PlaneCompliance, Samples, operational_compliance, operational_moduli, operational_plane
+from .retardation_fit import fitted, fitted_planes
+from .tensor import (
+    SurfaceTensor,
+    coupling_pixels_of,
+    coupling_strips_of,
+    shear_pixels_of,
+    shear_strips_of,
+    summed_planes,
+    tensor_of,
+)
 
 
 @dataclass(frozen=True)
@@ -66,6 +77,8 @@ class LayeredCreep:
         Largest difference of the fitted from the exact complex compliance, relative to it.
     instantaneous
         Compliance at the first instant.
+    shear
+        The same for tractions of all directions, where it is known.
     """
 
     times: RealArray
@@ -74,6 +87,7 @@ class LayeredCreep:
     mean_modes: RealArray
     error: float
     instantaneous: Compliance
+    shear: ShearStrengths | None = None
 
     def term(self, number: int) -> RetardedCompliance:
         """c_k(q) of the term of this ``number`` alone."""
@@ -104,12 +118,8 @@ class RetardedCompliance:
         return np.asarray(np.array(self.weights) @ self.creep.strengths)
 
     def _retarded(self, wavenumber: RealArray) -> RealArray:
-        """q c of the terms, linear in ln q between the nodes."""
-        nodes = self.creep.nodes
-        found = np.interp(np.log(wavenumber), np.log(nodes), self._strength)
-        if self.mean_mode_of_terms:  # on a rigid base c is constant at long waves
-            found = np.where(wavenumber < nodes[0], self._strength[0] * wavenumber / nodes[0], found)
-        return np.asarray(found)
+        """q c of the terms."""
+        return _between(self.creep.nodes, self._strength, wavenumber, rigid_base=bool(self.mean_mode_of_terms))
 
     @property
     def mean_mode_of_terms(self) -> float:
@@ -145,16 +155,99 @@ class RetardedCompliance:
         return self._retarded(wavenumber_grid(depth)), Limits(float(strength[-1]), low, depth)
 
 
+def _between(nodes: RealArray, strength: RealArray, wavenumber: RealArray, *, rigid_base: bool) -> RealArray:
+    """q c, linear in ln q between the ``nodes`` with this ``strength``; on a rigid base c is constant at long waves."""
+    found = np.interp(np.log(wavenumber), np.log(nodes), strength)
+    if rigid_base:
+        found = np.where(wavenumber < nodes[0], strength[0] * wavenumber / nodes[0], found)
+    return np.asarray(found)
+
+
+@dataclass(frozen=True, eq=False)
+class ShearStrengths:
+    """Terms of a creep for tractions of all directions.
+
+    ``planes``: q c_k(q) (terms, n) in 1/Pa at the nodes, of a fluid in 1/(Pa s), the coupling Lz with the sign of the body that carries the traction;
+    ``mean_modes``: c_k(0) along the surface (terms,) in m/Pa, zero where the datum is the mean displacement.
+    """
+
+    planes: PlaneCompliance
+    mean_modes: RealArray
+
+
+@dataclass(frozen=True, eq=False)
+class RetardedSurface:
+    """The term of this ``number`` of a ``creep`` with shear, as a compliance for tractions of all directions."""
+
+    creep: LayeredCreep = field(repr=False)
+    number: int
+
+    @property
+    def _shear(self) -> ShearStrengths:
+        assert self.creep.shear is not None
+        return self.creep.shear
+
+    @property
+    def _rigid_base(self) -> bool:
+        return bool(self._shear.mean_modes.any())
+
+    def _plane(self, wavenumber: RealArray) -> PlaneCompliance:
+        """q c of the term at ``wavenumber`` > 0 (rad/m)."""
+        planes = self._shear.planes
+        each = (component[self.number] for component in (planes.LL, planes.zz, planes.Lz, planes.T))
+        return PlaneCompliance(
+            *(_between(self.creep.nodes, strength, wavenumber, rigid_base=self._rigid_base) for strength in each)
+        )
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m)."""
+        found = self._plane(wavenumber)
+        return 0.5 * (found.LL + found.T) / wavenumber
+
+    def tensor(self, grid: Grid) -> SurfaceTensor:
+        """That of a periodic cell."""
+        q = grid.wavenumber()
+        q[0, 0] = 1.0  # any value: the mean mode is replaced
+        shear, normal = (float(modes[self.number]) for modes in (self._shear.mean_modes, self.creep.mean_modes))
+        return tensor_of(grid, self._plane(q).scaled(1.0 / q), shear, normal)
+
+    def shear_pixels(self, grid: Grid) -> tuple[RealArray, RealArray, RealArray]:
+        """``xx``, ``yy`` and ``xy`` of pixels."""
+        return shear_pixels_of(grid, self._samples)
+
+    def coupling_pixels(self, grid: Grid) -> tuple[RealArray, RealArray]:
+        """``xz`` and ``yz`` of pixels."""
+        return coupling_pixels_of(grid, self._samples)
+
+    def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
+        """Along and across, (nx, 1)."""
+        return shear_strips_of(grid, self._samples, datum)
+
+    def coupling_strips(self, grid: Grid) -> RealArray:
+        """Normal displacement by shear along x, (nx, 1)."""
+        return coupling_strips_of(grid, self._samples)
+
+    @cached_property
+    def _samples(self) -> Samples:
+        nodes = self.creep.nodes
+        depth, ends = 1.0 / math.sqrt(nodes[0] * nodes[-1]), nodes[[0, -1]]
+        low, high = (self._plane(ends[at]) for at in (0, 1))
+        return Samples(depth, self._plane(wavenumber_grid(depth)), high, low.scaled(0.0) if self._rigid_base else low)
+
+
 AnyCreep: TypeAlias = SharedCreep | LayeredCreep
 """How a compliance grows in time."""
 
 
-def contact_creep(body: Body, counter_body: Body) -> AnyCreep | None:
+def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> AnyCreep | None:
     """Creep of the sum of the compliances of ``body`` and ``counter_body``; None where nothing in them relaxes.
 
-    InputError if both are rigid.
+    With ``shear`` that of layers which relax differently is one series for tractions of all directions.
+
+    InputError if both are rigid, or no series is near the compliance.
     """
-    solids = tuple(solid for solid, _ in deformable(body, counter_body))
+    pairs = deformable(body, counter_body)
+    solids = tuple(solid for solid, _ in pairs)
     if not any(map(relaxes, solids)):
         return None
     materials = tuple(material for solid in solids for material in materials_of(solid))
@@ -166,9 +259,10 @@ def contact_creep(body: Body, counter_body: Body) -> AnyCreep | None:
     first = materials[0]
     if alike(materials) and isinstance(first, Viscoelastic):
         return SharedCreep(first.shear.creep.times(first.shear_modulus))
-    stacks, instantaneous = tuple(_stacked(solid) for solid in solids), contact_compliance(body, counter_body)
+    stacks = tuple((_stacked(solid), sign) for solid, sign in pairs)
+    instantaneous = contact_compliance(body, counter_body)
     for per_decade in _PER_DECADE:
-        found = _Fit(stacks, materials, per_decade).creep(instantaneous)
+        found = _Fit(stacks, materials, per_decade, shear).creep(instantaneous)
         if found.error <= ERROR:
             return found
     if found.error > _WORST:
@@ -226,21 +320,35 @@ _SHOWS = 1e-3
 
 @dataclass(frozen=True)
 class _Fit:
-    """Series for the compliance of ``stacks`` of these ``materials``."""
+    """Series for the compliance of ``stacks``, each with the sign of the traction that it carries, of these ``materials``; with ``shear`` for all directions."""
 
-    stacks: tuple[Layered, ...]
+    signed: tuple[tuple[Layered, float], ...]
     materials: tuple[Elastic, ...]
     per_decade: int
+    shear: bool
+
+    @property
+    def stacks(self) -> tuple[Layered, ...]:
+        """The stacks alone."""
+        return tuple(stack for stack, _ in self.signed)
 
     def creep(self, instantaneous: Compliance) -> LayeredCreep:
         """Series with one set of times for all wavenumbers."""
         nodes = self._nodes()
         times = self._times(nodes)
-        exact = self._operational(nodes, times)
-        strengths, error = _fitted(times, exact[0], exact[1])
-        means, mean_error = self._mean_modes(times)
-        used = strengths.max(axis=1) + means / max(float(means.max()), 1e-300) > 0.0
-        return LayeredCreep(times[used], nodes, strengths[used], means[used], max(error, mean_error), instantaneous)
+        omega, exact = self._operational(nodes, times)
+        means, mean_error = self._mean_modes(times, self._compression)
+        if not self.shear:
+            strengths, error = fitted(times, omega, np.asarray(exact.zz, dtype=complex))
+            used = _used(strengths, means)
+            error = max(error, mean_error)
+            return LayeredCreep(times[used], nodes, strengths[used], means[used], error, instantaneous)
+        planes, error = fitted_planes(times, omega, exact)
+        shears, shear_error = self._mean_modes(times, self._shearing)
+        used = _used(planes.zz, means) | _used(planes.LL, shears) | _used(planes.T, shears)
+        kept = PlaneCompliance(planes.LL[used], planes.zz[used], planes.Lz[used], planes.T[used])
+        error, shear = max(error, mean_error, shear_error), ShearStrengths(kept, shears[used])
+        return LayeredCreep(times[used], nodes, kept.zz, means[used], error, instantaneous, shear)
 
     def _nodes(self) -> RealArray:
         layers = [layer for stack in self.stacks for layer in stack.layers]
@@ -261,7 +369,7 @@ class _Fit:
         last *= _FLUID if fluid else 1.0
         pilot = np.geomspace(first, last, math.ceil(math.log10(last / first) * self.per_decade) + 1)
         if not fluid:
-            c = np.stack([sum(_real(stack, nodes, 1.0 / t) for stack in self.stacks) for t in pilot])
+            c = np.stack([self._real(nodes, 1.0 / t) for t in pilot])
             shows = np.diff(c, axis=0).max(axis=1, initial=0.0, where=np.diff(c, axis=0) > _SHOWS * c[:-1]) > 0.0
             inside = np.flatnonzero(shows)
             if inside.size:
@@ -269,39 +377,53 @@ class _Fit:
         times = [lam for _, lam in _distinct(tuple(pilot), tuple(own), self.per_decade)]
         return np.array([*times, math.inf] if fluid else times)
 
-    def _operational(self, nodes: RealArray, times: RealArray) -> tuple[RealArray, ComplexArray]:
+    def _real(self, nodes: RealArray, s: float) -> RealArray:
+        """Compliances at the ``nodes`` and real ``s`` (1/s): of pressure, and after it of shear along and across the wavevector."""
+        plane = self._at(nodes, complex(s))
+        return np.concatenate([plane.zz, plane.LL, plane.T] if self.shear else [plane.zz]).real
+
+    def _at(self, nodes: RealArray, s: complex) -> PlaneCompliance:
+        return summed_planes([(operational_plane(stack, nodes, s), sign) for stack, sign in self.signed])
+
+    def _operational(self, nodes: RealArray, times: RealArray) -> tuple[RealArray, PlaneCompliance]:
         """Angular frequencies (m,), and q c(q, omega) in rows of these and last at infinite frequency, (m + 1, n)."""
         finite = times[np.isfinite(times)]
         low, high = (0.1 if finite.size == times.size else 10.0) / finite[-1], 10.0 / finite[0]
         omega = np.geomspace(low, high, math.ceil(math.log10(high / low) * self.per_decade) + 1)
-        rows = [
-            sum(operational_compliance(stack, nodes, 1j * w) for stack in self.stacks) for w in (*omega, 1e30 * high)
-        ]
-        return omega, np.asarray(np.stack(rows) * nodes, dtype=complex)
+        rows = [self._at(nodes, 1j * w) for w in (*omega, 1e30 * high)]
+        LL, zz, Lz, T = (np.stack([getattr(row, name) for row in rows]) for name in ("LL", "zz", "Lz", "T"))
+        return omega, PlaneCompliance(LL, zz, Lz, T).scaled(nodes)
 
-    def _mean_modes(self, times: RealArray) -> tuple[RealArray, float]:
-        """c_k(0) of the compression of layers on a rigid base; zero if one of the bodies is a half-space."""
+    def _mean_modes(self, times: RealArray, mean: Callable[[complex], complex]) -> tuple[RealArray, float]:
+        """c_k(0) of the ``mean`` mode of layers on a rigid base; zero if one of the bodies is a half-space."""
         if any(isinstance(stack.base, Elastic) for stack in self.stacks):
             return np.zeros(times.size), 0.0
         finite = times[np.isfinite(times)]
         omega = np.geomspace(0.1 / finite[-1], 10.0 / finite[0], 8 * finite.size)
-        rows = np.array([self._compression(1j * w) for w in (*omega, 1e30 / finite[0])])
-        strengths, error = _fitted(times, omega, rows[:, None])
+        rows = np.array([mean(1j * w) for w in (*omega, 1e30 / finite[0])])
+        if not rows.any():
+            return np.zeros(times.size), 0.0
+        strengths, error = fitted(times, omega, rows[:, None])
         return strengths[:, 0], error
 
     def _compression(self, s: complex) -> complex:
         """Sum of h (1 - 2nu)/2G(1 - nu) at ``s``."""
-        total = 0.0 + 0.0j
+        return sum(complex(h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))) for h, G, nu in self._layers(s))
+
+    def _shearing(self, s: complex) -> complex:
+        """Sum of h/G at ``s``; zero where a layer slips, whose datum is its mean displacement."""
+        return 0.0 if any(stack.slips for stack in self.stacks) else sum(complex(h / G) for h, G, _ in self._layers(s))
+
+    def _layers(self, s: complex) -> Iterator[tuple[float, Modulus, Modulus]]:
+        """Thickness, shear modulus and Poisson's ratio at ``s`` of each layer."""
         for stack in self.stacks:
             for layer in stack.layers:
-                solid = layer.material
-                G, nu = (
-                    solid.operational(s)
-                    if isinstance(solid, Viscoelastic)
-                    else (solid.shear_modulus, solid.poisson_ratio)
-                )
-                total += complex(layer.thickness * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu)))
-        return total
+                yield (layer.thickness, *operational_moduli(layer.material, s))
+
+
+def _used(strengths: RealArray, means: RealArray) -> BoolArray:
+    """Whether a term shows at some wavenumber or in the mean, (terms,)."""
+    return np.asarray(strengths.max(axis=1) + means / max(float(means.max()), 1e-300) > 0.0)
 
 
 def _softest(material: Elastic) -> float:
@@ -310,37 +432,8 @@ def _softest(material: Elastic) -> float:
     return material.youngs_modulus * max(share, 1e-3)
 
 
-def _real(stack: Layered, nodes: RealArray, s: float) -> RealArray:
-    return np.asarray(operational_compliance(stack, nodes, complex(s)).real)
-
-
 def _distinct(pilot: tuple[float, ...], own: tuple[float, ...], per_decade: int) -> Terms:
     """Times of the materials, and those of the ``pilot`` that do not stand near one."""
     near = 10.0 ** ((_APART if per_decade < 4 else _NEAR) / per_decade)
     kept = [t for t in pilot if not any(1.0 / near < t / lam < near for lam in own)]
     return merged((1.0, t) for t in (*kept, *own))
-
-
-def _fitted(times: RealArray, omega: RealArray, exact: ComplexArray) -> tuple[RealArray, float]:
-    """Non-negative strengths (terms, n) for the columns of ``exact`` (m + 1, n), and the largest relative error.
-
-    The last row is the value at infinite frequency, which is subtracted.
-    """
-    from scipy.optimize import nnls
-
-    finite = np.isfinite(times)
-    columns = np.empty((omega.size, times.size), dtype=complex)
-    columns[:, finite] = 1.0 / (1.0 + 1j * omega[:, None] * times[finite])
-    columns[:, ~finite] = 1.0 / (1j * omega[:, None])
-    strengths, worst = np.empty((times.size, exact.shape[1])), 0.0
-    for number, values in enumerate(exact.T):
-        wanted, size = values[:-1] - values[-1], np.abs(values[:-1])
-        rows = np.vstack([columns.real / size[:, None], columns.imag / size[:, None]])
-        found, _ = nnls(rows, np.concatenate([wanted.real / size, wanted.imag / size]), maxiter=100 * times.size)
-        strengths[:, number] = found
-        worst = max(worst, float((np.abs(columns @ found - wanted) / size).max()))
-    if not math.isfinite(worst):
-        raise InputError(
-            "moduli and thicknesses of viscoelastic layers must be within the range of numbers, but are not."
-        )
-    return strengths, worst

@@ -240,18 +240,22 @@ def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompli
 
 
 def operational_compliance(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> ComplexArray:
-    """C_zz (m/Pa) of the surface of a viscoelastic ``stack`` in operational form: its moduli replaced by those at complex ``s`` (1/s).
+    """C_zz (m/Pa) of the surface of a viscoelastic ``stack`` in operational form, see ``operational_plane``."""
+    return np.asarray(operational_plane(stack, alpha, s).zz, dtype=complex)
 
-    ``alpha``: wavenumbers in rad/m, > 0; ``s``: broadcast against them; at s = i omega the response to pressure that varies as
+
+def operational_plane(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> PlaneCompliance:
+    """Compliance (m/Pa, complex) of the surface of a viscoelastic ``stack`` in operational form: its moduli replaced by those at complex ``s`` (1/s).
+
+    ``alpha``: wavenumbers in rad/m, > 0; ``s``: broadcast against them; at s = i omega the response to tractions that vary as
     exp(i omega t). Elastic materials do not change with ``s``.
     """
+    return _compliances(stack, alpha, lambda solid: operational_moduli(solid, s))[0]
 
-    def moduli(solid: Elastic) -> tuple[Modulus, Modulus]:
-        if isinstance(solid, Viscoelastic):
-            return solid.operational(s)
-        return solid.shear_modulus, solid.poisson_ratio
 
-    return np.asarray(_compliances(stack, alpha, moduli)[0].zz, dtype=complex)
+def operational_moduli(solid: Elastic, s: ArrayLike) -> tuple[Modulus, Modulus]:
+    """Shear modulus (Pa) and Poisson's ratio of ``solid`` in operational form at complex ``s`` (1/s)."""
+    return solid.operational(s) if isinstance(solid, Viscoelastic) else (solid.shear_modulus, solid.poisson_ratio)
 
 
 def _compliances(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -63,22 +65,27 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
 
     InputError if both bodies are rigid.
     """
-    both = _relative(grid.wavenumber(), body, counter_body)
+    q = grid.wavenumber()
+    q[0, 0] = 1.0  # any value: the mean mode is replaced
+    return tensor_of(grid, _relative_plane(q, body, counter_body), *_mean_modes(body, counter_body))
+
+
+def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -> SurfaceTensor:
+    """Tensor of the components ``plane`` at the wavenumbers of ``grid``, and of the mean modes for ``shear`` and ``normal`` traction (m/Pa)."""
     qx, qy = grid.wavevector()
     q = grid.wavenumber()
     q[0, 0] = 1.0
     c, s = qx / q, qy / q
     odd_x, odd_y = (component / q for component in grid.wavevector(odd=True))
-    difference = both.LL - both.T
+    difference = plane.LL - plane.T
     tensor = SurfaceTensor(
-        xx=c * c * difference + both.T,
-        yy=s * s * difference + both.T,
-        zz=both.zz,
+        xx=c * c * difference + plane.T,
+        yy=s * s * difference + plane.T,
+        zz=plane.zz,
         xy=odd_x * odd_y * difference,
-        xz=odd_x * both.Lz,
-        yz=odd_y * both.Lz,
+        xz=odd_x * plane.Lz,
+        yz=odd_y * plane.Lz,
     )
-    shear, normal = _mean_modes(body, counter_body)
     for entry, value in ((tensor.xx, shear), (tensor.yy, shear), (tensor.zz, normal)):
         entry[0, 0] = value
     for entry in (tensor.xy, tensor.xz, tensor.yz):
@@ -86,10 +93,13 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     return tensor
 
 
-def _relative(q: RealArray, body: Body, counter_body: Body) -> PlaneCompliance:
-    """Sum of both compliances, with the difference of their couplings; any value at the mean mode."""
-    q[0, 0] = 1.0
-    parts = [(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)]
+def _relative_plane(q: RealArray, body: Body, counter_body: Body) -> PlaneCompliance:
+    """Sum of both compliances, with the difference of their couplings, at wavenumbers ``q`` > 0 (rad/m)."""
+    return summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
+
+
+def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompliance:
+    """Sum of the compliances of bodies with the signs of the tractions that they carry: their couplings subtract."""
     return PlaneCompliance(
         LL=np.add.reduce([part.LL for part, _ in parts]),
         zz=np.add.reduce([part.zz for part, _ in parts]),
@@ -139,22 +149,22 @@ def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> In
 
     InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
     """
-    total: dict[str, RealArray] = {}
+    xx, yy, xy = BodiesSurface(body, counter_body).shear_pixels(grid)
+    zz = np.zeros(grid.shape)
     for solid, _ in deformable(body, counter_body):
-        for name, values in _components(grid, solid).items():
-            total[name] = total.get(name, 0.0) + values
+        zz += patch_coefficients(_samples(grid, solid).kernel(lambda c: c.zz), grid, ISOTROPIC)
     xz, yz = coupling_influence(grid, body, counter_body)
-    return InfluenceTensor(**total, xz=xz, yz=yz)
+    return InfluenceTensor(xx=xx, yy=yy, zz=zz, xy=xy, xz=xz, yz=yz)
 
 
 def coupling_influence(grid: Grid, body: Body, counter_body: Body = Rigid()) -> tuple[RealArray, RealArray]:
     """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
-    total = [np.zeros(grid.shape), np.zeros(grid.shape)]
+    xz, yz = np.zeros(grid.shape), np.zeros(grid.shape)
     for solid, sign in deformable(body, counter_body):
-        kernel = _samples(grid, solid).kernel(lambda c: c.Lz, order=1)
-        for found, angular in zip(total, (COS_1, SIN_1), strict=True):
-            found -= sign * patch_coefficients(kernel, grid, angular)
-    return total[0], total[1]
+        along_x, along_y = coupling_pixels_of(grid, _samples(grid, solid))
+        xz += sign * along_x
+        yz += sign * along_y
+    return xz, yz
 
 
 def _samples(grid: Grid, body: Elastic | Layered) -> Samples:
@@ -170,22 +180,22 @@ def _require_bonded(body: Elastic | Layered) -> None:
         )
 
 
-def _components(grid: Grid, body: Elastic | Layered) -> dict[str, RealArray]:
-    """From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
+def shear_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray, RealArray]:
+    """``xx``, ``yy`` and ``xy`` of pixels from the samples ``known``.
 
+    From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
     A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m theta) and J_m.
     """
-    _require_bonded(body)
-    known = _samples(grid, body)
     mean = patch_coefficients(known.kernel(lambda c: 0.5 * (c.LL + c.T)), grid)
     bending = known.kernel(lambda c: 0.5 * (c.LL - c.T), order=2)
     along_x = patch_coefficients(bending, grid, COS_2)
-    return {
-        "xx": mean - along_x,
-        "yy": mean + along_x,
-        "zz": patch_coefficients(known.kernel(lambda c: c.zz), grid, ISOTROPIC),
-        "xy": -patch_coefficients(bending, grid, SIN_2),
-    }
+    return mean - along_x, mean + along_x, -patch_coefficients(bending, grid, SIN_2)
+
+
+def coupling_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray]:
+    """``xz`` and ``yz`` of pixels from the samples ``known``."""
+    kernel = known.kernel(lambda c: c.Lz, order=1)
+    return -patch_coefficients(kernel, grid, COS_1), -patch_coefficients(kernel, grid, SIN_1)
 
 
 # Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
@@ -203,10 +213,16 @@ def shear_strips(grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum:
     along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
     for solid, _ in deformable(body, counter_body):
         _require_bonded(solid)
-        known = _samples(grid, solid)
-        along += strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
-        across += strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
+        of_solid = shear_strips_of(grid, _samples(grid, solid), datum)
+        along += of_solid[0]
+        across += of_solid[1]
     return along, across
+
+
+def shear_strips_of(grid: Grid, known: Samples, datum: float) -> tuple[RealArray, RealArray]:
+    """``shear_strips`` from the samples ``known``."""
+    along = strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
+    return along, strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
 
 
 def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> RealArray:
@@ -218,13 +234,83 @@ def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Rea
 
     InputError if both bodies are rigid.
     """
-    edges = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
-    total = np.zeros(grid.shape[0])
+    total = np.zeros((grid.shape[0], 1))
     for solid, sign in deformable(body, counter_body):
         depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]
-        known, alpha = samples(solid, depth), wavenumber_grid(depth)
-        near = float(known.high.Lz)
-        rest = line_integral(alpha, (known.values.Lz - near) / alpha, depth, cosine=False)
-        integral = 0.5 * near * edges + rest(edges)  # of the response from zero, even: the first strip cancels
-        total += sign * np.diff(integral, prepend=integral[0])
-    return total[:, None]
+        total += sign * coupling_strips_of(grid, samples(solid, depth))
+    return total
+
+
+def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
+    """``coupling_strips`` from the samples ``known``."""
+    edges, alpha = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0], wavenumber_grid(known.depth)
+    near = float(known.high.Lz)
+    rest = line_integral(alpha, (known.values.Lz - near) / alpha, known.depth, cosine=False)
+    integral = 0.5 * near * edges + rest(edges)  # of the response from zero, even: the first strip cancels
+    return np.diff(integral, prepend=integral[0])[:, None]
+
+
+# The same of whatever has a compliance: of bodies, and of what is retarded in them.
+
+
+class SurfaceCompliance(Protocol):
+    """Response of a surface to tractions of all three directions."""
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m), the mean over both directions along the surface."""
+
+    def tensor(self, grid: Grid) -> SurfaceTensor:
+        """That of a periodic cell."""
+
+    def shear_pixels(self, grid: Grid) -> tuple[RealArray, RealArray, RealArray]:
+        """``xx``, ``yy`` and ``xy`` of an ``InfluenceTensor``."""
+
+    def coupling_pixels(self, grid: Grid) -> tuple[RealArray, RealArray]:
+        """``xz`` and ``yz`` of an ``InfluenceTensor``."""
+
+    def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
+        """See the function of this name."""
+
+    def coupling_strips(self, grid: Grid) -> RealArray:
+        """See the function of this name."""
+
+
+@dataclass(frozen=True)
+class BodiesSurface:
+    """Compliance of ``body``, which carries the traction, relative to ``counter_body``."""
+
+    body: Body
+    counter_body: Body
+
+    def spectral(self, wavenumber: RealArray) -> RealArray:
+        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m)."""
+        q = np.asarray(wavenumber, dtype=float)
+        total = np.zeros(q.shape)
+        for solid, _ in deformable(self.body, self.counter_body):
+            found = plane_compliance(solid, q)
+            total += 0.5 * (found.LL + found.T)
+        return total
+
+    def tensor(self, grid: Grid) -> SurfaceTensor:
+        """That of a periodic cell."""
+        return surface_tensor(grid, self.body, self.counter_body)
+
+    def shear_pixels(self, grid: Grid) -> tuple[RealArray, RealArray, RealArray]:
+        """``xx``, ``yy`` and ``xy`` of pixels. InputError if a layer may slip."""
+        total = np.zeros((3, *grid.shape))
+        for solid, _ in deformable(self.body, self.counter_body):
+            _require_bonded(solid)
+            total += shear_pixels_of(grid, _samples(grid, solid))
+        return total[0], total[1], total[2]
+
+    def coupling_pixels(self, grid: Grid) -> tuple[RealArray, RealArray]:
+        """``xz`` and ``yz`` of pixels."""
+        return coupling_influence(grid, self.body, self.counter_body)
+
+    def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
+        """Along and across, (nx, 1). InputError if a layer may slip."""
+        return shear_strips(grid, self.body, self.counter_body, datum=datum)
+
+    def coupling_strips(self, grid: Grid) -> RealArray:
+        """Normal displacement by shear along x, (nx, 1)."""
+        return coupling_strips(grid, self.body, self.counter_body)
