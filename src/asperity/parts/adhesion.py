@@ -127,7 +127,7 @@ class AdhesionSettings(Settings):
             self.of_pair()
         except InputError as error:
             raise InputError(
-                f".pair (--adhesion-pair) must be two solids whose energies are known, but is {self.pair!r}: {error}"
+                f".pair (--adhesion-pair) must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
             ) from None
 
     def of_pair(self) -> PairAdhesion:

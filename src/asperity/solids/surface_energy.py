@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
@@ -35,6 +36,14 @@ class SolidSurface(Record):
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class SolidPair(Record):
+    """Two solids in air whose work of adhesion w in J/m² was measured; the name is that of both with a stroke between."""
+
+    work_of_adhesion: Annotated[Sourced, "surface tension"]
+    noun: ClassVar[str] = "solid_pair"
+
+
 @dataclass(frozen=True)
 class PairAdhesion:
     """Work of adhesion of two solids, ``work`` in J/m², and the ``sources`` of what it was made of."""
@@ -52,28 +61,47 @@ def solid_surfaces(path: str | Path | None = None) -> tuple[SolidSurface, ...]:
     return SolidSurface.all(path)
 
 
-def work_of_adhesion(first: str, second: str, *, library: str | Path | None = None) -> PairAdhesion:
-    """w = 2 (γ1 γ2)^½ of the surfaces of these names (Girifalco & Good 1957): exact for two equal ones, else for dispersive forces alone.
+def solid_pairs() -> tuple[SolidPair, ...]:
+    """All pairs whose work of adhesion was measured."""
+    return SolidPair.all()
 
-    Names are those of ``solid_surfaces``, in any case, or of the file ``library``.
+
+def work_of_adhesion(first: str, second: str, *, library: str | Path | None = None) -> PairAdhesion:
+    """Measured w of two solids, or else 2 (γ1 γ2)^½ of their surfaces (Girifalco & Good 1957), which is exact for two equal ones and dispersive forces alone.
+
+    Names are those of ``solid_pairs`` and ``solid_surfaces``, in any case and either order. Where the file ``library`` holds one of
+    the two the rule is taken, with its value.
 
     Raises
     ------
     InputError
-        If a surface is not known; measure its work of adhesion then, and give that.
+        If the pair was not measured and a surface is not known; measure its work of adhesion then, and give that.
     """
     known = {key: record for record in solid_surfaces(library) for key in record.keys}
-    pair = []
-    for name in (first, second):
-        key = " ".join(str(name).casefold().split())
+    built_in = {key: record for record in solid_surfaces() for key in record.keys}
+    keys = [" ".join(str(name).casefold().split()) for name in (first, second)]
+    names = [built_in[key].keys[0] if key in built_in else key for key in keys]
+    if all(known.get(key) == built_in.get(key) for key in keys):
+        for pair in solid_pairs():
+            if any(sorted(both.split("/")) == sorted(names) for both in _both(pair, built_in)):
+                return PairAdhesion(pair.work_of_adhesion.value, tuple(f"{pair.name}, {text}" for text in pair.sources))
+    for key, name in zip(keys, (first, second), strict=True):
         if key not in known:
-            names = ", ".join(sorted({record.name for record in known.values()}, key=str.lower))
             raise InputError(
-                f"solid surface must be one whose energy is known, {names}, but is {name!r}. Give the work of adhesion itself, such as "
-                "50 mJ/m**2.",
+                f"solid surface must be one whose energy is known, {_listed(known.values())}, or of a pair that was measured, "
+                f"{_listed(solid_pairs())}, but is {name!r}. Give the work of adhesion itself, such as 50 mJ/m**2.",
                 subject="solid surface",
             )
-        pair.append(known[key])
-    work = 2.0 * math.sqrt(pair[0].energy * pair[1].energy)
-    sources = tuple(dict.fromkeys(f"{record.name}, {source}" for record in pair for source in record.sources))
-    return PairAdhesion(work, sources)
+    one, other = (known[key] for key in keys)
+    sources = tuple(dict.fromkeys(f"{record.name}, {source}" for record in (one, other) for source in record.sources))
+    return PairAdhesion(2.0 * math.sqrt(one.energy * other.energy), sources)
+
+
+def _both(pair: SolidPair, known: Mapping[str, SolidSurface]) -> Iterator[str]:
+    """Names of a measured ``pair``, with the first name of each surface that is ``known``."""
+    for both in pair.keys:
+        yield "/".join(known[name].keys[0] if name in known else name for name in both.split("/"))
+
+
+def _listed(records: Iterable[Record]) -> str:
+    return ", ".join(sorted({record.name for record in records}, key=str.lower))
