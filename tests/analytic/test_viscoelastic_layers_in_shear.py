@@ -392,3 +392,15 @@ def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boun
             wanted = elastic.sliding.shear_displacement
             scale = max(float(np.abs(wanted).max()), 1e-4 * elastic.approach)
             np.testing.assert_allclose(step.sliding.shear_displacement, wanted, atol=allowed * scale)
+
+
+def test_sliding_layers_go_on_to_the_bit(tmp_path: Path) -> None:
+    """The shear of gross sliding is remembered too, in files as in states."""
+    problem, divided_into = sphere(COATED, 16, friction=asp.Coulomb(0.8)), asp.TimeSteps(number=2)
+    steps = [asp.Step(LOAD, duration=0.3), asp.Step(asp.Force(0.02), duration=0.3), asp.Step(LOAD, duration=0.3)]
+    whole = asp.solve(problem, asp.History(steps), time_steps=divided_into)
+    asp.save(whole, tmp_path / "h.nc")
+    for state in (whole.steps[1].state, asp.load(tmp_path / "h.nc").steps[1].state):
+        rest = asp.solve(problem, steps[2], state=state, time_steps=divided_into)
+        np.testing.assert_array_equal(rest.pressure, whole.last.pressure)
+        np.testing.assert_array_equal(rest.sliding.shear_displacement, whole.last.sliding.shear_displacement)

@@ -252,7 +252,9 @@ class Yielding(Part):
     quantities = (Quantity("yield_load_factor", "1", "factor on the stresses at yield"),)
 
     def compute(self, ask: Any, solved: Solved) -> Found:
-        """Load factor of the survey."""
+        """Load factor of the survey. InputError if that failed."""
+        if "stress" not in solved.found:
+            raise InputError("stresses inside the body must be known, but could not be computed.")
         survey = solved.found["stress"].detail
         factor = math.nan if has_flowed(survey) else survey.yielding.load_factor
         return Found({"yield_load_factor": factor}, survey)

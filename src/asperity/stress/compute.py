@@ -120,7 +120,7 @@ class WithResidual:
         return [field + added[(slice(None), *place.index)] for field, place in found]
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
-        """Refused: see ``_require_as_elastic``."""
+        """Refused: see ``_require_known_displacement``."""
         raise _displaced()
 
 
@@ -205,36 +205,44 @@ def _planes_of(
             )
         return result.tractions, result.body
     tractions, body = tractions_on(result, friction, direction, of), getattr(result.problem, of)
-    _require_as_elastic(result, body, of, displacement=displacement)
+    if displacement:
+        _require_known_displacement(result, body, of)
     return tractions, body
 
 
-def _require_as_elastic(result: Loaded, body: Any, of: Of, *, displacement: bool) -> None:
-    """Refuse bodies whose stresses depend on what has relaxed (layers that relax differently, a Poisson's ratio that does), and displacements that
-    are not known.
-    """
-    materials = materials_of(body)
-    if getattr(result, "creep", None) is not None and materials and not alike(materials):
+def _require_as_elastic(result: Loaded, body: Any) -> None:
+    """Refuse bodies whose stresses depend on what has relaxed: layers that relax differently, a Poisson's ratio that does. At the first instant all
+    are elastic."""
+    materials, creep = materials_of(body), getattr(result, "creep", None)
+    if creep is not None and creep.column("time")[-1] > 0.0 and materials and not alike(materials):
         raise InputError(
             "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one another, with a constant Poisson's "
             "ratio, but do not: its stresses would depend on the past. Ask for those of an Elastic body with the moduli of that time."
         )
-    if displacement and any(isinstance(material, Viscoelastic) for material in materials):
+
+
+def _require_known_displacement(result: Loaded, body: Any, of: Of) -> None:
+    """Refuse displacements inside bodies that depend on the past."""
+    if any(isinstance(material, Viscoelastic) for material in materials_of(body)):
         raise InputError(
             "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
             "The displacement of the surface is in the result."
         )
-    if displacement and residual_of(result, of, None) is not None:
+    if residual_of(result, of, None) is not None:
         raise _displaced()
 
 
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
-    """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction."""
+    """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction.
+
+    InputError if there are none, or the stresses by them depend on the past.
+    """
     if not hasattr(result, "problem") or not hasattr(result, "pressure"):
         raise InputError(
             "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, tractions), but is of "
             f"type {type(result).__name__}."
         )
+    _require_as_elastic(result, getattr(result.problem, of))
     shear = _own_shear(result) if friction is None else _shear(friction, direction)
     if of == "counter_body":
         if isinstance(shear, Sliding):
