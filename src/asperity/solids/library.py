@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import math
 import tomllib
+from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Self, get_type_hints
 
 from ..core import require, units
@@ -52,10 +55,12 @@ class Record:
     """Further keys that a kind of substance reads by itself."""
 
     @classmethod
-    def kinds(cls) -> dict[str, str]:
+    @functools.cache
+    def kinds(cls) -> Mapping[str, str]:
         """Kind of quantity of each value, by key."""
         hints = get_type_hints(cls, include_extras=True)
-        return {key: hint.__metadata__[0] for key, hint in hints.items() if hasattr(hint, "__metadata__")}
+        found = {key: hint.__metadata__[0] for key, hint in hints.items() if hasattr(hint, "__metadata__")}
+        return MappingProxyType(found)
 
     @property
     def values(self) -> dict[str, Sourced]:
