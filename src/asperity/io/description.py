@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import platform
 from collections.abc import Mapping
@@ -190,6 +191,7 @@ def provenance(result: ContactResult, packages: Mapping[str, str] = MappingProxy
     return {**described, "citation_keys": list(result.citation_keys)}
 
 
+@functools.cache
 def _version(distribution: str) -> str:
     try:
         return metadata.version(distribution)
