@@ -191,6 +191,7 @@ def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
     assert fine.slope_friction == pytest.approx(fine.friction, rel=5e-3)
     assert fine.friction == pytest.approx(steady.friction, rel=0.03)
     assert steady.friction > 3.0 * dry.friction
+    assert steady.energy_error < 1e-6
     assert steady.normal.external_force == pytest.approx(LIGHT.value, rel=1e-9)
 
 

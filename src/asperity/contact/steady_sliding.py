@@ -409,7 +409,8 @@ def _with_friction(
     p, traction = np.asarray(normal.pressure, dtype=float), np.asarray(contact.traction, dtype=float)
     gap = normal.displacement - profile
     bound = float((p * (gap - gap.min())).sum())
-    work = float((p * normal.displacement).sum())
+    by_pressure = normal.displacement if normal.adhesion is None else contact.posed.operator.apply(p) + kernel.lag(p)
+    work = float((p * by_pressure).sum())
     return SteadySliding(
         normal,
         speed,

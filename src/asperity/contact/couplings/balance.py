@@ -61,6 +61,11 @@ class _Held:
         """External force (N) less the one wanted."""
         return self.solids - self.liquid
 
+    @property
+    def converged(self) -> bool:
+        """Whether its couplings have settled; if not, its force tells nothing, and the search ends with it."""
+        return self.settled.status.converged
+
 
 def settle_forces(
     posed: Posed,
@@ -113,7 +118,9 @@ class _Search:
         narrow = _NARROW * self._first_step
         while abs(far.solids - near.solids) > self.exact(near) and abs(far.approach - near.approach) > narrow:
             middle = self._between(near, far)
-            if abs(middle.force) <= self.exact(middle):
+            if not middle.converged:
+                near = far = middle
+            elif abs(middle.force) <= self.exact(middle):
                 near = far = middle
             elif middle.force * near.force > 0.0:
                 near = middle
@@ -173,12 +180,12 @@ class _Search:
         """Contacts on both sides of the force wanted, the nearer to the start first."""
         step = -math.copysign(self._first_step, near.force)
         for _ in range(_STEPS):
-            if abs(near.force) <= self.exact(near):
+            if not near.converged or abs(near.force) <= self.exact(near):
                 return near, near
             if near.force > 0.0 and self._apart(near):
                 break
             further = self._held(near.approach + step, near.settled)
-            if further.force * near.force <= 0.0:
+            if further.converged and further.force * near.force <= 0.0:
                 return near, further
             near, step = further, _GROWTH * step
         raise NoSolutionError(
