@@ -118,9 +118,7 @@ class _Search:
         narrow = _NARROW * self._first_step
         while abs(far.solids - near.solids) > self.exact(near) and abs(far.approach - near.approach) > narrow:
             middle = self._between(near, far)
-            if not middle.converged:
-                near = far = middle
-            elif abs(middle.force) <= self.exact(middle):
+            if not middle.converged or abs(middle.force) <= self.exact(middle):
                 near = far = middle
             elif middle.force * near.force > 0.0:
                 near = middle
