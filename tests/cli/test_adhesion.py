@@ -13,7 +13,7 @@ from refusals import refused, subject_of
 
 import asperity as asp
 from asperity.contact.stickiness import stickiness
-from asperity.core.errors import InputError
+from asperity.core.errors import ConvergenceError, InputError
 from asperity.run.build import build
 from asperity.run.document import checked, dumps
 from asperity.run.stored import load_outcome
@@ -105,6 +105,41 @@ def test_a_branch_of_single_points_names_the_pixel_it_needs() -> None:
     (finding,) = (item for item in outcome.findings if item.criterion == "branch")
     assert "Take one of at most " in finding.message
     assert "exponential" in finding.message.lower()
+
+
+@pytest.mark.parametrize("law", ["dugdale", "exponential", "linear", "van der waals"])
+@pytest.mark.parametrize("reach", ["0.1 nm", "1 nm"])
+def test_attraction_far_stronger_than_the_solid_converges_on_coarse_pixels(law: str, reach: str) -> None:
+    """A cohesive length of 1e-6 pixels and less: the attraction is 500 times the modulus, and rounding keeps the normal solve from 1e-13."""
+    ball = PROBLEM | {"surface": PROBLEM["surface"] | {"points": [16, 16]}}
+    table = {"work": "50 mJ/m**2", "range": reach, "law": law}
+    for case in (
+        ball | {"adhesion": table, "control": {"force": "10 uN"}},
+        ball | {"adhesion": table | {"retract": "0.6 um", "steps": 4}},
+        ball
+        | {
+            "surface": ROUGH,
+            "boundary": {"kind": "periodic"},
+            "control": {"mean_pressure": "20 kPa"},
+            "adhesion": table,
+        },
+    ):
+        outcome = asp.run(case)
+        steps = [outcome.result] if outcome.path is None else outcome.path.steps
+        assert all(step.status.converged for step in steps)
+        assert max(step.adhesion.residual for step in steps) <= 1e-5
+        assert max(step.certificate.duality_gap for step in steps) < 1e-9
+        assert [item.criterion for item in outcome.findings if item.level == "warning"].count("adhesive zone") == 1
+
+
+def test_a_core_that_no_pixel_resolves_names_the_pixel_it_needs() -> None:
+    """A Lennard-Jones sphere whose points snap one by one comes to no rest, soon and with the pixel it needs."""
+    ball = PROBLEM | {"surface": PROBLEM["surface"] | {"points": [16, 16]}}
+    table = {"work": "50 mJ/m**2", "range": "1 nm", "law": "lennard-jones", "retract": "0.6 um", "steps": 4}
+    with pytest.raises(ConvergenceError) as stopped:
+        asp.run(ball | {"adhesion": table})
+    assert "4e-12 m" in str(stopped.value)
+    assert "3.75e-06 m" in str(stopped.value)
 
 
 def test_an_unresolved_zone_is_a_finding() -> None:

@@ -54,6 +54,9 @@ _FAR = 2.0
 _JUMPED_SHARE = 0.2
 """Share of the contact that has to open or close in a step to count as a jump where the attraction has no range."""
 
+_TRIES = 8
+"""Solutions in a row that do not converge after which no further one is sought."""
+
 _POSITIONS = 40
 _POSITION_ERROR = 1e-9
 
@@ -209,13 +212,14 @@ class _Before:
 
 @dataclass(frozen=True, eq=False)
 class _Note:
-    """The step's beginning, the profile (nx, ny) in m and problem of the last solution, and that."""
+    """The step's beginning, the profile (nx, ny) in m and problem of the last solution, and that; how often in a row it did not converge."""
 
     posed: Posed
     before: _Before
     base: RealArray
     solution: AdhesiveSolution
     mean: float | None
+    failed: int = 0
 
 
 class MachineOperator(SummedOperator):
@@ -377,11 +381,12 @@ class AdhesionCoupling(Coupling):
         known = self._same(note, base, contact) and _same_load(mean, note.mean) and note.solution.status.converged
         if residual <= self.tolerance or known:
             return replace(exchange, target=exchange.x, residual=residual)
+        if note.failed >= _TRIES:
+            return replace(exchange, target=exchange.x, residual=residual, stuck=True)
         solution = self._solved(note.posed, base, contact.qp.cap, mean, exchange.x, contact.pressure)
-        x = solution.state.pull
-        return replace(
-            exchange, target=x, residual=residual, note=replace(note, base=base, solution=solution, mean=mean)
-        )
+        x, failed = solution.state.pull, 0 if solution.status.converged else note.failed + 1
+        note = replace(note, base=base, solution=solution, mean=mean, failed=failed)
+        return replace(exchange, target=x, residual=residual, note=note)
 
     def _same(self, note: _Note, base: RealArray, contact: Contact) -> bool:
         """Whether the last solution is of this profile already, so that only the normal solve is to be more accurate."""
@@ -393,8 +398,13 @@ class AdhesionCoupling(Coupling):
         return "The attraction is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
-        """The change of the attraction."""
-        return f"The attraction still changes by {exchange.residual:.1e} of its largest value"
+        """The change of the attraction, and the pixel that it needs where the grid does not resolve it."""
+        grid, length = self.operator.grid, cohesive_length(self.law, self.E_star)
+        pixel = max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1)
+        text = f"The attraction still changes by {exchange.residual:.1e} of its largest value"
+        if length == 0.0 or pixel * RESOLVED <= length:
+            return text
+        return f"{text}, whose zone takes a pixel of at most {length / RESOLVED:.3g} m where it is {pixel:.3g} m,"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, AdhesiveContact]:
         """Memory of attraction and energies; what adhesion did."""
