@@ -337,9 +337,10 @@ def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
     assert "steps of time" not in {finding.criterion for finding in fine.findings}
 
 
-def test_stick_and_slip_in_time() -> None:
+@pytest.mark.parametrize("body", ["E=3MPa+13MPa@10ms,nu=0.45", "E=3MPa+13MPa@10ms,nu=0.45:2um/E=70GPa,nu=0.22"])
+def test_stick_and_slip_in_time(body: str) -> None:
     """Steps along the surfaces take the time of the ramp; numbers are those of Python, and a path keeps its turning points and all shear steps."""
-    rubber = {"body": "E=3MPa+13MPa@10ms,nu=0.45", "counter_body": "rigid", "friction": {"coefficient": 0.4}}
+    rubber = {"body": body, "counter_body": "rigid", "friction": {"coefficient": 0.4}}
     surface = BALL["surface"] | {"points": [16, 16]}
     table = BALL | rubber | {"surface": surface, "control": {"force": "20 uN"}, "shear": {"shift": "100 nm"}}
     outcome = asp.run(table | {"viscoelastic": {"ramp": "10 ms", "hold": "20 ms", "steps": 2}})
