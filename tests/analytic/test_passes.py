@@ -124,8 +124,10 @@ def test_pressed_in_place() -> None:
         pass_histories.point_load(track, 0.0, 1.0, 1.0)
 
 
-def rolled(law: J2, peak: float, passes_: int, friction: float = 0.0) -> tuple[passes.Track, list[passes.PassState]]:
-    track = passes.cylinder_track(STEEL, 1.0, (-3.0, 3.0), plasticity=law, resolution=COARSE)
+def rolled(
+    law: J2, peak: float, passes_: int, friction: float = 0.0, resolution: Resolution = COARSE
+) -> tuple[passes.Track, list[passes.PassState]]:
+    track = passes.cylinder_track(STEEL, 1.0, (-3.0, 3.0), plasticity=law, resolution=resolution)
     states = [track.virgin()]
     for _ in range(passes_):
         states.append(pass_histories.hertz_pass(track, states[-1], peak * K, 1.0, (-3.0, 3.0), friction=friction).state)
@@ -182,7 +184,8 @@ def test_above_the_limit() -> None:
 def test_ratchetting() -> None:
     """Friction 0.2 at 1.2 of the limit: where back stress is recalled the surface moves on in every pass, where it is not flow ceases."""
     bounded = J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0, recall=E / 10.0 / 0.05)
-    track, states = rolled(bounded, 3.85, 6, 0.2)
+    mesh = Resolution(across=6, growth=1.4, depth=1.0, distance=50.0)  # one of 8 elements has the same within 1 %
+    track, states = rolled(bounded, 3.85, 6, 0.2, mesh)
     _, shear = flows(track, states)
     assert shear[5] == pytest.approx(shear[4], rel=0.05)
     middle = 2 * track.surface[np.argmin(np.abs(track.places[:, 0]))]
@@ -190,7 +193,7 @@ def test_ratchetting() -> None:
     assert np.all(forward > 0.0)  # along the traction
     assert forward[5] == pytest.approx(forward[4], rel=0.1)
     free = J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0)
-    _, kept = flows(*rolled(free, 3.85, 6, 0.2))
+    _, kept = flows(*rolled(free, 3.85, 6, 0.2, mesh))
     assert kept[5] < 0.2 * shear[5]
 
 
