@@ -184,7 +184,9 @@ def test_above_the_limit() -> None:
 def test_ratchetting() -> None:
     """Friction 0.2 at 1.2 of the limit: where back stress is recalled the surface moves on in every pass, where it is not flow ceases."""
     bounded = J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0, recall=E / 10.0 / 0.05)
-    mesh = Resolution(across=6, growth=1.4, depth=1.0, distance=50.0)  # with depth 1.2 and distance 100 ratios are the same within 2 %
+    mesh = Resolution(
+        across=6, growth=1.4, depth=1.0, distance=50.0
+    )  # with depth 1.2 and distance 100 ratios are the same within 2 %
     track, states = rolled(bounded, 3.85, 6, 0.2, mesh)
     _, shear = flows(track, states)
     assert shear[5] == pytest.approx(shear[4], rel=0.05)

@@ -62,6 +62,32 @@ def test_commands_without_output_import_only_what_they_need(tmp_path: Path, comm
     assert json.loads(done.stderr.rpartition("|")[2]) == []
 
 
+MOST_FILES = 60
+
+
+def test_a_contact_runs_through_few_files(tmp_path: Path) -> None:
+    """Of this package, imports left out: a reader who follows the command opens them."""
+    scan = tmp_path / "scan.bcr"
+    bcr(scan)
+    code = (
+        "import cProfile, contextlib, json, pathlib, pstats, sys\n"
+        "import asperity\n"
+        "from asperity.cli.main import app\n"
+        "def command():\n"
+        "    with contextlib.suppress(SystemExit):\n"
+        f"        app(['contact', {str(scan)!r}, '--body', 'DLC', '--pressure', '50MPa'])\n"
+        "command()\n"
+        "profile = cProfile.Profile()\n"
+        "profile.runcall(command)\n"
+        "home = str(pathlib.Path(asperity.__file__).parent)\n"
+        "ran = {f for f, _, n in pstats.Stats(profile).stats if f.startswith(home) and not n.startswith('<')}\n"
+        "sys.stderr.write('|' + json.dumps(sorted(ran)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    ran = json.loads(done.stderr.rpartition("|")[2])
+    assert 30 < len(ran) <= MOST_FILES, ran
+
+
 def test_module_is_the_program() -> None:
     done = subprocess.run([sys.executable, "-m", "asperity", "--version"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0
