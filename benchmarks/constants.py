@@ -15,13 +15,13 @@ from surfaces import BODY, self_affine
 
 import asperity as asp
 from asperity.contact.couplings import position
-from asperity.contact.solvers.active_set import clipping, entering, first_guess, linear_system, solver
+from asperity.contact.solvers.active_set import bounds, first_guess, linear_system, solver
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
 
 VALUES: dict[tuple[Any, str], list[Any]] = {
-    (entering, "_PRIOR"): [1.0, 2.0, 8.0, 16.0],
-    (entering, "_SCATTER_SHARE"): [0.0, 0.3, 0.7, 1.0],
+    (bounds, "_PRIOR"): [1.0, 2.0, 8.0, 16.0],
+    (bounds, "_SCATTER_SHARE"): [0.0, 0.3, 0.7, 1.0],
     (solver, "_SETTLED"): [0.0, 0.001, 0.01, 0.03],
     (solver, "_REDUCTION"): [0.1, 0.2, 0.5],
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
@@ -30,7 +30,7 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_LAST_STEP"): [0.2, 0.4],
     (solver, "_LAST_REDUCTION"): [0.02, 0.05],
     (solver, "_MARGIN"): [0.3, 0.5, 1.0],
-    (clipping, "LEAST_SHARE"): [0.01, 0.03, 0.3],
+    (bounds, "LEAST_SHARE"): [0.01, 0.03, 0.3],
     (solver, "_MOST_UNSUCCESSFUL"): [0, 1, 4],
     (solver, "_REFRESH"): [1e-3, 1e-4, 1e-7],
     (first_guess, "COARSEST"): [32, 128],

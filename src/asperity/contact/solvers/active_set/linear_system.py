@@ -480,11 +480,14 @@ def conjugate_gradients(
     *,
     pending: PressureChange | None = None,
     on_step: Callable[[float], None] | None = None,
+    further: float = 0.0,
 ) -> Correction:
     """Solve the ``system`` for the residual ``r``, which may be overwritten.
 
     ``pending`` is a change whose deflection is not in the residual yet: the first product with the compliance includes it.
     ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
+    ``further``: share of the length of the step before of one more at the end, without a product; none if zero. It is for changes whose
+    deflection is computed anyway, such as clipped ones.
     """
     scaled, free = system.scaled, system.free
     inverse = preconditioner(scaled, free)
@@ -495,8 +498,7 @@ def conjugate_gradients(
     z, length = free.empty(), inverse.step_length
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
-            t, _ = _next_direction(system, r, inverse.solve(r, r if last is None else last.kt, z), last)
-            return Correction(free.update_solution(length, t, t, 0.0, d, r)[0], pairs + inverse.pairs, True, open=True)
+            return _unmeasured(system, inverse, r, last, length, Correction(d, pairs, True, open=True))
         if reached := taken > 0 and left < stopping.reduction**2 * square:
             break
         preconditioned = inverse.solve(r, r if last is None else last.kt, z)
@@ -517,7 +519,19 @@ def conjugate_gradients(
         if on_step is not None:
             on_step(length)
         d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
-    return Correction(d if taken else None, pairs, reached)
+    found = Correction(d if taken else None, pairs, reached)
+    return _unmeasured(system, inverse, r, last, further * length, found) if further and taken else found
+
+
+def _unmeasured(
+    system: LinearSystem, inverse: Preconditioner, r: Any, last: _Direction | None, length: float, found: Correction
+) -> Correction:
+    """``found`` and one more step of this ``length``, without a product, where the preconditioner takes none either."""
+    if inverse.pairs >= 1.0:
+        return found
+    t, _ = _next_direction(system, r, inverse.solve(r, r if last is None else last.kt, system.free.empty()), last)
+    d = system.free.update_solution(length, t, t, 0.0, found.d, r)[0]
+    return found._replace(d=d, pairs=found.pairs + inverse.pairs)
 
 
 def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction | None) -> tuple[Any, float]:
