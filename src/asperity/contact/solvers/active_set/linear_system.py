@@ -486,16 +486,14 @@ def conjugate_gradients(
 
     ``pending`` is a change whose deflection is not in the residual yet: the first product with the compliance includes it.
     ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
-    ``further``: share of the length of the step before of one more at the end, without a product; none if zero. It is for changes whose
-    deflection is computed anyway, such as clipped ones.
+    ``further``: length of one more step without a product, over that before; for changes whose deflection is computed anyway. None if zero.
     """
     scaled, free = system.scaled, system.free
     inverse = preconditioner(scaled, free)
     last: _Direction | None = None
     ending = None if stopping.ending is None or inverse.pairs >= 1.0 else stopping.ending * free.largest(r)
     (d, r, first, square, left), pairs, taken = _first_step(system, inverse, r, pending, on_step)
-    reached = False
-    z, length = free.empty(), inverse.step_length
+    z, length, reached = free.empty(), inverse.step_length, False
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
             return _unmeasured(system, inverse, r, last, length, Correction(d, pairs, True, open=True))
@@ -514,8 +512,7 @@ def conjugate_gradients(
         if curvature <= 0.0:
             break
         last = _Direction(t, kt, curvature, total)
-        taken += 1
-        length = slope / curvature
+        taken, length = taken + 1, slope / curvature
         if on_step is not None:
             on_step(length)
         d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
