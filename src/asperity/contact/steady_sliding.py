@@ -368,7 +368,10 @@ def slide(
     settled = settled_with(couplings, posed, {} if before is None else before.memory, _SOLVER, rounds=rounds)
     lag = kernel.lag(settled.contact.traction)
     normal = _normal(problem, settled, couplings, lag, time.perf_counter() - started)
-    result = _with_friction(normal, kernel, settled.contact, profile, v, angle)
+    traction = settled.contact.traction
+    error = _bound(settled.contact, kernel, lag - settled.exchanges[LagCoupling.name].x)
+    by_slope = -float((traction * kernel.slope(profile)).mean())
+    result = SteadySliding(normal, v, angle, kernel.dissipation(traction), by_slope, error)
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
@@ -397,28 +400,12 @@ def _normal(
     return finished(problem, settled, ends, _SOLVER, before=None, lift=lag, seconds=seconds)
 
 
-def _with_friction(
-    normal: ContactResult,
-    kernel: MovingKernel | FreeMovingKernel,
-    contact: Contact,
-    profile: RealArray,
-    speed: float,
-    direction: float,
-) -> SteadySliding:
-    """Friction by the loss in all waves and by the slope of the surface, and the bound on the error."""
-    p, traction = np.asarray(normal.pressure, dtype=float), np.asarray(contact.traction, dtype=float)
-    gap = normal.displacement - profile
-    bound = float((p * (gap - gap.min())).sum())
-    by_pressure = normal.displacement if normal.adhesion is None else contact.posed.operator.apply(p) + kernel.lag(p)
-    work = float((p * by_pressure).sum())
-    return SteadySliding(
-        normal,
-        speed,
-        direction,
-        kernel.dissipation(traction),
-        -float((traction * kernel.slope(profile)).mean()),
-        bound / work if work > 0.0 else 0.0,
-    )
+def _bound(contact: Contact, kernel: MovingKernel | FreeMovingKernel, moved: RealArray) -> float:
+    """Bound on the energy of the error of the pressure of ``contact``, over p·Kp; its lag has ``moved`` (nx, ny) in m from what it was posed with."""
+    p, deflection = contact.pressure, contact.solution.state.deflection
+    gap = deflection - contact.qp.profile + moved
+    work = float((p * (deflection + kernel.lag(p))).sum())
+    return float((p * (gap - gap.min())).sum()) / work if work > 0.0 else 0.0
 
 
 def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
