@@ -157,24 +157,18 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
     known = known or parts()
     concerned = (part for part in known if part.settings_in(document) is not None)
     asks = {part.name: ask for part in concerned if (ask := part.asked(document, folder)) is not None}
-    problem = _with_physics(problem, asks, known)
-    for part in known:
-        if part.name in asks:
-            part.check(asks[part.name], problem)
+    asked = [part for part in known if part.name in asks]
+    joined: dict[str, Any] = {}
+    for part in asked:
+        joined |= part.coupling(asks[part.name])
+    problem = replace(problem, **joined)
+    for part in asked:
+        part.check(asks[part.name], problem)
+    for part in asked:
+        problem = part.altered(asks[part.name], problem)
     control, path = build_course(document, asks, known, surface.size[1])
     solver = build_solver(document.solver, problem, sticks=sticks(problem, [as_step(item) for item in path], None))
     return Case(document, problem, control, path, solver, asks, known)
-
-
-def _with_physics(problem: ContactProblem, asks: Mapping[str, Any], known: tuple[Part, ...]) -> ContactProblem:
-    """``problem`` with the film and the friction by which the parts join it, and with what they change of its bodies."""
-    joined: dict[str, Any] = {}
-    for part in known:
-        joined |= part.coupling(asks[part.name]) if part.name in asks else {}
-    problem = replace(problem, **joined)
-    for part in known:
-        problem = part.altered(asks[part.name], problem) if part.name in asks else problem
-    return problem
 
 
 def build_boundary(table: BoundaryTable) -> Boundary:
