@@ -11,8 +11,6 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.contact import measure
-from asperity.contact.solvers.active_set import stiffness
-
 
 def pattern(text):
     return np.array([[c == "#" for c in line] for line in text.split()])
@@ -104,19 +102,19 @@ def test_stiffness_of_nothing_is_zero_and_can_be_left_out():
 @pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.2)], ids=["elastic", "capped"])
 def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch):
     solved: list[int] = []
-    solve = stiffness.conjugate_gradients
+    solve = measure.conjugate_gradients
 
     def counting(system, *arguments, **options):
         solved.append(system.free.size)
         return solve(system, *arguments, **options)
 
     problem = asp.ContactProblem(rough((32, 24), 5), elastic(1.0), law=law)
-    monkeypatch.setattr(stiffness, "conjugate_gradients", counting)
+    monkeypatch.setattr(measure, "conjugate_gradients", counting)
     result = asp.solve(problem, asp.MeanPressure(0.1))
     assert solved == []
     moving = result.contact & ~result.plastic
     operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    wanted = stiffness.normal_stiffness(operator, moving)
+    wanted = measure.normal_stiffness(operator, moving)
     copied = copy.copy(replace(result, citation_keys=()))
     for _ in range(2):
         assert result.normal_stiffness == copied.normal_stiffness == wanted
