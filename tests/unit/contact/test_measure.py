@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import asperity as asp
 from asperity.contact import measure
 
+
 def pattern(text):
     return np.array([[c == "#" for c in line] for line in text.split()])
 
