@@ -150,9 +150,11 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
     page.goto(page.url.replace("/run", "/explore"))
     page.wait_for_selector("[data-ready]", timeout=LONG)
     page.click("[data-spots]")
-    page.locator("tr[data-spot]").first.press("Enter")
+    row = page.locator("tr[data-spot]").first
+    row.wait_for(state="visible", timeout=LONG)
+    row.press("Enter")
     viewer = "document.querySelector('[data-scene]').viewer"
-    assert page.evaluate(f"{viewer}.marked !== null && {viewer}.zoom > 1")
+    page.wait_for_function(f"{viewer}.marked !== null && {viewer}.zoom > 1", timeout=LONG)
     page.click("[data-space]")
     page.wait_for_selector(".space .main-svg", timeout=LONG)
     page.click("text=Contact and plastic zone")
