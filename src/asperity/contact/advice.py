@@ -378,8 +378,7 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
 
 
 def _against_pixel(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    grid = problem.grid
-    pixel = max((step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1), default=grid.spacing[0])
+    pixel = max(problem.grid.pixels)
     thin = [layer for layer in body.layers if layer.thickness < PIXELS_PER_LAYER * pixel]
     if thin:
         least = min(layer.thickness for layer in thin)

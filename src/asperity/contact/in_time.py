@@ -147,10 +147,9 @@ class InTime:
         area = problem.grid.area
         external = max(menisci.external_force, 0.0) if isinstance(menisci, Menisci) else contact.force
         approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
-        traction, deflection = contact.pressure, contact.solution.state.deflection
+        traction, deflection = contact.traction, contact.solution.state.deflection
         adhesive = ends["adhesion"][1] if "adhesion" in ends else None
         if isinstance(adhesive, AdhesiveContact):
-            traction = traction - adhesive.attraction
             deflection = deflection - operator.apply(adhesive.attraction)
             external = adhesive.external_force - held_by
         held = adhesive.grips if isinstance(adhesive, AdhesiveContact) else approach

@@ -35,7 +35,7 @@ from ..surfaces.surface import Surface
 from ..theories.rough.persson import IsotropicSpectrum
 from ..theories.rough.rubber_friction import RubberFriction, rubber_friction
 from .boundary import Periodic
-from .couplings.driver import Rounds, Settled
+from .couplings.driver import Rounds
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
 from .in_time import require_range
 from .laws import HardWall
@@ -366,10 +366,11 @@ def slide(
         start = before.pressure if before.pressure.any() else None
     posed = Posed(operator, profile, profile, control, height_scale(profile, control, operator), start)
     settled = settled_with(couplings, posed, {} if before is None else before.memory, _SOLVER, rounds=rounds)
-    lag = kernel.lag(settled.contact.traction)
-    normal = _normal(problem, settled, couplings, lag, time.perf_counter() - started)
-    traction = settled.contact.traction
-    error = _bound(settled.contact, kernel, lag - settled.exchanges[LagCoupling.name].x)
+    contact, exchanges = settled.contact, settled.exchanges
+    traction, ends = contact.traction, {c.name: c.end(exchanges[c.name], contact) for c in couplings}
+    lag, seconds = kernel.lag(traction), time.perf_counter() - started
+    normal = finished(problem, settled, ends, _SOLVER, before=None, lift=lag, seconds=seconds)
+    error = _bound(contact, kernel, lag - exchanges[LagCoupling.name].x)
     by_slope = -float((traction * kernel.slope(profile)).mean())
     result = SteadySliding(normal, v, angle, kernel.dissipation(traction), by_slope, error)
     if not result.converged:
@@ -390,14 +391,6 @@ def _prepared(
     velocity = speed * math.cos(direction), speed * math.sin(direction)
     kernel = MovingKernel.of(problem, velocity, engine.threads_for(problem.grid.shape))
     return kernel, PeriodicOperator(compliance, problem.grid, engine=engine, kernel=kernel.storage)
-
-
-def _normal(
-    problem: ContactProblem, settled: Settled, couplings: tuple[Coupling, ...], lag: RealArray, seconds: float
-) -> ContactResult:
-    """Fields and scalars of the contact that ``settled``, whose displacement is beyond that of the storage modulus by ``lag`` (m)."""
-    ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in couplings}
-    return finished(problem, settled, ends, _SOLVER, before=None, lift=lag, seconds=seconds)
 
 
 def _bound(contact: Contact, kernel: MovingKernel | FreeMovingKernel, moved: RealArray) -> float:

@@ -189,7 +189,7 @@ def slide_in_time(
 def step_length(grid: Grid, steps_per_pixel: int) -> float:
     """Distance (m) moved in a step of time."""
     require.integer(steps_per_pixel, 1, "steps of time per pixel")
-    return min(d for d, n in zip(grid.spacing, grid.shape, strict=True) if n > 1) / steps_per_pixel
+    return min(grid.pixels) / steps_per_pixel
 
 
 class _Motion:

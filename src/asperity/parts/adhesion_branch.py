@@ -58,7 +58,7 @@ def branch_of(solved: Solved, farthest: float) -> tuple[AdhesiveBranch | None, t
     deepest = max(solved.path.steps, key=lambda step: step.approach)
     try:
         branch = adhesive_branch(deepest, farthest=farthest)
-        return branch, _of_pixels(branch, max(solved.problem.grid.spacing))
+        return branch, _of_pixels(branch, max(solved.problem.grid.pixels))
     except (InputError, NoSolutionError) as error:
         text = f"The branch between the jumps was not followed: {error}"
         return None, (Advice("warning", "branch", text),)

@@ -77,8 +77,8 @@ def work_of_adhesion(first: str, second: str, *, library: str | Path | None = No
     InputError
         If the pair was not measured and a surface is not known; measure its work of adhesion then, and give that.
     """
-    known = {key: record for record in solid_surfaces(library) for key in record.keys}
     built_in = {key: record for record in solid_surfaces() for key in record.keys}
+    known = built_in if library is None else {key: each for each in solid_surfaces(library) for key in each.keys}
     keys = [" ".join(str(name).casefold().split()) for name in (first, second)]
     names = [built_in[key].keys[0] if key in built_in else key for key in keys]
     if all(known.get(key) == built_in.get(key) for key in keys):

@@ -217,9 +217,7 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
     layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
     asked = [depth for depth in request.depths if depth <= layered[-1]]
     needed = _distinct(np.array([*layered, *asked]), SAME)
-    grid = result.problem.grid
-    pixels = [step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1] or [grid.spacing[0]]
-    shallow = max(SHALLOWEST * small, PIXELS * max(pixels))
+    shallow = max(SHALLOWEST * small, PIXELS * max(result.problem.grid.pixels))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
     flow = residual_of(result, request.of, None)
@@ -242,9 +240,7 @@ def _spot_radii(result: Contact) -> tuple[float, float]:
     On a grid of one row spots are strips, and half their widths take the place of radii.
     """
     grid = result.problem.grid
-    least = 0.5 * min(
-        (step for step, n in zip(grid.spacing, grid.shape, strict=True) if n > 1), default=grid.spacing[0]
-    )
+    least = 0.5 * min(grid.pixels)
     if not result.spot_areas.size:
         return least, least
     if 1 in grid.shape:

@@ -86,13 +86,18 @@ LINE = (
 
 LINE_LOAD = Way(asked("load", "N/m", "normal force per length"), "at_load", LINE)
 
+CONTACT_RADIUS = asked("contact_radius", "m", "contact radius")
+
+BY_RADIUS = Way(CONTACT_RADIUS, "at_radius", (POINT[0], POINT[1], POINT[3]))
+"""Contacts whose pressure is infinitely tensile at the edge."""
+
 COMMON: tuple[Way, ...] = (
     Way(PRESSURE, "at_pressure", QUANTITIES),
     Way(SEPARATION, "at_separation", QUANTITIES),
     Way(asked("load", "N", "normal force"), "at_load", POINT),
     Way(asked("approach", "m", "displacement of distant points toward each other"), "at_approach", POINT),
     Way(asked("interference", "m", "displacement of distant points toward each other"), "at_interference", POINT),
-    Way(asked("contact_radius", "m", "contact radius"), "at_radius", POINT),
+    Way(CONTACT_RADIUS, "at_radius", POINT),
 )
 """Ways of every theory that has the method."""
 

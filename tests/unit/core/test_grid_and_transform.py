@@ -140,3 +140,11 @@ def test_thread_count(monkeypatch):
             thread_count()
     with refused(asp.InputError, "number of threads"):
         thread_count(0)
+
+
+def test_pixels_are_those_of_the_axes_that_have_points() -> None:
+    """The one row of a line is as wide as its strip, which is no pixel."""
+    assert asp.Grid((8, 4), (2.0, 3.0)).pixels == (2.0, 3.0)
+    assert asp.Grid((8, 1), (2.0, 1e3)).pixels == (2.0,)
+    assert asp.Grid((1, 8), (1e3, 3.0)).pixels == (3.0,)
+    assert asp.Grid((1, 1), (2.0, 3.0)).pixels == (2.0,)

@@ -399,8 +399,7 @@ class AdhesionCoupling(Coupling):
 
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the attraction, and the pixel that it needs where the grid does not resolve it."""
-        grid, length = self.operator.grid, cohesive_length(self.law, self.E_star)
-        pixel = max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1)
+        length, pixel = cohesive_length(self.law, self.E_star), max(self.operator.grid.pixels)
         text = f"The attraction still changes by {exchange.residual:.1e} of its largest value"
         if length == 0.0 or pixel * RESOLVED <= length:
             return text
@@ -437,7 +436,7 @@ class AdhesionCoupling(Coupling):
             elastic_energy=elastic,
             margin=margin,
             cohesive_length=cohesive_length(self.law, self.E_star),
-            pixel=max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1),
+            pixel=max(grid.pixels),
             dissipated=lost,
             dissipated_error=error,
             jumped=jumped,

@@ -111,6 +111,13 @@ class ShearPast:
     xi: RealArray | ComplexArray
     squares: RealArray
 
+    def advanced(
+        self, before: RealArray | ComplexArray, traction: RealArray | ComplexArray, weights: TimeWeights
+    ) -> ShearPast:
+        """The same after a step from ``before`` to ``traction``, as ``xi`` are, without its energies."""
+        e, b, a = (values[:, None, None, None] for values in (weights.e, weights.before, weights.after))
+        return ShearPast(e * self.xi + b * before + a * traction, self.squares)
+
 
 @dataclass(frozen=True, eq=False)
 class Past:

@@ -8,7 +8,7 @@ internal pressures are those of the normal direction (``couplings.creep.LayeredP
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -84,8 +84,7 @@ class LayeredShear:
     def advanced(self, past: Past, before: RealArray, traction: RealArray, weights: TimeWeights) -> ShearPast:
         """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without its energies."""
         shear = past.shear or self.virgin(past.pressure.shape)
-        e, b, a = (values[:, None, None, None] for values in (weights.e, weights.before, weights.after))
-        return ShearPast(e * shear.xi + b * self._spectra(before) + a * self._spectra(traction), shear.squares)
+        return shear.advanced(self._spectra(before), self._spectra(traction), weights)
 
     def after(
         self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
@@ -104,7 +103,7 @@ class LayeredShear:
         at_once = _product(loads[1], self._counted(*_response(self.first, *loads[1])))
         stored = 0.5 * at_once + 0.5 * float(squares[np.isfinite(weights.times)].sum())
         heat = weights.dissipated(np.ones(len(self.terms)), products)
-        return ShearPast(self.advanced(past, before, traction, weights).xi, squares[None]), stored, heat
+        return replace(shear.advanced(loads[0][0], loads[1][0], weights), squares=squares[None]), stored, heat
 
     def curvature(
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights

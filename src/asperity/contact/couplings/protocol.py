@@ -156,7 +156,7 @@ class Contact:
     @property
     def traction(self) -> RealArray:
         """Pressure less attraction (nx, ny) in Pa."""
-        return self.pressure - self.attraction
+        return self.pressure - self.attraction if isinstance(self.attraction, np.ndarray) else self.pressure
 
     @cached_property
     def totals(self) -> Totals:

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...core.arrays import RealArray
+from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
 from ...solids.compliance.creep import SharedCreep
 from ...solids.elastic import Elastic, Rigid
@@ -37,6 +37,11 @@ class ShearPart:
 
     operator: TangentialOperator = field(repr=False)
     shares: RealArray
+
+    def left(self, xi: RealArray | ComplexArray, latest: RealArray, weights: TimeWeights) -> RealArray:
+        """sum s_k (e_k xi_k + before_k times the ``latest``), in Pa: what displaces at the end of a step as much as the past does."""
+        past = np.tensordot(self.shares * weights.e, xi.real, axes=1)
+        return float(self.shares @ weights.before) * latest + past
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +105,7 @@ class ShearMemory:
         shear = past.shear or self.virgin(past.pressure.shape)
         lift = np.zeros(past.pressure.shape)
         for part in self.parts:
-            q = float(part.shares @ weights.before) * traction + np.tensordot(part.shares * weights.e, shear.xi, axes=1)
-            lift += part.operator.coupling.lift(q)
+            lift += part.operator.coupling.lift(part.left(shear.xi, traction, weights))
         return lift
 
     def _left(self, past: Past, traction: RealArray, weights: TimeWeights) -> tuple[RealArray, RealArray]:
@@ -109,20 +113,17 @@ class ShearMemory:
         shear = past.shear or self.virgin(past.pressure.shape)
         along, lift = np.zeros(traction.shape), np.zeros(past.pressure.shape)
         for part in self.parts:
-            factors, now = part.shares * weights.e, float(part.shares @ weights.before)
-            if not factors.any() and not now:
+            if not (part.shares * weights.e).any() and not float(part.shares @ weights.before):
                 continue
-            q = now * traction + np.tensordot(factors, shear.xi, axes=1)
-            p = now * past.pressure + np.tensordot(factors, past.xi.real, axes=1)
+            q = part.left(shear.xi, traction, weights)
+            p = part.left(past.xi, past.pressure, weights)
             along = along + part.operator.displacement(q) + part.operator.drawn(p)
             lift = lift + part.operator.lift(q)
         return along, lift
 
     def advanced(self, past: Past, before: RealArray, traction: RealArray, weights: TimeWeights) -> ShearPast:
         """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without its energies."""
-        shear = past.shear or self.virgin(past.pressure.shape)
-        e, b, a = (values[:, None, None, None] for values in (weights.e, weights.before, weights.after))
-        return ShearPast(e * shear.xi + b * before + a * traction, shear.squares)
+        return (past.shear or self.virgin(past.pressure.shape)).advanced(before, traction, weights)
 
     def after(
         self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
@@ -137,7 +138,7 @@ class ShearMemory:
             squares[number] = weights.advanced(products)
             heat += weights.dissipated(part.shares, products)
             stored += 0.5 * float(products.p11) + 0.5 * float(part.shares[solid] @ squares[number][solid])
-        return ShearPast(self.advanced(past, before, traction, weights).xi, squares), stored, heat
+        return replace(shear.advanced(before, traction, weights), squares=squares), stored, heat
 
     def curvature(
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -13,7 +13,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.values import Number
-from ..ask import Way, asked
+from ..ask import BY_RADIUS, Way, asked
 from ..protocol import ContactAnswer, Modulus, Radius, Theory, Work, checked
 from ..single.indenters import Exponent
 from ..single.waves import Amplitude, Wavelength
@@ -46,13 +46,10 @@ class AdhesivePowerLaw(Theory):
         Quantity("unloaded_radius", "m", "contact radius without load"),
     )
     ways: ClassVar[tuple[Way, ...]] = (
-        Way(
-            asked("contact_radius", "m", "contact radius"),
-            "at_radius",
-            (
-                Quantity("load", "N", "normal force"),
-                Quantity("approach", "m", "displacement of distant points toward each other"),
-                Quantity("area", "m^2", "contact area"),
+        replace(
+            BY_RADIUS,
+            columns=(
+                *BY_RADIUS.columns,
                 Quantity("stiffness", "N/m", "derivative of the load by the approach along the equilibria"),
             ),
         ),

@@ -15,7 +15,7 @@ from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
-from ..ask import Way, asked
+from ..ask import BY_RADIUS, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, PoissonOfSolid, Radius, Theory, Work, checked
 from .short_range import CoatedJKR, CoatedState
 
@@ -68,17 +68,7 @@ class AdhesiveCoatedSphere(Theory):
         Quantity("pull_off_ratio", "1", "that force over 1.5πwR, the one of a homogeneous half-space"),
         Quantity("pull_off_radius", "m", "contact radius at the pull-off"),
     )
-    ways: ClassVar[tuple[Way, ...]] = (
-        Way(
-            asked("contact_radius", "m", "contact radius"),
-            "at_radius",
-            (
-                Quantity("load", "N", "normal force"),
-                Quantity("approach", "m", "displacement of distant points toward each other"),
-                Quantity("area", "m^2", "contact area"),
-            ),
-        ),
-    )
+    ways: ClassVar[tuple[Way, ...]] = (BY_RADIUS,)
 
     @property
     def coating_modulus(self) -> float:

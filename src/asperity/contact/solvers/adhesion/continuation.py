@@ -156,15 +156,10 @@ class Continuation:
     @property
     def needed_pixel(self) -> float:
         """Largest pixel in m with which the branch can be followed; the compliance of a point goes about as its pixel."""
-        return self._pixel * _FOLLOWS / (self.single * self.problem.law.steepest)
-
-    @property
-    def _pixel(self) -> float:
-        grid = self.operator.grid
-        return max(s for s, n in zip(grid.spacing, grid.shape, strict=True) if n > 1)
+        return max(self.operator.grid.pixels) * _FOLLOWS / (self.single * self.problem.law.steepest)
 
     def _too_short(self, offset: float) -> str:
-        pixel = self._pixel
+        pixel = max(self.operator.grid.pixels)
         text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {offset:.6g} m. "
         if pixel <= self.needed_pixel:
             return text + "Take smaller steps, or a finer grid."
