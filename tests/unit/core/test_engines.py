@@ -450,14 +450,14 @@ def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
 
 
 @pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16)], ids=str)
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 90)], ids=str)
 @pytest.mark.parametrize("wraps", [False, True], ids=["", "round"])
 @every_type
 def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str, wraps: bool) -> None:
     rng = np.random.default_rng(shape)
     hierarchies = (HIERARCHY, rolled(shape) if wraps else SHIFTED)
     cells = engine.cells(shape, hierarchies, None, dtype)
-    for share in (0.2, 0.6, 1.0):  # the same buffers for one set after the other
+    for share in (0.2, 0.6, 0.03, 1.0, 0.02, 0.04):  # the same buffers for one set after the other, sparse and crowded
         inside = rng.uniform(size=shape) < share
         p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
         arrays = (engine.array(values, "float64") for values in (p, np.where(inside, 0.0, 100.0), h))
@@ -482,16 +482,19 @@ def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int
 
 
 @pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16)], ids=str)
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 90)], ids=str)
+@pytest.mark.parametrize("shares", [(0.4, 0.7), (0.02, 0.03)], ids=["crowded", "sparse"])
 @every_type
-def test_nested_cells_deflect_under_a_change_elsewhere(engine: Engine, shape: tuple[int, int], dtype: str) -> None:
+def test_nested_cells_deflect_under_a_change_elsewhere(
+    engine: Engine, shape: tuple[int, int], shares: tuple[float, float], dtype: str
+) -> None:
     """Whatever they were prepared for before. Points that change and are watched both deflect by their cells alone."""
     rng = np.random.default_rng(shape)
     hierarchies = (HIERARCHY, SHIFTED)
     cells = engine.cells(shape, hierarchies, None, dtype)
-    masks = [rng.uniform(size=shape) < share for share in (0.4, 0.7)]
+    masks = [rng.uniform(size=shape) < share for share in shares]
     heights = (rng.standard_normal(shape) for _ in masks)
-    iterates = ((np.where(m, 1.0, 0.0), 0.0 * m, h) for m, h in zip(masks, heights, strict=True))
+    iterates = ((np.where(m, 1.0, 0.0), np.where(m, 0.0, 100.0), h) for m, h in zip(masks, heights, strict=True))
     changed, watched = (
         free_set(engine.survey(*(engine.array(v, "float64") for v in fields), None), -1e3, 1.0, dtype)
         for fields in iterates

@@ -20,6 +20,13 @@ SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
 for 8, 32, 64: elastic 13.9, 14.1, 14.1; films 21.9, 22.2, 22.9 (16: 13.9 and 22.8; cases: see ``benchmarks/constants.py``)."""
 
+SPARSE = 2
+"""Levels of nested cells, from single points up, whose empty groups need not be swept: they hold 15 of 16 cells."""
+
+GROUP = 16
+"""Cells of a level in a group. At a hundredth of the load of full contact, 512², points lie in a tenth of the groups of the lowest level and in two
+tenths of the next; at five hundredths in four and six tenths."""
+
 
 @dataclass(frozen=True)
 class Totals:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform
-from .cpu import SERIAL_BELOW, CpuEngine, layout
+from .cell_layout import layout
+from .cpu import SERIAL_BELOW, CpuEngine
 from .protocol import Hierarchy
 
 
@@ -58,7 +59,8 @@ class VectorCells:
     ) -> None:
         self._blocks, self._shape = engine.blocks, shape
         self._kernels: Any = import_module(".vector_kernels", __package__)
-        self.levels, size = layout(shape, hierarchies)
+        cells = layout(shape, hierarchies)
+        self.levels, size = cells.levels, cells.size
         self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
         self.g, self.s = np.zeros((3, size), dtype), np.zeros((2, size), dtype)
         self._t = np.zeros((3, size), dtype)
