@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
 
 import numpy as np
@@ -256,7 +257,6 @@ class ContactResult(Stored):
     control: Control
     pressure: RealArray
     displacement: RealArray
-    gap: RealArray
     permanent_indentation: RealArray
     plastic: BoolArray
     offset: float
@@ -268,7 +268,6 @@ class ContactResult(Stored):
     mean_real_pressure: float
     max_pressure: float
     approach: float
-    mean_gap: float
     elastic_energy: float
     plastic_work: float
     total_plastic_work: float
@@ -280,6 +279,8 @@ class ContactResult(Stored):
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
+    gap: Late[RealArray] = Late()
+    mean_gap: Late[float] = Late()
     normal_stiffness: Late[float] = Late()
     spot_areas: Late[RealArray] = Late()
     couplings: Mapping[str, Any] = field(default_factory=dict)
@@ -492,9 +493,6 @@ def assemble(
     """
     p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
     offset = -found.level
-    gap = u - found.qp.profile
-    gap += offset
-    np.maximum(gap, 0.0, out=gap)
     displacement = u if lift is None else u + lift
     creeping = outcomes.get("creep")
     if creeping is not None:
@@ -515,7 +513,7 @@ def assemble(
         control=found.posed.control,
         pressure=p,
         displacement=displacement,
-        gap=gap,
+        gap=Later(partial(_gap, u, found.qp.profile)),
         plastic=capped,
         offset=offset,
         mean_pressure=load / grid.n_points,
@@ -526,7 +524,7 @@ def assemble(
         mean_real_pressure=load / pixels if pixels else 0.0,
         max_pressure=float(p.max()),
         approach=found.posed.top - offset,
-        mean_gap=float(gap.mean()),
+        mean_gap=Later(_mean_gap),
         elastic_energy=0.5 * work * grid.pixel_area if creeping is None else creeping.stored_energy,
         plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
         normal_stiffness=later,
@@ -541,6 +539,17 @@ def assemble(
         deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
         **_indentation(problem, before, memories["hardness"], outcomes.get("plastic_flow")),
     )
+
+
+def _gap(deflection: RealArray, profile: RealArray, result: ContactResult) -> RealArray:
+    """Distance of the surfaces whose pressed ``profile`` rises by the ``deflection`` less; not below zero, where the error of a solve takes it."""
+    gap = deflection - profile
+    gap += result.offset
+    return np.maximum(gap, 0.0, out=gap)
+
+
+def _mean_gap(result: ContactResult) -> float:
+    return float(result.gap.mean())
 
 
 def _spot_areas(result: ContactResult) -> RealArray:

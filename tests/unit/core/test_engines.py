@@ -274,11 +274,12 @@ def test_tensile_points_are_counted_and_cleared(engine: Engine, dtype: str) -> N
     field = engine.zeros(shape, dtype)
     free.scatter(free.residual(centred=False), field)
     step = engine.numpy(field).astype(float)
-    tensile, tension = free.add_unclipped(p, free.residual(centred=False), 3.0)
+    tensile, tension, pressure = free.add_unclipped(p, free.residual(centred=False), 3.0)
     wanted = case.p + 3.0 * step
     np.testing.assert_allclose(engine.numpy(p), wanted, atol=1e-15)
     assert tensile == np.count_nonzero(wanted < 0.0) > 0
     assert tension == pytest.approx(-wanted[wanted < 0.0].sum())
+    assert pressure == pytest.approx(wanted[(wanted > 0.0) & (step != 0.0)].sum())
     # they count as unloaded, but do not enter
     survey = engine.survey(p, u, h, None)
     assert survey.totals.pressure == pytest.approx(np.maximum(wanted, 0.0).sum())

@@ -25,6 +25,7 @@ from .protocol import (
     Merge,
     Products,
     Totals,
+    Unclipped,
     Violation,
 )
 
@@ -171,12 +172,13 @@ class _ArrayFreeSet:
         r = self.library.select(self.inside, r - float(length) * (kt - float(mean)))
         return d + float(length) * t, r, self.square(r)
 
-    def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
+    def add_unclipped(self, p: Any, d: Any, scale: float) -> Unclipped:
         library = self.library
         self._put(p + float(scale) * library.xp.astype(d, p.dtype), p)
         tensions = library.select(self.inside & (p < 0.0), -p)
-        tensile, tension = library.numbers([library.count(tensions > 0.0), self._sum(tensions)])
-        return int(tensile), tension
+        carried = library.select(self.inside & (p > 0.0), p)
+        tensile, *sums = library.numbers([library.count(tensions > 0.0), self._sum(tensions), self._sum(carried)])
+        return Unclipped(int(tensile), *sums)
 
     def clear_tension(self, p: Any, factor: float, scale: float) -> Any:
         """p = factor max(p, 0) and the change over scale."""

@@ -29,6 +29,7 @@ from .protocol import (
     Load,
     Products,
     Totals,
+    Unclipped,
     Violation,
 )
 
@@ -190,9 +191,9 @@ class _CpuFreeSet:
         kind = t.dtype.type
         return d, r, self._sums("update_solution", 1, kind(length), t, kt, kind(mean), d, r)[0]
 
-    def add_unclipped(self, p: RealArray, d: RealArray, scale: float) -> tuple[int, float]:
-        tensile, tension = self._sums("add_unclipped", 2, self.index, p.ravel(), d, scale)
-        return int(tensile), tension
+    def add_unclipped(self, p: RealArray, d: RealArray, scale: float) -> Unclipped:
+        tensile, *sums = self._sums("add_unclipped", 3, self.index, p.ravel(), d, scale)
+        return Unclipped(int(tensile), *sums)
 
     def clear_tension(self, p: RealArray, factor: float, scale: float) -> RealArray:
         """p = factor max(p, 0) and the change over scale, in the memory of the residual."""

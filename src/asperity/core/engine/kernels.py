@@ -476,18 +476,21 @@ def gather(span, index, values, out, sums):  # type: ignore[no-untyped-def]
 
 @compiled
 def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
-    """p[index] += scale d; per block: number of tensile points then, and the sum of their tension."""
+    """p[index] += scale d; per block: number of tensile points then, the sum of their tension, and that of the other pressures."""
     for b in range(span[0], span[1]):
         tensile = 0
         tension = 0.0
+        carried = 0.0
         for k in range(b * BLOCK, min((b + 1) * BLOCK, index.size)):
             i = index[k]
             value = p[i] + scale * np.float64(d[k])
             p[i] = value
             tensile += 1 if value < 0.0 else 0
             tension -= value if value < 0.0 else 0.0
+            carried += value if value > 0.0 else 0.0
         sums[b, 0] = tensile
         sums[b, 1] = tension
+        sums[b, 2] = carried
 
 
 @compiled

@@ -71,6 +71,14 @@ class Clipped(NamedTuple):
     number: int
 
 
+class Unclipped(NamedTuple):
+    """After a step that is not clipped: the number of ``tensile`` points of the free set, the sum of their ``tension`` -p, and that of the ``pressure`` of the others."""
+
+    tensile: int
+    tension: float
+    pressure: float
+
+
 class Products(NamedTuple):
     """Vector of a free set, its sum, and its products with two others."""
 
@@ -187,8 +195,8 @@ class FreeSet(Protocol):
     def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
         """Vectors d + length t and r - length (kt - mean), and the square of the latter; ``d`` and ``r`` may be overwritten."""
 
-    def add_unclipped(self, p: Any, d: Any, scale: float) -> tuple[int, float]:
-        """p + scale d on the set, in place; the number of tensile points then, and the sum of their tension -p."""
+    def add_unclipped(self, p: Any, d: Any, scale: float) -> Unclipped:
+        """p + scale d on the set, in place."""
 
     def clear_tension(self, p: Any, factor: float, scale: float) -> Any:
         """Set p on the set to factor times its positive part; the change over ``scale`` as a vector.

@@ -39,11 +39,10 @@ It does not matter for square pixels."""
 PIXEL_SHARE = 0.6
 """Share of c(pi / a) that a pixel of side a is given of its own in the model.
 
-Points on both sides of a border between cells are coupled less in the model than in truth, so that it deflects too much by
-what differs between them; a smaller compliance of each point of its own compensates. At 512² the residual falls by 0.20
-instead of 0.28 a step, on films of E 10, h 4 and 20 pixels by 0.39 and 0.34 instead of 0.43 and 0.40. Pairs (cases: see
-``solver``) for 0.4, 0.5, 0.7, 0.8, 1: elastic 15.1, 14.7, 14.9, 14.7, 16.7; free 44.5, 44.5, 43.8, 46.4, 44.2; cap 17.9, 16.5,
-16.1, 15.7, 15.9; tight 25.2, 23.4, 25.2, 24.7, 25.7.
+Points on both sides of a border between cells are coupled less in the model than in truth, so that it deflects too much by what differs between them; a
+smaller compliance of each point of its own compensates. At 512² the residual falls by 0.20 instead of 0.28 a step, on films of E 10, h 4 and 20 pixels by 0.39
+and 0.34 instead of 0.43 and 0.40. Pairs (cases: see ``solver``) for 0.4, 0.5, 0.7, 0.8, 1: elastic 15.1, 14.7, 14.9, 14.7, 16.7; free 44.5, 44.5, 43.8, 46.4,
+44.2; cap 17.9, 16.5, 16.1, 15.7, 15.9; tight 25.2, 23.4, 25.2, 24.7, 25.7.
 """
 
 PIXEL_SHARE_COARSE = 0.8
@@ -144,15 +143,14 @@ def octaves(grid: Grid) -> OctavesOfCells:
 #
 # B = sum over levels l < n of c(pi / H_l) (P_l - P_l+1) + K_n,
 #
-# with K_n the compliance itself for pressures constant on the cells of level n, of 8 x 8 points. Reduction of the residual
-# per step at 512², self-affine surface, a tenth in contact, without and with: films of E 10, h 4 and 20 pixels 0.39 and 0.36,
-# 0.34 and 0.27; E 2, h 4 pixels 0.25 and 0.27; half-space 0.20 and 0.23. Pairs of a whole solve at 1024², a sixth and a tenth
-# in contact: the first film 36 and 33, the second 22 and 18; none are saved where a fortieth is. A step costs 6 % more.
+# with K_n the compliance itself for pressures constant on the cells of level n, of 8 x 8 points. Reduction of the residual per step at 512², self-affine
+# surface, a tenth in contact, without and with: films of E 10, h 4 and 20 pixels 0.39 and 0.36, 0.34 and 0.27; E 2, h 4 pixels 0.25 and 0.27; half-space
+# 0.20 and 0.23. Pairs of a whole solve at 1024², a sixth and a tenth in contact: the first film 36 and 33, the second 22 and 18; none are saved where a
+# fortieth is. A step costs 6 % more.
 
 
 _DEPTH = 3
-"""Level of the corrected cells, of 8 x 8 points: a product on their grid costs 1/64 of an FFT pair. Pairs on films for 2, 4: 25.6,
-22.2 (3: 22.8)."""
+"""Level of the corrected cells, of 8 x 8 points: a product on their grid costs 1/64 of an FFT pair. Pairs on films for 2, 4: 25.6, 22.2 (3: 22.8)."""
 
 _STEEP = 3.0
 """Factor by which the compliance must fall over an octave for the correction to pay (1/q: 2). On a half-space it costs
@@ -337,9 +335,8 @@ residual to 1e-6 on self-affine surfaces: nested cells 10 at any area (film of E
 exact, and takes more than twice those of nested cells."""
 
 _STEP_LENGTH = 0.7
-"""Length, times the inverse of the pixel's compliance, of a step along the preconditioned residual where none can be measured.
-Lengths measured on self-affine surfaces scatter about it. Mean pairs at 512² for 0.4, 0.55, 0.7, 0.85, 1: 15.2, 14.7, 13.9,
-15.6, 16.3; free at 256² 46, 44.5, 43.8, 47.5, 49.8; films of E 10 at 512² 21.4, 22.9, 22.8, 23, 23."""
+"""Length, times the inverse of the pixel's compliance, of a step along the preconditioned residual where none can be measured. Measured lengths scatter about
+it. Mean pairs at 512² for 0.4, 0.55, 0.7, 0.85, 1: 15.2, 14.7, 13.9, 15.6, 16.3; free at 256² 46, 44.5, 43.8, 47.5, 49.8; films 21.4, 22.9, 22.8, 23, 23."""
 
 
 class Preconditioner(Protocol):
@@ -408,9 +405,13 @@ class RestrictedInverse:
 
 def preconditioner(scaled: ScaledOperator, free: FreeSet) -> Preconditioner:
     """The inverse in Fourier space on nearly full periodic contact, else nested cells."""
+    return RestrictedInverse(scaled, free) if nearly_full(scaled, free) else NestedCells(scaled, free)
+
+
+def nearly_full(scaled: ScaledOperator, free: FreeSet) -> bool:
+    """Whether ``free`` holds so many points of a periodic grid that its preconditioner takes a product."""
     operator = scaled.operator
-    nearly_full = all(operator.boundary.wraps) and free.size > _NEARLY_FULL * operator.grid.n_points
-    return RestrictedInverse(scaled, free) if nearly_full else NestedCells(scaled, free)
+    return all(operator.boundary.wraps) and free.size > _NEARLY_FULL * operator.grid.n_points
 
 
 # Conjugate gradients.

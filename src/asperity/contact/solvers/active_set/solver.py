@@ -36,7 +36,7 @@ from ..protocol import (
 from ..reference.steepest_descent import descend, levelling_step
 from .bounds import add_clipped, clear_tension, clipped_update, free_set
 from .first_guess import COARSE_ITERATIONS, COARSEST, nested_start
-from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
+from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients, nearly_full
 
 # Plane level and error of an iterate.
 
@@ -320,7 +320,8 @@ class ActiveSet:
         """(3) Step after which points may be tensile.
 
         The deflection by clearing those of the step before is part of the first product of this one, and each product is
-        added to the deflection as it is found: nothing else needs a transform.
+        added to the deflection as it is found: nothing else needs a transform. After a step that is to be the last one the deflection is
+        computed from scratch instead.
         """
         work = memory.work
         stopping, r = self._stopping(memory, free, spent.error), free.residual(centred=work.load_prescribed)
@@ -329,20 +330,21 @@ class ActiveSet:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
         system = LinearSystem(work.scaled, free, work.load_prescribed)
+        last = stopping.ending is not None and not nearly_full(work.scaled, free)
 
         def add(length: float) -> None:
             work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
 
-        found = conjugate_gradients(system, r, stopping, pending=pending, on_step=add)
+        found = conjugate_gradients(system, r, stopping, pending=pending, on_step=None if last else add)
         spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
         if found.d is None:
             return self._gradient_step(memory, spent)
-        tensile, tension = free.add_unclipped(work.pressure, found.d, work.unit)
-        changed: dict[str, Any] = {"survey": work.survey(), "clipped": tensile, "tensile": free, "tension": tension}
-        memory = replace(memory, **changed, from_scratch=False)
-        if found.open:
-            _compute_from_scratch(memory)
-            spent = replace(spent, applications=spent.applications + 1)
+        tensile, tension, total = free.add_unclipped(work.pressure, found.d, work.unit)
+        memory = replace(memory, clipped=tensile, tensile=free, tension=tension, from_scratch=False)
+        if last:
+            _compute_from_scratch(memory, total)
+            return memory, replace(spent, applications=spent.applications + 1)
+        memory.survey = work.survey()
         return memory, spent
 
     def _clipped_step(self, memory: _Memory, spent: SolverState, free: FreeSet) -> tuple[_Memory, SolverState]:
@@ -445,17 +447,17 @@ class _Guess(ActiveSet):
     _guess: ClassVar[bool] = True
 
 
-def _compute_from_scratch(memory: _Memory) -> None:
-    """Clear tensile points, and compute the deflection anew instead of from its updates."""
+def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
+    """Clear tensile points, and compute the deflection anew instead of from its updates; ``total`` as for ``_clear_tensile``."""
     work = memory.work
-    _clear_tensile(memory)
+    _clear_tensile(memory, total)
     work.exact.apply(work.pressure, work.deflection)
     memory.survey, memory.tension, memory.from_scratch = work.survey(), 0.0, True
     memory.computed_at = relative_error(work, memory.survey.totals)
 
 
-def _clear_tensile(memory: _Memory) -> None:
-    """Clear tensile points and scale the others to the load."""
+def _clear_tensile(memory: _Memory, total: float | None = None) -> None:
+    """Clear tensile points and scale the others, of the sum ``total`` (by default that of the survey), to the load."""
     if memory.tensile is not None:
-        clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure)
+        clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure if total is None else total)
     memory.tensile = None
