@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -349,7 +350,14 @@ def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
 
 def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
     """Draw the largest contact of ``result`` enlarged beside its map on ``ax``; False where it is no detail of the map."""
-    return enlarge_island(result.contact, result.problem.grid, result.problem.boundary.wraps, "largest contact", ax)
+    if result not in _LARGEST_CONTACTS:
+        problem = result.problem
+        _LARGEST_CONTACTS[result] = island(result.contact, problem.grid, problem.boundary.wraps)
+    return _enlarged(result.problem.grid, _LARGEST_CONTACTS[result], "largest contact", ax)
+
+
+_LARGEST_CONTACTS: WeakKeyDictionary[ContactResult, Window | None] = WeakKeyDictionary()
+"""Windows that every map of a contact shows: to find one takes as long as a fifth of a map."""
 
 
 def enlarge_indentation(result: ContactResult, ax: Axes) -> bool:
@@ -367,7 +375,10 @@ def enlarge_island(
     at: tuple[int, int] | None = None,
 ) -> bool:
     """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island`` chooses it; whether it is one."""
-    window = island(there, grid, wraps, at)
+    return _enlarged(grid, island(there, grid, wraps, at), title, ax)
+
+
+def _enlarged(grid: Grid, window: Window | None, title: str, ax: Axes) -> bool:
     if window is not None:
         enlarge(ax, grid, window, title)
     return window is not None

@@ -324,17 +324,28 @@ def png(
 
     ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch. The points of its ``curves`` are added to a list.
     """
+    with style(), _no_search_for_garbage():
+        return encoded(_pixels(draw, size, projection, dpi, curves), dpi)
+
+
+def _pixels(
+    draw: Callable[[Axes], Axes],
+    size: tuple[float, float],
+    projection: str | None,
+    dpi: int,
+    curves: list[AxesCurves] | None,
+) -> NDArray[np.uint8]:
+    """What ``png`` encodes. Nothing refers to its figure any more, so that the next search for garbage frees it at once."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with style(), _no_search_for_garbage():
-        figure = Figure(figsize=size, dpi=dpi)
-        FigureCanvasAgg(figure)
-        draw(figure.add_subplot(projection=projection))
-        pixels, content = content_of(figure)
-        if curves is not None:
-            curves.extend(_curves_of(figure, content))
-    return encoded(pixels, dpi)
+    figure = Figure(figsize=size, dpi=dpi)
+    FigureCanvasAgg(figure)
+    draw(figure.add_subplot(projection=projection))
+    pixels, content = content_of(figure)
+    if curves is not None:
+        curves.extend(_curves_of(figure, content))
+    return pixels
 
 
 @contextmanager
