@@ -15,7 +15,7 @@ from surfaces import BODY, self_affine
 
 import asperity as asp
 from asperity.contact.couplings import position
-from asperity.contact.solvers.active_set import bounds, first_guess, linear_system, solver
+from asperity.contact.solvers.active_set import bounds, first_guess, linear_system, solver, spline_model
 from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.core.engine import cpu
 
@@ -27,7 +27,8 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
     (solver, "_NEARLY_SETTLED"): [Stopping(x, 8) for x in (0.03, 0.2, 0.3)] + [Stopping(0.1, n) for n in (3, 5, 12)],
     (solver, "_SETTLED_SET"): [Stopping(x, 14) for x in (1e-6, 1e-3, 1e-2)] + [Stopping(1e-4, n) for n in (8, 20, 40)],
-    (solver, "_LAST_STEP"): [0.2, 0.4],
+    (solver, "_SINGLE"): [0.03, 0.12, 0.3],
+    (solver, "_LAST_STEP"): [0.1, 0.2, 0.3],
     (solver, "_LAST_REDUCTION"): [0.02, 0.05],
     (solver, "_MARGIN"): [0.3, 0.5, 1.0],
     (bounds, "LEAST_SHARE"): [0.01, 0.03, 0.3],
@@ -39,11 +40,15 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (first_guess, "_LOOSEST"): [0.01, 0.03, 0.3],
     (first_guess, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
     (first_guess, "_AREA_PER_LOAD"): [1.4, 2.4, 100.0],
-    (linear_system, "_STEP_LENGTH"): [0.4, 0.55, 0.85, 1.0],
-    (linear_system, "PIXEL_SHARE"): [0.4, 0.5, 0.7, 0.8, 1.0],
-    (linear_system, "PIXEL_SHARE_COARSE"): [0.6, 0.7, 1.0],
-    (linear_system, "_DEPTH"): [2, 4],
-    (linear_system, "_STEEP"): [1.5, 4.0],
+    (linear_system, "_STEP_LENGTH"): [0.8, 0.9, 1.1, 1.2],
+    (linear_system, "_STEEP"): [1.0, 6.0, 1e9],
+    (linear_system, "_MODEL_STEPS"): [2, 4],
+    (linear_system, "_FIRST_STEPS"): [0, 2],
+    (linear_system, "_LAST_LENGTH"): [0.7, 1.0],
+    (spline_model, "_FALL"): [0.0, 0.2, 0.5],
+    (spline_model, "_BEND"): [0.0, 0.12, 0.4],
+    (spline_model, "_STEEPER"): [0.0, 0.7, 2.0],
+    (spline_model, "_TRUST"): [1e-4, 0.01, 0.05],
     (cpu, "SQUARE_SIDE"): [8, 32, 64],
     (position, "TARGET_ERROR"): [1e-11, 1e-7],
     (position, "_HEIGHT_ERROR"): [0.0, 1e-7],

@@ -6,7 +6,9 @@ LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
         "assemble": "one line for each field of the result",
         "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
-        "occupy": "what a kernel calls is compiled once more in each of its callers",
+        "_rise": "what a kernel calls is compiled once more in each of its callers",
+        "_fall": "what a kernel calls is compiled once more in each of its callers",
+        "_at_points": "what a kernel calls is compiled once more in each of its callers",
         "entering_levels": "what a kernel calls is compiled once more in each of its callers",
         "_down": "what a kernel calls is compiled once more in each of its callers",
         "press": "what a kernel calls is compiled once more in each of its callers",
@@ -36,7 +38,9 @@ LIMITS: dict[str, dict[str, str]] = {
         "add_clipped": "a compiled pass takes its arrays and numbers one by one",
         "rescale": "a compiled pass takes its arrays and numbers one by one",
         "sweep": "a compiled pass takes its arrays and numbers one by one",
-        "occupy": "a compiled pass takes its arrays and numbers one by one",
+        "_rise": "a compiled pass takes its arrays and numbers one by one",
+        "_fall": "a compiled pass takes its arrays and numbers one by one",
+        "_at_points": "a compiled pass takes its arrays and numbers one by one",
         "_down": "a compiled pass takes its arrays and numbers one by one",
         "press": "a compiled pass takes its arrays and numbers one by one",
         "entering_levels": "a compiled pass takes its arrays and numbers one by one",
@@ -81,7 +85,7 @@ LIMITS: dict[str, dict[str, str]] = {
 """Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. A reason is why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
-    "asperity.contact.solvers.active_set.linear_system.octaves": "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times",
+    "asperity.contact.solvers.active_set.spline_model.octaves": "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times",
     "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called needs them",
     "asperity.core.quadrature._rule": "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve",
     "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made needs it",
@@ -90,7 +94,9 @@ CACHES: dict[str, str] = {
     "asperity.solids.library.kinds": "the annotations of a class never change; reading them takes 0.2 ms, and each of 44 records needs them, a quarter of the time of `asperity materials`",
     "asperity.io.description._version": "installed packages do not change; reading a version takes 0.7 ms, and every case of a study and every file needs four",
     "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document needs its parts",
-    "asperity.core.engine.cell_layout._layout": "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids",
+    "asperity.contact.solvers.active_set.spline_model._samples": "follows from the grid; 0.8 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
+    "asperity.core.engine.splines._layout": "follows from the shape; it takes 0.03 ms, and every solve needs it on four or five grids",
+    "asperity.core.engine.vectors._layout": "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids",
     "asperity.core.engine.cpu._keep_freed_memory": "the allocator of a process is told once",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",

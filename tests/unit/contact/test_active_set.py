@@ -18,6 +18,7 @@ from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffse
 from asperity.contact.solvers.active_set import bounds, first_guess, linear_system
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.first_guess import COARSEST, coarsened, highest_points, nested_start
+from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.contact.solvers.protocol import relative_error
 from asperity.core.engine import SQUARE_SIDE, cpu
 from asperity.solids.compliance.halfspace import HalfSpace
@@ -149,21 +150,17 @@ def test_answers_keep_their_bounds_and_load_whenever_a_run_ends(boundary: Any) -
 
 
 @BOUNDARIES
-def test_monotone_steps_lead_to_the_same_answer_with_more_products(boundary: Any) -> None:
+def test_monotone_steps_lead_to_the_same_answer(boundary: Any) -> None:
     qp = posed((128, 120), boundary)
     unclipped, monotone = (run(ActiveSet(tolerance=1e-9, monotone=flag), qp) for flag in (False, True))
     scale = float(unclipped.state.pressure.max())
     # errors of 1e-9 leave a pressure within some 1e-6, see the accuracy table of the benchmarks
     np.testing.assert_allclose(unclipped.state.pressure, monotone.state.pressure, atol=1e-5 * scale)
-    pairs = [
-        s.state.applications * qp.operator.pairs_per_application + s.state.extra_pairs for s in (unclipped, monotone)
-    ]
-    assert pairs[0] < pairs[1]
 
 
 def test_unclipped_steps_end_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With first steps ten times too long none of them helps: clipped ones take over, and the answer is found."""
-    monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP_LENGTH", 8.0)
+    """With first steps much too long none of them helps: clipped ones take over, and the answer is found."""
+    monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP_LENGTH", 50.0)
     qp = posed((64, 60))
     state, solver = ActiveSet().init(qp, None), ActiveSet(tolerance=1e-9)
     unclipped = 0
@@ -187,16 +184,15 @@ def test_work_on_coarser_grids_is_counted_in_pairs_of_the_fine_one() -> None:
 
 @pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=["elastic", "capped"])
 def test_a_result_takes_no_product_beyond_those_of_the_solver(law: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    products: list[str] = []
-    for kind in ("apply", "solve"):
+    products, apply = [0], cpu._Convolution.apply
 
-        def counting(self: Any, *given: Any, do: Any = getattr(cpu._Convolution, kind), kind: str = kind) -> Any:
-            products.append(kind)
-            return do(self, *given)
+    def counting(self: Any, *given: Any) -> Any:
+        products[0] += 1
+        return apply(self, *given)
 
-        monkeypatch.setattr(cpu._Convolution, kind, counting)
+    monkeypatch.setattr(cpu._Convolution, "apply", counting)
     result = asp.solve(asp.ContactProblem(rough((64, 48), 21), elastic(1.0), law=law), asp.MeanPressure(0.05))
-    assert len(products) == result.certificate.fft_pairs > 5
+    assert products[0] == result.certificate.fft_pairs > 5
 
 
 def test_a_cap_costs_at_most_a_fifth_more_pairs() -> None:
@@ -267,8 +263,13 @@ def test_the_product_that_ends_a_solve_serves_a_last_step(law: Any, monkeypatch:
         problems = (asp.ContactProblem(surface, elastic(1.0), law=law) for surface in surfaces)
         return [asp.solve(p, asp.MeanPressure(0.05), solver=ActiveSet(tolerance=1e-6)) for p in problems]
 
-    with_step = solved()
-    monkeypatch.setattr(solver_module, "_LAST_STEP", 0.0)
+    with_step, stopping = solved(), ActiveSet._stopping
+
+    def measured(self: Any, memory: Any, free: Any, error: float) -> Stopping:
+        found = stopping(self, memory, free, error)
+        return found if found.ending is None else Stopping(0.1, 8)
+
+    monkeypatch.setattr(ActiveSet, "_stopping", measured)
     without = solved()
     assert sum(r.certificate.fft_pairs for r in with_step) < sum(r.certificate.fft_pairs for r in without)
     for one, other in zip(with_step, without, strict=True):
@@ -282,13 +283,14 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
     page = (Path(__file__).parents[3] / "docs/theory/contact.md").read_text(encoding="utf-8")
     settled, nearly = solver_module._SETTLED_SET, solver_module._NEARLY_SETTLED
     for phrase in (
-        f"ℓ ← {linear_system._STEP_LENGTH} / (s ĉ₀)",
-        f"$s={linear_system.PIXEL_SHARE}$",
-        f"({linear_system.PIXEL_SHARE_COARSE} with the coarse correction below)",
         f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION},  at most {solver_module._UNSETTLED_STEPS} · ",
         f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
         f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
         f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
+        f"{solver_module._MARGIN} tol/ε ≥ {solver_module._SINGLE}",
+        f"For a steepness up to {linear_system._STEEP:g} ",
+        f"{linear_system._MODEL_STEPS} steps of conjugate gradients for $B$",
+        f"{linear_system._LAST_LENGTH} of the length of the first",
         f"θ ≥ {bounds.LEAST_SHARE}:",
         f"square of {SQUARE_SIDE} pixels",
         f"${first_guess._FINE_STIFFNESS}/\\hat c_0$",

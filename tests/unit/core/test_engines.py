@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -20,7 +20,7 @@ from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
 from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
-from asperity.core.engine import SQUARE_SIDE, CoarseCompliance, Engine, Hierarchy, Load, Merge
+from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel
 from asperity.core.engine.cpu import SERIAL_BELOW
 
 REFERENCE = asp.CpuEngine(1)
@@ -97,12 +97,9 @@ def test_periodic_convolutions_agree(engine: Engine, shape: tuple[int, int], dty
     for mean_mode in (0.0, 1.0):
         kernel[0, 0] = mean_mode
         field = rng.standard_normal(shape)
-        for method in ("apply", "solve"):
-            found, wanted = (
-                convolved(e, e.convolution(kernel, shape, dtype), method, field, dtype) for e in (engine, REFERENCE)
-            )
-            assert found.dtype == dtype
-            agree(found, wanted, 3, dtype)
+        found, wanted = (convolved(e, e.convolution(kernel, shape, dtype), field, dtype) for e in (engine, REFERENCE))
+        assert found.dtype == dtype
+        agree(found, wanted, 3, dtype)
 
 
 @every_engine
@@ -115,22 +112,19 @@ def test_free_convolutions_agree(engine: Engine, shape: tuple[int, int], dtype: 
     point[0, 0], point[1, 0], point[-1, 0] = 2.0, 0.5, 0.5
     kernel = np.fft.rfft2(point).real
     field = rng.standard_normal(shape)
-    for method in ("apply", "solve"):
-        found, wanted = (
-            convolved(e, e.padded_convolution(kernel, shape, padded, dtype), method, field, dtype)
-            for e in (engine, REFERENCE)
-        )
-        agree(found, wanted, 3, dtype)
+    found, wanted = (
+        convolved(e, e.padded_convolution(kernel, shape, padded, dtype), field, dtype) for e in (engine, REFERENCE)
+    )
+    agree(found, wanted, 3, dtype)
     direct = 2.0 * field
     direct[1:] += 0.5 * field[:-1]
     direct[:-1] += 0.5 * field[1:]
-    applied = convolved(engine, engine.padded_convolution(kernel, shape, padded, dtype), "apply", field, dtype)
-    agree(applied, direct, 3, dtype)
+    agree(found, direct, 3, dtype)
 
 
-def convolved(engine: Engine, convolution: Any, method: str, field: RealArray, dtype: str) -> RealArray:
+def convolved(engine: Engine, convolution: Any, field: RealArray, dtype: str) -> RealArray:
     out = engine.zeros((field.shape[0], field.shape[1]), dtype)
-    returned = getattr(convolution, method)(engine.array(field, dtype), out)
+    returned = convolution.apply(engine.array(field, dtype), out)
     assert np.array_equal(engine.numpy(returned), engine.numpy(out)), "the result is in the array that was given"
     return engine.numpy(out)
 
@@ -397,9 +391,9 @@ def test_an_empty_free_set(engine: Engine, dtype: str) -> None:
     _, *sums = free.gather_products(engine.array(np.ones((3, 4)), dtype), r, r, free.zeros())
     assert sums == [0.0, 0.0, 0.0]
     assert free.add_clipped(p, free.zeros(), 1.0, None) == (Load(0.0, 0.0, 0), 0)
-    cells = engine.cells((3, 4), (HIERARCHY, SHIFTED), None, dtype)
-    cells.factorise(free)
-    assert list(cells.solve(free, r, r, free.zeros())[1:]) == [0.0, 0.0, 0.0]
+    prepared = engine.splines((3, 4), splines((3, 4), (True, True), BOTH), dtype)
+    prepared.factorise(free)
+    assert list(prepared.solve(free, r, r, free.zeros())[1:]) == [0.0, 0.0, 0.0]
     engine.clear_field(free, field)
     assert not engine.numpy(field).any()
     assert not engine.numpy(p).any()
@@ -429,207 +423,182 @@ def test_pressures_are_refined(engine: Engine, shape: tuple[int, int]) -> None:
         assert value == pytest.approx(max(0.0, p + 0.3 * (heights[i, j] - base[i // 2, j // 2])) if p > 0.0 else 0.0)
 
 
-HIERARCHY = Hierarchy(tuple(Merge(True, True, 0, 1, 0.5) for _ in range(4)))
-SHIFTED = Hierarchy(tuple(Merge(True, level % 2 == 0, level % 2, int(level % 2 == 0), 0.5) for level in range(4)))
-PLAIN = tuple(Merge(True, True, 0, 0, 0.5) for _ in range(4))
+def splines(shape: tuple[int, int], wraps: tuple[bool, bool], merges: tuple[tuple[bool, bool], ...]) -> SplineModel:
+    """Random coefficients, none along an axis of one point."""
+    rng = np.random.default_rng([*shape, *wraps])
+    weights, rises = (tuple(rng.uniform(0.1, 1.0, len(merges)).tolist()) for _ in range(2))
+    x, y = (float(n > 1) for n in shape)
+    return SplineModel(
+        wraps,
+        merges,
+        weights,
+        (1.0, 0.3 * x, 0.2 * y, 0.1 * x * y),
+        rises,
+        1.7,
+        (0.3 * x, 0.2 * y),
+        (0.25 * x, 0.15 * y),
+    )
 
 
-def rolled(shape: tuple[int, int]) -> Hierarchy:
-    """Cells that reach over the borders."""
-    return Hierarchy(PLAIN, (min(5, shape[0] - 1), min(3, shape[1] - 1)))
-
-
-def cells_matrix(shape: tuple[int, int], hierarchy: Hierarchy) -> RealArray:
-    """1 + sum over cells of w 1 1^T, from the places of the points alone."""
-    x, y = ((axis.ravel() + roll) % n for axis, roll, n in zip(np.indices(shape), hierarchy.roll, shape, strict=True))
-    matrix = np.eye(x.size)
-    for merge in hierarchy.merges:
-        x = (x + merge.offset_x) // 2 if merge.x else x
-        y = (y + merge.offset_y) // 2 if merge.y else y
-        matrix += merge.weight * ((x[:, None] == x) & (y[:, None] == y))
+def parts_matrix(n: int, wraps: bool) -> RealArray:
+    """Shares of ``n`` parts in their cells, by the definition."""
+    count, shift = ((n + 1) // 2, 0) if wraps else (n // 2 + 2, 1)
+    matrix = np.zeros((n, count))
+    for part in range(n):
+        own = part // 2
+        beside = own - 1 if part % 2 == 0 else own + 1
+        matrix[part, own + shift] += 0.75
+        matrix[part, (beside + shift) % count] += 0.25
     return matrix
 
 
-@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 90)], ids=str)
-@pytest.mark.parametrize("wraps", [False, True], ids=["", "round"])
-@every_type
-def test_nested_cells_are_inverted_exactly(engine: Engine, shape: tuple[int, int], dtype: str, wraps: bool) -> None:
-    rng = np.random.default_rng(shape)
-    hierarchies = (HIERARCHY, rolled(shape) if wraps else SHIFTED)
-    cells = engine.cells(shape, hierarchies, None, dtype)
-    for share in (0.2, 0.6, 0.03, 1.0, 0.02, 0.04):  # the same buffers for one set after the other, sparse and crowded
-        inside = rng.uniform(size=shape) < share
-        p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
-        arrays = (engine.array(values, "float64") for values in (p, np.where(inside, 0.0, 100.0), h))
-        free = free_set(engine.survey(*arrays, None), -10.0, 1.0, dtype)
-        assert free.entering == 0
-        cells.factorise(free)
-        r = free.residual(centred=False)
-        z, total, first, second = cells.solve(free, r, r, free.zeros())
-        field = engine.zeros(shape, dtype)
-        free.scatter(r, field)
-        load = engine.numpy(field).astype(float)[inside]
-        free.scatter(z, field)
-        found = engine.numpy(field).astype(float)
-        chosen = np.ix_(inside.ravel(), inside.ravel())
-        inverses = [np.linalg.inv(cells_matrix(shape, hierarchy)[chosen]) for hierarchy in hierarchies]
-        wanted = np.mean([inverse @ load for inverse in inverses], axis=0) if load.size else load
-        tolerance = 100.0 * EPS[dtype] * (1.0 + np.abs(load).sum())
-        np.testing.assert_allclose(found[inside], wanted, atol=tolerance)
-        assert not found[~inside].any()
-        assert total == pytest.approx(wanted.sum(), abs=tolerance * load.size)
-        assert first == second == pytest.approx(wanted @ load, abs=tolerance * load.size)
+def levels_of(shape: tuple[int, int], model: SplineModel) -> list[RealArray]:
+    """Shares of the parts of every level in its cells."""
+    found, sizes = [], list(shape)
+    for merge in model.merges:
+        axes = [
+            parts_matrix(n, wrap) if pairs else np.eye(n)
+            for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
+        ]
+        sizes = [axis.shape[1] for axis in axes]
+        found.append(np.kron(*axes))
+    return found
 
 
-@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 90)], ids=str)
-@pytest.mark.parametrize("shares", [(0.4, 0.7), (0.02, 0.03)], ids=["crowded", "sparse"])
-@every_type
-def test_nested_cells_deflect_under_a_change_elsewhere(
-    engine: Engine, shape: tuple[int, int], shares: tuple[float, float], dtype: str
-) -> None:
-    """Whatever they were prepared for before. Points that change and are watched both deflect by their cells alone."""
-    rng = np.random.default_rng(shape)
-    hierarchies = (HIERARCHY, SHIFTED)
-    cells = engine.cells(shape, hierarchies, None, dtype)
-    masks = [rng.uniform(size=shape) < share for share in shares]
-    heights = (rng.standard_normal(shape) for _ in masks)
-    iterates = ((np.where(m, 1.0, 0.0), np.where(m, 0.0, 100.0), h) for m, h in zip(masks, heights, strict=True))
-    changed, watched = (
-        free_set(engine.survey(*(engine.array(v, "float64") for v in fields), None), -1e3, 1.0, dtype)
-        for fields in iterates
+def moved(shape: tuple[int, int], model: SplineModel, x: int, y: int) -> RealArray:
+    """Matrix that picks the value of the point so far away; none comes from beyond a rim that does not wrap."""
+    picked = []
+    for n, wrap, places in zip(shape, model.wraps, (x, y), strict=True):
+        matrix = np.zeros((n, n))
+        for i in range(n):
+            if wrap or 0 <= i + places < n:
+                matrix[i, (i + places) % n] += 1.0
+        picked.append(matrix)
+    return np.kron(*picked)
+
+
+def compliance_matrix(shape: tuple[int, int], model: SplineModel) -> RealArray:
+    """own + sum of w P P^T."""
+    point, x, y, diagonal = model.own
+    found, splines = point * np.eye(math.prod(shape)), np.eye(math.prod(shape))
+    for sign in (1, -1):
+        found += 0.5 * x * moved(shape, model, sign, 0) + 0.5 * y * moved(shape, model, 0, sign)
+        found += 0.25 * diagonal * (moved(shape, model, sign, 1) + moved(shape, model, sign, -1))
+    for weight, parts in zip(model.weights, levels_of(shape, model), strict=True):
+        splines = splines @ parts
+        found += weight * splines @ splines.T
+    return found
+
+
+def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray) -> RealArray:
+    """The recursion with row sums, level by level as dense matrices, and the local stiffness; on the points of the set."""
+    member = inside.ravel().astype(float)
+    levels, unit, g = levels_of(shape, model), member, []
+    for weight, parts in zip(model.inverse_weights, levels, strict=True):
+        sums = parts.T @ unit
+        g.append(1.0 / (1.0 + weight * sums))
+        unit = g[-1] * sums
+    above: RealArray = np.zeros(())
+    for depth in range(len(levels) - 1, -1, -1):
+        own = np.diag(g[depth] * model.inverse_weights[depth])
+        if depth + 1 < len(levels):
+            own += np.diag(g[depth]) @ levels[depth + 1] @ above @ levels[depth + 1].T @ np.diag(g[depth])
+        above = own
+    found = np.eye(member.size) - levels[0] @ above @ levels[0].T
+    for axis, (x, y) in enumerate(((1, 0), (0, 1))):
+        for sign in (1, -1):
+            neighbours = member[:, None] * moved(shape, model, sign * x, sign * y) * member
+            found += 0.25 * model.fall[axis] * (np.diag(neighbours.sum(axis=1)) - neighbours)
+            far = moved(shape, model, 2 * sign * x, 2 * sign * y)
+            near = moved(shape, model, sign * x, sign * y)
+            found += model.bend[axis] / 16.0 * (3.0 * np.eye(member.size) - 4.0 * near + far)
+    chosen = np.flatnonzero(member)
+    inverse: RealArray = model.stiffness * found[np.ix_(chosen, chosen)]
+    return inverse
+
+
+WRAPS = [(True, True), (False, False), (True, False)]
+BOTH = tuple((True, True) for _ in range(4))
+FIRST_Y = ((False, True), (True, True), (True, False), (True, True))
+
+
+def set_of(engine: Engine, inside: RealArray, dtype: str) -> Any:
+    """Free set of the points ``inside`` with a random residual."""
+    fields = (
+        np.where(inside, 1.0, 0.0),
+        np.where(inside, 0.0, 100.0),
+        np.random.default_rng(inside.size).standard_normal(inside.shape),
     )
-    load, r = changed.residual(centred=False), watched.residual(centred=False)
-    cells.factorise(watched)
-    cells.solve(watched, r, r, watched.zeros())
-    field = engine.zeros(shape, dtype)
-
-    def scattered(free: Any, vector: Any) -> RealArray:
-        engine.clear_field(changed, field)
-        engine.clear_field(watched, field)
-        free.scatter(vector, field)
-        return engine.numpy(field).astype(float).ravel()
-
-    model = np.mean([cells_matrix(shape, hierarchy) for hierarchy in hierarchies], axis=0) - np.eye(field.size)
-    given = scattered(changed, load)
-    wanted = np.where(masks[1].ravel(), scattered(watched, r) - 0.3 * (model @ given), 0.0)
-    found = scattered(watched, cells.predicted_residual(watched, r, changed, load, 0.3))
-    np.testing.assert_allclose(found, wanted, atol=100.0 * EPS[dtype] * (1.0 + np.abs(given).sum()))
-
-
-def corrected_hierarchies(periodic: bool) -> tuple[Hierarchy, Hierarchy]:
-    """Cells of weights that fall off from level to level, until few are left."""
-    weights = (0.4, 0.15, 0.05, 0.02, 0.01)
-    if periodic:
-        merges = tuple(Merge(True, True, 0, 0, weight) for weight in weights)
-        return Hierarchy(merges), Hierarchy(merges, (5, 3))
-    first, second = (
-        tuple(Merge(True, True, (k + one) % 2, (k + one + 1) % 2, weight) for k, weight in enumerate(weights))
-        for one in (0, 1)
-    )
-    return Hierarchy(first), Hierarchy(second)
-
-
-def coarse_on(shape: tuple[int, int], periodic: bool) -> CoarseCompliance:
-    """Convolution on cells of 4 x 4 points, from positive coefficients that fall off with distance."""
-    nx, ny = (n // 4 if periodic else n // 4 + 1 for n in shape)
-    padded = (nx, ny) if periodic else (2 * nx - 1, 2 * ny)
-    x, y = (np.minimum(np.arange(n), n - np.arange(n)) for n in padded)
-    response = 0.1 * np.exp(-0.8 * np.hypot(x[:, None], y[None, :]))
-    kernel = np.fft.rfft2(response).real
-    assert kernel.min() > 0.0
-    return CoarseCompliance(2, kernel, (nx, ny), padded)
-
-
-def places(shape: tuple[int, int], hierarchy: Hierarchy, depth: int) -> tuple[Any, Any]:
-    """Cell of the level along x and y of every point."""
-    x, y = ((axis.ravel() + roll) % n for axis, roll, n in zip(np.indices(shape), hierarchy.roll, shape, strict=True))
-    for merge in hierarchy.merges[:depth]:
-        x, y = (x + merge.offset_x) // 2, (y + merge.offset_y) // 2
-    return x, y
-
-
-def one_step(
-    shape: tuple[int, int], hierarchy: Hierarchy, coarse: CoarseCompliance, inside: RealArray, r: RealArray
-) -> RealArray:
-    """One step of conjugate gradients from the answer of nested cells, for the loads f on cells, by dense matrices."""
-    low = cells_matrix(shape, Hierarchy(hierarchy.merges[: coarse.depth - 1], hierarchy.roll))[np.ix_(inside, inside)]
-    x, y = (axis[inside] for axis in places(shape, hierarchy, coarse.depth))
-    cell, inverse = np.unique(x * coarse.cells[1] + y, return_inverse=True)
-    member = np.zeros((x.size, cell.size))
-    member[np.arange(x.size), inverse] = 1.0
-    cx, cy = np.divmod(cell, coarse.cells[1])
-    response = np.fft.irfft2(coarse.kernel, s=coarse.padded)
-    a = response[np.subtract.outer(cx, cx) % coarse.padded[0], np.subtract.outer(cy, cy) % coarse.padded[1]]
-    model = np.zeros_like(a)
-    for number, merge in enumerate(hierarchy.merges[coarse.depth - 1 :]):
-        if number:
-            cx, cy = (cx + merge.offset_x) // 2, (cy + merge.offset_y) // 2
-        model += merge.weight * ((cx[:, None] == cx) & (cy[:, None] == cy))
-    below = np.linalg.inv(low)
-    passed, unit = member.T @ below @ r, np.diag(member.T @ below @ member)
-    nested = np.linalg.inv(np.diag(1.0 / unit) + model)
-    f = nested @ (passed / unit)
-    residual = passed / unit - f / unit - a @ f
-    t = nested @ residual
-    f = f + (t @ residual) / (t @ (t / unit + a @ t)) * t
-    return np.asarray(below @ (r - member @ ((passed - f) / unit)))
+    return free_set(engine.survey(*(engine.array(values, "float64") for values in fields), None), -10.0, 1.0, dtype)
 
 
 @pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(16, 16), (24, 32)], ids=str)
-@pytest.mark.parametrize("periodic", [True, False], ids=["round", "free"])
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 30)], ids=str)
+@pytest.mark.parametrize("wraps", WRAPS, ids=["round", "free", "strip"])
 @every_type
-def test_coarse_corrected_cells_take_one_step_of_conjugate_gradients(
-    engine: Engine, shape: tuple[int, int], periodic: bool, dtype: str
+def test_nested_splines_are_those_of_dense_matrices(
+    engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool], dtype: str
 ) -> None:
+    """Products, prediction and inverse, which is symmetric and positive definite; the same buffers for one set after the other."""
+    rng, clear = np.random.default_rng(shape), engine.zeros(shape, dtype)
+    for merges in (BOTH, FIRST_Y):
+        merges = tuple((x and shape[0] > 1, y and shape[1] > 1) for x, y in merges)
+        model = splines(shape, wraps, merges)
+        prepared, dense = engine.splines(shape, model, dtype), compliance_matrix(shape, model)
+
+        def on_points(free: Any, vector: Any) -> RealArray:
+            engine.clear_field(free, clear)
+            free.scatter(vector, clear)
+            return engine.numpy(clear).astype(float).ravel()
+
+        for share in (0.2, 0.6, 1.0, 0.1):
+            inside, other = (rng.uniform(size=shape) < part for part in (share, 0.4))
+            free, loaded = (set_of(engine, points, dtype) for points in (inside, other))
+            r, change = free.residual(centred=False), loaded.residual(centred=False)
+            load, given = on_points(free, r), on_points(loaded, change)
+            engine.clear_field(loaded, clear)
+            tolerance = 200.0 * EPS[dtype] * (1.0 + np.abs(load).sum() + np.abs(given).sum())
+            prepared.factorise(free)
+            inverse = inverse_matrix(shape, model, inside)
+            np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
+            assert inverse.size == 0 or np.linalg.eigvalsh(inverse)[0] > 0.0
+            picked = load[inside.ravel()]
+            for found, wanted in (
+                (prepared.solve(free, r, r, free.zeros()), inverse @ picked),
+                (prepared.deflection(free, r, r, free.zeros()), (dense @ load)[inside.ravel()]),
+                (prepared.solve(free, r, r, free.zeros()), inverse @ picked),
+            ):
+                values = on_points(free, found.vector)
+                np.testing.assert_allclose(values[inside.ravel()], wanted, atol=tolerance)
+                assert not values[~inside.ravel()].any()
+                assert found.total == pytest.approx(wanted.sum(), abs=tolerance * picked.size)
+                assert found.first == found.second == pytest.approx(wanted @ picked, abs=tolerance * picked.size)
+            predicted = on_points(free, prepared.predicted_residual(free, r, loaded, change))
+            np.testing.assert_allclose(predicted, np.where(inside.ravel(), load - dense @ given, 0.0), atol=tolerance)
+            again = on_points(free, prepared.solve(free, r, r, free.zeros()).vector)
+            np.testing.assert_allclose(again[inside.ravel()], inverse @ picked, atol=tolerance)
+            engine.clear_field(free, clear)
+
+
+@pytest.mark.parametrize("shape", [(5, 8), (16, 12)], ids=str)
+def test_points_of_a_conductance_of_their_own_yield_by_it(shape: tuple[int, int]) -> None:
+    """Without a local stiffness the inverse is that of the recursion for points that yield by it times their load."""
     rng = np.random.default_rng(shape)
-    hierarchies, coarse = corrected_hierarchies(periodic), coarse_on(shape, periodic)
-    cells = engine.cells(shape, hierarchies, coarse, dtype)
-    for share in (0.1, 0.6, 1.0):
-        inside = rng.uniform(size=shape) < share
-        p, h = np.where(inside, 1.0, 0.0), rng.standard_normal(shape)
-        arrays = (engine.array(values, "float64") for values in (p, np.where(inside, 0.0, 100.0), h))
-        free = free_set(engine.survey(*arrays, None), -10.0, 1.0, dtype)
-        cells.factorise(free)
-        r = free.residual(centred=False)
-        z, total, first, _ = cells.solve(free, r, r, free.zeros())
-        field = engine.zeros(shape, dtype)
-        free.scatter(r, field)
-        load = engine.numpy(field).astype(float)[inside]
-        free.scatter(z, field)
-        found = engine.numpy(field).astype(float)
-        chosen = inside.ravel()
-        wanted = np.mean([one_step(shape, hierarchy, coarse, chosen, load) for hierarchy in hierarchies], axis=0)
-        tolerance = 100.0 * EPS[dtype] * (1.0 + np.abs(load).sum())
-        np.testing.assert_allclose(found[inside], wanted, atol=tolerance)
-        assert not found[~inside].any()
-        assert total == pytest.approx(wanted.sum(), abs=tolerance * load.size)
-        assert first == pytest.approx(wanted @ load, abs=tolerance * load.size)
-
-
-@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-def test_a_coarse_compliance_of_nested_cells_is_inverted_exactly(engine: Engine) -> None:
-    """Constants over cells of the level and over the whole grid: the guess is the answer, and the step is none."""
-    shape, own, everywhere = (16, 16), 0.05, 0.003
-    merges = tuple(Merge(True, True, 0, 0, weight) for weight in (0.4, own, 0.0, everywhere))
-    hierarchies = Hierarchy(merges), Hierarchy(merges, (5, 3))
-    kernel = np.full((4, 3), own)
-    kernel[0, 0] += everywhere * 16
-    rng = np.random.default_rng(3)
-    inside = rng.uniform(size=shape) < 0.4
-    arrays = (engine.array(np.where(inside, *pair), "float64") for pair in ((1.0, 0.0), (0.0, 100.0)))
-    survey = engine.survey(*arrays, engine.array(rng.standard_normal(shape), "float64"), None)
-    free = free_set(survey, 0.0, 1.0, "float64")
-    r, found = free.residual(centred=False), []
-    for coarse in (None, CoarseCompliance(2, kernel, (4, 4), (4, 4))):
-        cells = engine.cells(shape, hierarchies, coarse, "float64")
-        cells.factorise(free)
-        field = engine.zeros(shape, "float64")
-        free.scatter(cells.solve(free, r, r, free.zeros()).vector, field)
-        found.append(engine.numpy(field))
-    np.testing.assert_allclose(found[1], found[0], atol=1e-13 * np.abs(found[0]).max())
+    model = replace(splines(shape, (True, True), BOTH), fall=(0.0, 0.0), bend=(0.0, 0.0))
+    inside = rng.uniform(size=shape) < 0.6
+    free, prepared = set_of(REFERENCE, inside, "float64"), REFERENCE.splines(shape, model, "float64")
+    conductance = np.where(rng.uniform(size=free.size) < 0.5, 1.0, rng.uniform(-0.4, 0.8, free.size))
+    spread = np.zeros(shape)
+    spread[inside] = conductance
+    whole = inverse_matrix(shape, model, spread)  # 1 - P X P^T with loads that count by their conductance
+    r = free.residual(centred=False).copy()
+    prepared.factorise(free, conductance)
+    found = prepared.solve_with(free, r, conductance)
+    chosen = np.flatnonzero(spread.ravel())
+    assert chosen.size == free.size
+    cells = np.eye(free.size) - whole / model.stiffness
+    wanted = model.stiffness * conductance * (r - cells @ (conductance * r))
+    np.testing.assert_allclose(found, wanted, atol=1e-12 * (1.0 + np.abs(r).sum()))
 
 
 @every_cap
@@ -744,7 +713,8 @@ def test_arrays_and_passes_on_a_gpu() -> None:
         test_pressures_are_refined(engine, shape)
         for dtype in EPS:
             test_fields_are_added(engine, shape, dtype)
-            test_nested_cells_are_inverted_exactly(engine, shape, dtype)
+            for wraps in WRAPS:
+                test_nested_splines_are_those_of_dense_matrices(engine, shape, wraps, dtype)
             test_periodic_convolutions_agree(engine, shape, dtype)
             test_free_convolutions_agree(engine, shape, dtype)
         for cap in CAPS:

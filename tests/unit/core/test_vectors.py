@@ -6,7 +6,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.contact.operators.tangential import TangentialOperator
-from asperity.contact.solvers.active_set.linear_system import hierarchies
+from asperity.contact.solvers.active_set.nested_cells import hierarchies
 from asperity.core.engine.vectors import VectorCells
 
 

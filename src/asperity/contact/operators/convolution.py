@@ -102,12 +102,6 @@ class Operator(Protocol):
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared application, divided by ``scale``, on arrays of the engine in the precision ``dtype``."""
 
-    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` approximates the inverse of the operator over ``scale``.
-
-        ``fast`` is the prepared application of the same precision and scale, to be shared where it serves.
-        """
-
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa; a new array."""
 
@@ -199,10 +193,6 @@ class PeriodicOperator(_Prepared):
         self.padded = grid.shape
         self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
 
-    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` divides by the compliance over ``scale``: the application ``fast`` itself."""
-        return fast
-
     @cached_property
     def coarsened(self) -> PeriodicOperator:
         """Operator on the grid of half as many points per side, whose waves are the longer half of those here."""
@@ -264,7 +254,6 @@ class FreeOperator(_Prepared):
         self.boundary: Free | FreeLine = boundary
         self.engine: Engine = engine or CpuEngine()
         self._influence = boundary.influence(compliance, grid)
-        self._preconditioners: dict[tuple[str, float], Convolution] = {}
         self.padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self.pairs_per_application = 0.75 * self.padded[0] * self.padded[1] / grid.n_points  # pruned along y
 
@@ -272,13 +261,6 @@ class FreeOperator(_Prepared):
     def kernel(self) -> RealArray:  # type: ignore[override]
         """Transform of the influence coefficients (m/Pa) on the padded grid."""
         return RealTransform(self.padded).forward(wrapped(self._influence, self.padded)).real.copy()
-
-    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` divides by the periodic compliance of the grid: near enough, and not padded."""
-        if (dtype, scale) not in self._preconditioners:
-            kernel = spectral_kernel(self.compliance, self.grid) / scale
-            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
-        return self._preconditioners[dtype, scale]
 
     @cached_property
     def coarsened(self) -> FreeOperator:

@@ -7,11 +7,10 @@ from functools import cached_property
 import numpy as np
 
 from ...core.arrays import RealArray
-from ...core.engine import Convolution, Engine
+from ...core.engine import Engine
 from ...solids.compliance.creep import AnyCreep, SharedCreep
 from ...solids.compliance.halfspace import Compliance
-from ..boundary import Periodic
-from .convolution import Octaves, Operator, _Prepared, coarse_grid, prepare_operator, spectral_kernel
+from .convolution import Octaves, Operator, _Prepared, coarse_grid, prepare_operator
 
 
 class MultipleOperator(_Prepared):
@@ -24,21 +23,11 @@ class MultipleOperator(_Prepared):
         self.compliance: Compliance = whole.compliance
         self.zero_mean_mode, self.pairs_per_application = whole.zero_mean_mode, whole.pairs_per_application
         self.octaves: Octaves = _Multiple(whole.octaves, factor)
-        self._preconditioners: dict[tuple[str, float], Convolution] = {}
 
     @cached_property
     def kernel(self) -> RealArray:  # type: ignore[override]
         """Compliance (m/Pa) on the half spectrum."""
         return np.asarray(self.factor * self.whole.kernel)
-
-    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` divides by the periodic compliance of the grid over ``scale``."""
-        if isinstance(self.boundary, Periodic):
-            return fast
-        if (dtype, scale) not in self._preconditioners:
-            kernel = spectral_kernel(self.compliance, self.grid) * (self.factor / scale)
-            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
-        return self._preconditioners[dtype, scale]
 
     @cached_property
     def coarsened(self) -> MultipleOperator:
@@ -70,16 +59,6 @@ class SummedOperator(_Prepared):
         self.engine: Engine = whole.engine
         self.zero_mean_mode, self.pairs_per_application = whole.zero_mean_mode, whole.pairs_per_application
         self.octaves = Octaves(compliance)
-        self._preconditioners: dict[tuple[str, float], Convolution] = {}
-
-    def preconditioner(self, fast: Convolution, dtype: str, scale: float = 1.0) -> Convolution:
-        """Convolution whose ``solve`` divides by the periodic compliance of the grid over ``scale``."""
-        if isinstance(self.boundary, Periodic):
-            return fast
-        if (dtype, scale) not in self._preconditioners:
-            kernel = spectral_kernel(self.compliance, self.grid) / scale
-            self._preconditioners[dtype, scale] = self.engine.convolution(kernel, self.grid.shape, dtype)
-        return self._preconditioners[dtype, scale]
 
     @cached_property
     def coarsened(self) -> Operator:

@@ -15,18 +15,17 @@ from ..errors import InputError
 from .protocol import (
     NEAR_CAP,
     SQUARE_SIDE,
-    Cells,
     Clipped,
-    CoarseCompliance,
     Convolution,
     FreeSet,
-    Hierarchy,
     Load,
-    Merge,
     Products,
+    SplineModel,
+    Splines,
     Totals,
     Unclipped,
     Violation,
+    cells_of,
 )
 
 # An array-API library with the few operations that depend on the device.
@@ -223,145 +222,127 @@ class _ArrayFreeSet:
         return self.library.xp.sum(values, dtype=self.library.xp.float64)
 
 
-# Nested cells of the array-API engine: whole arrays per level (see ``cell_kernels`` for the algorithm).
+# Nested splines of the array-API engine: whole arrays per level (see ``splines`` for the algorithm).
 
 
-class _ArrayCells:
-    """Inverse of nested cells on a free set; see ``cell_kernels`` for the coarse correction."""
+class _ArraySplines:
+    """Compliance of nested splines and its inverse on a free set."""
 
-    def __init__(
-        self,
-        library: Library,
-        hierarchies: tuple[Hierarchy, Hierarchy],
-        coarse: CoarseCompliance | None,
-        product: Convolution | None,
-        dtype: str,
-    ) -> None:
-        self._library = library
-        self._hierarchies = hierarchies
-        self._coarse = coarse
-        self._product = product
+    def __init__(self, library: Library, model: SplineModel, dtype: str) -> None:
+        self._library, self._model = library, model
         self._dtype = dtype
-        self._factors: tuple[tuple[list[Any], list[Any]], ...] = ()
+        self._factors: list[Any] = []
+        self._count: Any = None
 
     def factorise(self, free: FreeSet) -> None:
-        """g and T of all cells for the points of ``free``."""
+        """g of all cells, and the local stiffness of every point of ``free`` by its neighbours."""
         assert isinstance(free, _ArrayFreeSet)
-        xp = self._library.xp
-        unit = xp.astype(free.inside, getattr(xp, self._dtype))
-        self._factors = tuple(
-            self._factorised(hierarchy.merges, xp.roll(unit, hierarchy.roll, axis=(0, 1)))
-            for hierarchy in self._hierarchies
-        )
+        passed = unit = self._library.xp.astype(free.inside, getattr(self._library.xp, self._dtype))
+        self._factors = []
+        for merge, weight in zip(self._model.merges, self._model.inverse_weights, strict=True):
+            sums = self._summed(passed, merge)
+            self._factors.append(1.0 / (1.0 + weight * sums))
+            passed = self._factors[-1] * sums
+        self._count = self._around(unit, tuple(0.25 * fall for fall in self._model.fall))
 
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _ArrayFreeSet)
-        z = r - self._library.select(free.inside, self._mean_deflection(self._factors, r))
-        return free.products(z, r, other)
+        model = self._model
+        nearest = tuple(-0.25 * (fall + bend) for fall, bend in zip(model.fall, model.bend, strict=True))
+        z = (1.0 + 0.375 * sum(model.bend) + self._count) * r + self._around(r, nearest)
+        z = z + self._around(r, tuple(0.0625 * bend for bend in model.bend), distance=2)
+        z = z - self._deflection(r, model.inverse_weights, self._factors)
+        return free.products(self._library.select(free.inside, model.stiffness * z), r, other)
 
-    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any, factor: float) -> Any:
+    def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _ArrayFreeSet)
-        ones: tuple[tuple[list[Any], list[Any]], ...]
-        ones = tuple(([1.0] * len(hierarchy.merges), []) for hierarchy in self._hierarchies)
-        return r - float(factor) * self._library.select(free.inside, self._mean_deflection(ones, change))
+        return free.products(self._library.select(free.inside, self._deflected(t)), t, other)
 
-    def _mean_deflection(self, factors: tuple[tuple[list[Any], list[Any]], ...], load: Any) -> Any:
-        """Mean over the hierarchies of the deflection of the points by the cells they lie in."""
-        roll, deflection = self._library.xp.roll, self._library.xp.zeros_like(load)
-        for hierarchy, (g, units) in zip(self._hierarchies, factors, strict=True):
-            back = (-hierarchy.roll[0], -hierarchy.roll[1])
-            moved = self._deflected(hierarchy.merges, g, units, roll(load, hierarchy.roll, axis=(0, 1)))
-            deflection = deflection + roll(moved, back, axis=(0, 1))
-        return deflection / float(len(self._hierarchies))
+    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any) -> Any:
+        assert isinstance(free, _ArrayFreeSet)
+        return r - self._library.select(free.inside, self._deflected(change))
 
-    def _factorised(self, merges: tuple[Merge, ...], passed: Any) -> tuple[list[Any], list[Any]]:
-        """g = 1 / (1 + w T) and T on every level of a hierarchy, from the sums ``passed`` up by single points."""
-        levels, units = [], []
-        for merge in merges:
-            units.append(self._summed(passed, merge))
-            levels.append(1.0 / (1.0 + merge.weight * units[-1]))
-            passed = levels[-1] * units[-1]
-        return levels, units
+    def _deflected(self, load: Any) -> Any:
+        """Deflection of all points under the ``load``."""
+        (point, x, y, diagonal), model = self._model.own, self._model
+        rows = self._moved(load, 0, 1) + self._moved(load, 0, -1)
+        found = point * load + 0.5 * x * rows + 0.5 * y * (self._moved(load, 1, 1) + self._moved(load, 1, -1))
+        found = found + 0.25 * diagonal * (self._moved(rows, 1, 1) + self._moved(rows, 1, -1))
+        return found + self._deflection(load, model.weights, [1.0] * len(model.merges))
 
-    def _deflected(self, merges: tuple[Merge, ...], g: list[Any], units: list[Any], passed: Any) -> Any:
-        """Deflection of points by the cells they lie in under the loads ``passed`` up by them; coarse-corrected with ``units``."""
-        if self._coarse is None or not units:
-            return self._by_cells(merges, g, passed)
-        depth, sums, shapes = self._coarse.depth, [], []
-        for merge, stiff in zip(merges[:depth], g, strict=False):
+    def _around(self, values: Any, factors: tuple[float, ...], distance: int = 1) -> Any:
+        """Values at this distance along x and y, times the ``factors``."""
+        x, y = (self._moved(values, axis, distance) + self._moved(values, axis, -distance) for axis in (0, 1))
+        return factors[0] * x + factors[1] * y
+
+    def _moved(self, values: Any, axis: int, places: int) -> Any:
+        """``values`` moved along the axis; zero comes from beyond the rim where it does not wrap."""
+        xp, n = self._library.xp, values.shape[axis]
+        if self._model.wraps[axis]:
+            return xp.roll(values, places, axis=axis)
+        kept, none = max(n - abs(places), 0), self._zeros(values, axis, min(abs(places), n))
+        if places > 0:
+            return xp.concat([none, _part(values, axis, 0, kept)], axis=axis)
+        return xp.concat([_part(values, axis, n - kept, n), none], axis=axis)
+
+    def _deflection(self, load: Any, weights: tuple[float, ...], factors: list[Any]) -> Any:
+        """Deflection of all points by the cells, of these ``weights`` and factors g, under the ``load``."""
+        passed, shapes, levels = load, [], list(zip(self._model.merges, weights, factors, strict=True))
+        sums = []
+        for merge, _, g in levels:
             shapes.append(passed.shape)
-            sums.append(self._summed(passed, merge))
-            passed = stiff * sums[-1]
-        deflection = self._coarse_corrected(merges[depth - 1 :], g[depth - 1 :], units[depth - 1], sums[-1])
-        for level in range(depth - 1, -1, -1):
-            deflection = _spread(self._library.xp, deflection, merges[level], shapes[level])
-            if level > 0:
-                deflection = g[level - 1] * (deflection + merges[level - 1].weight * sums[level - 1])
-        return deflection
-
-    def _coarse_corrected(self, merges: tuple[Merge, ...], g: list[Any], unit: Any, total: Any) -> Any:
-        """Deflection of the cells of the coarse level, the first of those given, under the loads ``total``."""
-        xp, sum_of = self._library.xp, self._library.xp.sum
-        guess = self._of_level(merges, g, total)
-        residual = guess - self._convolved(total - unit * guess)
-        step = residual - self._of_level(merges, g, unit * residual)
-        t = unit * step
-        curvature = sum_of(t * (step + self._convolved(t)), dtype=xp.float64)
-        product = sum_of(t * residual, dtype=xp.float64)
-        safe = xp.where(curvature > 0.0, curvature, xp.ones_like(curvature))
-        return guess - xp.astype(xp.where(curvature > 0.0, product / safe, xp.zeros_like(product)), t.dtype) * step
-
-    def _of_level(self, merges: tuple[Merge, ...], g: list[Any], total: Any) -> Any:
-        """Deflection of the cells of the first level given, under the loads ``total``, by nested cells from there on."""
-        return g[0] * (self._by_cells(merges[1:], g[1:], g[0] * total) + merges[0].weight * total)
-
-    def _convolved(self, loads: Any) -> Any:
-        """True deflection of cells under ``loads``."""
-        assert self._coarse is not None
-        assert self._product is not None
-        (nx, ny), out = loads.shape, self._library.zeros(self._coarse.cells, self._dtype)
-        out[:nx, :ny] = loads
-        return self._product.apply(out, out)[:nx, :ny]
-
-    def _by_cells(self, merges: tuple[Merge, ...], g: list[Any], passed: Any) -> Any:
-        """Deflection of parts by the cells they lie in under the loads ``passed`` up by them."""
-        sums, shapes = [], []
-        for merge, stiff in zip(merges, g, strict=True):
-            shapes.append(passed.shape)
-            sums.append(self._summed(passed, merge))
-            passed = stiff * sums[-1]
+            passed = g * self._summed(passed, merge)
+            sums.append(passed)
         deflection = self._library.xp.zeros_like(passed)
-        for merge, stiff, total, shape in reversed(list(zip(merges, g, sums, shapes, strict=True))):
-            deflection = _spread(self._library.xp, stiff * (deflection + merge.weight * total), merge, shape)
+        for (merge, weight, g), total, shape in zip(reversed(levels), reversed(sums), reversed(shapes), strict=True):
+            deflection = self._spread(weight * total + g * deflection, merge, shape)
         return deflection
 
-    def _summed(self, values: Any, merge: Merge) -> Any:
+    def _summed(self, values: Any, merge: tuple[bool, bool]) -> Any:
         """Sums over the parts of every cell."""
         xp = self._library.xp
-        for axis, pairs, offset in ((0, merge.x, merge.offset_x), (1, merge.y, merge.offset_y)):
-            if not pairs:
-                continue
+        for axis in (axis for axis in (0, 1) if merge[axis]):
             n = values.shape[axis]
-            before, after = offset, (n + offset) % 2
-            values = xp.concat([_rim(xp, values, axis, before), values, _rim(xp, values, axis, after)], axis=axis)
-            halves = (n + before + after) // 2
-            split = (halves, 2, values.shape[1]) if axis == 0 else (values.shape[0], halves, 2)
-            values = xp.sum(xp.reshape(values, split), axis=axis + 1)
+            values = xp.concat([values, self._zeros(values, axis, n % 2)], axis=axis)
+            even, odd = _halves(values, axis)
+            if self._model.wraps[axis]:
+                next_, before = xp.roll(even, -1, axis=axis), xp.roll(odd, 1, axis=axis)
+            else:  # one more cell at either end, of which an odd number of parts does not reach the last
+                rim, cells = self._zeros(values, axis, 1), cells_of(n, wraps=False)
+                shifted = ([rim, even, rim], [rim, odd, rim], [even, rim, rim], [rim, rim, odd])
+                even, odd, next_, before = (_part(xp.concat(part, axis=axis), axis, 0, cells) for part in shifted)
+            values = 0.75 * (even + odd) + 0.25 * (next_ + before)
         return values
 
+    def _spread(self, values: Any, merge: tuple[bool, bool], shape: tuple[int, int]) -> Any:
+        """Values of the cells at their parts, which are of ``shape``."""
+        xp = self._library.xp
+        for axis in (axis for axis in (0, 1) if merge[axis]):
+            n = (shape[axis] + 1) // 2
+            if self._model.wraps[axis]:
+                own, before, next_ = values, xp.roll(values, 1, axis=axis), xp.roll(values, -1, axis=axis)
+            else:
+                values = xp.concat([values, self._zeros(values, axis, 1)], axis=axis)
+                own, before, next_ = (_part(values, axis, k, k + n) for k in (1, 0, 2))
+            parts = [0.75 * own + 0.25 * before, 0.75 * own + 0.25 * next_]
+            wide = [*values.shape]
+            wide[axis] = 2 * n
+            values = _part(xp.reshape(xp.stack(parts, axis=axis + 1), tuple(wide)), axis, 0, shape[axis])
+        return values
 
-def _rim(xp: Any, values: Any, axis: int, width: int) -> Any:
-    shape = (width, values.shape[1]) if axis == 0 else (values.shape[0], width)
-    return xp.zeros(shape, dtype=values.dtype, device=values.device)
+    def _zeros(self, values: Any, axis: int, width: int) -> Any:
+        shape = (width, values.shape[1]) if axis == 0 else (values.shape[0], width)
+        return self._library.zeros(shape, self._dtype)
 
 
-def _spread(xp: Any, values: Any, merge: Merge, shape: tuple[int, int]) -> Any:
-    """Value of every cell on each of its parts, which are of ``shape``."""
-    if merge.x:
-        values = xp.repeat(values, 2, axis=0)[merge.offset_x : merge.offset_x + shape[0], :]
-    if merge.y:
-        values = xp.repeat(values, 2, axis=1)[:, merge.offset_y : merge.offset_y + shape[1]]
-    return values
+def _part(values: Any, axis: int, first: int, end: int) -> Any:
+    """Part of ``values`` along the axis."""
+    return values[first:end, :] if axis == 0 else values[:, first:end]
+
+
+def _halves(values: Any, axis: int) -> tuple[Any, Any]:
+    """Every other one of ``values`` along the axis, and the others."""
+    return (values[::2, :], values[1::2, :]) if axis == 0 else (values[:, ::2], values[:, 1::2])
 
 
 # Survey of an iterate of the array-API engine.
@@ -491,18 +472,9 @@ class ArrayEngine:
         """Free convolution with pruned transforms."""
         return _Convolution(self._library, kernel, shape, padded, dtype)
 
-    def cells(
-        self,
-        shape: tuple[int, int],
-        hierarchies: tuple[Hierarchy, Hierarchy],
-        coarse: CoarseCompliance | None,
-        dtype: str,
-    ) -> Cells:
-        """Nested cells."""
-        product = None
-        if coarse is not None:
-            product = _Convolution(self._library, coarse.kernel, coarse.cells, coarse.padded, dtype)
-        return _ArrayCells(self._library, hierarchies, coarse, product, dtype)
+    def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
+        """Nested splines."""
+        return _ArraySplines(self._library, model, dtype)
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
@@ -553,23 +525,11 @@ class _Convolution:
     ) -> None:
         self._library = library
         self._kernel = library.array(kernel, dtype)
-        self._mean_factor = 0.5 / float(kernel.max() or 1.0)
         self._shape = shape
         self._padded = padded
 
-    @cached_property
-    def _inverse(self) -> Any:
-        kernel = self._library.numpy(self._kernel).copy()
-        kernel[0, 0] = 1.0 / self._mean_factor
-        return self._library.array(1.0 / kernel, str(kernel.dtype))
-
     def apply(self, field: Any, out: Any) -> Any:
-        return self._multiply(field, self._kernel, out)
-
-    def solve(self, field: Any, out: Any) -> Any:
-        return self._multiply(field, self._inverse, out)
-
-    def _multiply(self, field: Any, factor: Any, out: Any) -> Any:
+        factor = self._kernel
         fft, (mx, my) = self._library.xp.fft, self._padded
         if self._shape == self._padded:
             out[...] = fft.irfftn(fft.rfftn(field, axes=(0, 1)) * factor, s=(mx, my), axes=(0, 1))

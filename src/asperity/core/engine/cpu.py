@@ -2,36 +2,33 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
 from itertools import pairwise
-from typing import Any
-from weakref import ref
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform, fft_library, thread_count
-from .cell_layout import layout
-from .corrected_cells import CorrectedCells
 from .protocol import (
     SQUARE_SIDE,
-    Cells,
     Clipped,
-    CoarseCompliance,
     Convolution,
     FreeSet,
-    Hierarchy,
     Load,
     Products,
+    SplineModel,
     Totals,
     Unclipped,
     Violation,
 )
+
+if TYPE_CHECKING:
+    from .splines import CpuSplines
 
 # Threads for compiled passes: fixed blocks of work, shared out evenly.
 
@@ -52,11 +49,6 @@ class Blocks:
     def kernels(self) -> Any:
         """Passes over whole arrays and over free sets."""
         return import_module(".kernels", __package__)
-
-    @cached_property
-    def cell_kernels(self) -> Any:
-        """Sweeps over nested cells, with and without coarse correction."""
-        return import_module(".cell_kernels", __package__)
 
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
@@ -98,11 +90,6 @@ _MANY = 0.05
 """Share of its points on which it takes longer to clear a field than to clear it as a whole."""
 
 _NO_CAP = np.full(1, np.inf)
-_CROWDED = 0.05
-"""Share of points in the free set from which on cells are swept as whole rows. Below it a call takes 0.94 of the time at a load of 0.01 (512² and 1024²);
-with the groups found at a tenth of the area as well, 1.03."""
-
-_NO_ROWS = np.empty(0, np.int64)
 _ZERO = {dtype: np.zeros(1, dtype) for dtype in ("float32", "float64")}
 
 
@@ -164,6 +151,9 @@ class _CpuFreeSet:
     def gather_products(self, field: RealArray, a: RealArray, b: RealArray, out: RealArray) -> Products:
         total, first, second = self._sums("gather_products", 3, self.place(field), memory(field), a, b, out)
         return Products(out, total, first, second)
+
+    def products(self, vector: RealArray, a: RealArray, b: RealArray) -> Products:
+        return Products(vector, *self._sums("products", 3, vector, a, b))
 
     def scatter(self, values: RealArray, field: RealArray) -> None:
         self._run("scatter", self.place(field), values, memory(field))
@@ -236,141 +226,6 @@ def bound(cap: RealArray | None) -> RealArray:
     return _NO_CAP if cap is None else cap.ravel()
 
 
-# Nested cells of the CPU engine: all levels of all hierarchies in one piece of memory.
-
-
-_Way = tuple[int, int, int, int]
-"""First and last level of sums, last of deflections, and whether to factorise, see ``cell_kernels.sweep``."""
-
-
-class CpuCells:
-    """Exact inverse of nested cells on a free set (see ``cell_kernels``), a hierarchy per thread."""
-
-    def __init__(
-        self, blocks: Blocks, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
-    ) -> None:
-        self._blocks = blocks
-        self._shape = shape
-        self.levels, size, self._whole, groups = layout(shape, hierarchies)
-        self._runs, self._full = self._whole, np.empty(len(hierarchies) * groups, np.uint8)
-        self._swept: Callable[[], FreeSet | None] = lambda: None
-        self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
-        self.g = np.zeros(size, dtype)
-        self.s = np.zeros(size, dtype)
-        self._nothing = np.empty(0, dtype)
-
-    @cached_property
-    def _all(self) -> RealArray:
-        """g of cells that pass everything on: 1, and 0 on the rims."""
-        g = np.zeros_like(self.g)
-        for start, nx, ny, stride in self.levels[:, 1:, :4].reshape(-1, 4):
-            g[start : start + nx * stride].reshape(nx, stride)[:, :ny] = 1.0
-        return g
-
-    def factorise(self, free: FreeSet) -> None:
-        """g of all cells for the points of ``free``."""
-        last = len(self.weights) - 1
-        if self._swept() is not free:
-            self._occupy(free)
-        self._sweep(free, self._nothing, self.g, (1, last, last + 1, 1))
-
-    def solve(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        """Inverse times ``r``, see ``protocol.Cells``."""
-        self._sweep(free, r, self.g, self._cycle)
-        return self.at_points(free, r, other, out)
-
-    def factorise_with(self, free: FreeSet, conductance: RealArray) -> None:
-        """g of all cells for the points of ``free``, which yield by the ``conductance`` (of any sign) times their own load, instead of by it."""
-        last = len(self.weights) - 1
-        self._occupy(free)
-        self._sweep(free, conductance, self.g, (1, last, last + 1, 1))
-
-    def solve_with(self, free: FreeSet, r: RealArray, conductance: RealArray) -> RealArray:
-        """Inverse times ``r`` after ``factorise_with`` the same."""
-        self._sweep(free, conductance * r, self.g, self._cycle)
-        vector: RealArray = self.at_points(free, r, r, np.empty_like(r)).vector
-        return conductance * vector
-
-    def predicted_residual(
-        self, free: FreeSet, r: RealArray, loaded: FreeSet, change: RealArray, factor: float
-    ) -> RealArray:
-        """r - factor times the deflection of the cells."""
-        self._occupy(free, loaded)
-        self._sweep(loaded, change * change.dtype.type(factor), self._all, self._cycle)
-        return np.asarray(self.at_points(free, r, r, np.empty_like(r)).vector)
-
-    def at_points(self, free: FreeSet, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        """``r`` less the deflections of the finest cells that lie in s."""
-        assert isinstance(free, _CpuFreeSet)
-        sums = np.empty((self._shape[0], 3))
-        arguments = (self.levels, self._shape, free.rows, free.index, r, other, self.s, out, sums)
-        subtract = self._blocks.cell_kernels.subtract_deflections
-        self._blocks.share(subtract, self._shape[0], *arguments, serial=free.size < SERIAL_BELOW)
-        return Products(out, *sums.sum(axis=0).tolist())
-
-    @property
-    def serial(self) -> bool:
-        """Whether both hierarchies are swept by one thread."""
-        return self.g.size < SERIAL_BELOW
-
-    @property
-    def _cycle(self) -> _Way:
-        return 1, len(self.weights) - 1, 1, 0
-
-    def level(self, number: int, depth: int) -> RealArray:
-        """Sums or deflections s of the cells of the level ``depth`` of one hierarchy, (cells along x, along y)."""
-        start, nx, ny, stride = self.levels[number, depth, :4]
-        return self.s[start : start + nx * stride].reshape(nx, stride)[:, :ny]
-
-    def sweep_one(self, number: int, free: FreeSet, values: RealArray, way: _Way) -> None:
-        """Sweep of one hierarchy."""
-        assert isinstance(free, _CpuFreeSet)
-        points = free.rows, free.index
-        self._blocks.cell_kernels.sweep(
-            (number, number + 1),
-            self.levels,
-            self.weights,
-            way,
-            self._shape,
-            points,
-            values,
-            self._runs,
-            self.g,
-            self.s,
-        )
-
-    def _occupy(self, free: FreeSet, other: FreeSet | None = None) -> None:
-        """Sweep the cells of ``free`` from here on, and those of the ``other`` set."""
-        assert isinstance(free, _CpuFreeSet)
-        self._swept = ref(free)
-        if free.size > _CROWDED * math.prod(self._shape):
-            self._runs = self._whole
-            return
-        if self._runs is self._whole:
-            self._runs = self._whole.copy()  # all cells may hold something: they will be cleared
-        points, more = (free.rows, free.index), (_NO_ROWS, free.index)
-        if other is not None:
-            assert isinstance(other, _CpuFreeSet)
-            more = other.rows, other.index
-        arguments = (self.levels, self._shape, points, more, self._full, self._runs, self.g, self.s)
-        self._blocks.share(self._blocks.cell_kernels.occupy, len(self.levels), *arguments, serial=self.serial)
-
-    def _sweep(self, free: FreeSet, values: RealArray, g: RealArray, way: _Way) -> None:
-        assert isinstance(free, _CpuFreeSet)
-        arguments = (
-            self.levels,
-            self.weights,
-            way,
-            self._shape,
-            (free.rows, free.index),
-            values,
-            self._runs,
-            g,
-            self.s,
-        )
-        self._blocks.share(self._blocks.cell_kernels.sweep, len(self.levels), *arguments, serial=self.serial)
-
-
 class CpuEngine:
     """The usual engine. ``threads``: see ``core.spectral.thread_count``."""
 
@@ -424,23 +279,10 @@ class CpuEngine:
         index = index.astype(_index_type(shape))
         return _CpuFreeSet(self.blocks, shape, index, np.zeros(index.size, dtype), np.zeros(1), rows, 0)
 
-    def cells(
-        self,
-        shape: tuple[int, int],
-        hierarchies: tuple[Hierarchy, Hierarchy],
-        coarse: CoarseCompliance | None,
-        dtype: str,
-    ) -> Cells:
-        """Nested cells. Two hierarchies are swept side by side, so their transforms share the threads."""
-        cells = CpuCells(self.blocks, shape, hierarchies, dtype)
-        if coarse is None:
-            return cells
-        threads = max(1, self.threads // len(hierarchies))
-        parts = coarse.cells, coarse.padded
-        transform = RealTransform(parts[0], threads) if parts[0] == parts[1] else PaddedTransform(*parts, threads)
-        serial = Blocks(1)
-        products = tuple(_Convolution(serial, transform, coarse.kernel, dtype) for _ in hierarchies)
-        return CorrectedCells(self.blocks, cells, coarse, products, dtype)
+    def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> CpuSplines:
+        """Nested splines, whose compiled sweeps are imported when they are first needed."""
+        prepared: CpuSplines = import_module(".splines", __package__).CpuSplines(self.blocks, shape, model, dtype)
+        return prepared
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
@@ -566,22 +408,8 @@ class _Convolution:
         self._parts = self._spectrum.view(dtype).ravel()  # real and imaginary in turn
 
     def apply(self, field: RealArray, out: RealArray) -> RealArray:
-        return self._product(field, self._kernel, out)
-
-    def solve(self, field: RealArray, out: RealArray) -> RealArray:
-        return self._product(field, self._inverse, out)
-
-    @cached_property
-    def _inverse(self) -> RealArray:
-        """One over the kernel; for the mean, see ``protocol``."""
-        inverse = np.empty_like(self._kernel)
-        np.divide(1.0, self._kernel[1:], out=inverse[1:])
-        inverse[0] = 0.5 / float(self._kernel.max() or 1.0)
-        return inverse
-
-    def _product(self, field: RealArray, kernel: RealArray, out: RealArray) -> RealArray:
         spectrum = self._transform.forward(field, self._spectrum)
-        self._blocks.run(self._blocks.kernels.scale_spectrum, kernel.size, self._parts, kernel)
+        self._blocks.run(self._blocks.kernels.scale_spectrum, self._kernel.size, self._parts, self._kernel)
         return self._transform.backward(spectrum, out)
 
 

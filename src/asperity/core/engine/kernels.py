@@ -438,6 +438,23 @@ def gather_products(span, index, field, a, b, values, sums):  # type: ignore[no-
 
 
 @compiled
+def products(span, values, a, b, sums):  # type: ignore[no-untyped-def]
+    """Per block: sum values, sum values·a, sum values·b."""
+    for block in range(span[0], span[1]):
+        total = 0.0
+        first = 0.0
+        second = 0.0
+        for k in range(block * BLOCK, min((block + 1) * BLOCK, values.size)):
+            value = np.float64(values[k])
+            total += value
+            first += value * a[k]
+            second += value * b[k]
+        sums[block, 0] = total
+        sums[block, 1] = first
+        sums[block, 2] = second
+
+
+@compiled
 def update_direction(span, index, z, mean, ratio, t, r, field, sums):  # type: ignore[no-untyped-def]
     """t = (z - mean) + ratio t, and field[index] = t; per block: sum t·r."""
     for block in range(span[0], span[1]):

@@ -20,13 +20,6 @@ SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
 for 8, 32, 64: elastic 13.9, 14.1, 14.1; films 21.9, 22.2, 22.9 (16: 13.9 and 22.8; cases: see ``benchmarks/constants.py``)."""
 
-SPARSE = 2
-"""Levels of nested cells, from single points up, whose empty groups need not be swept: they hold 15 of 16 cells."""
-
-GROUP = 16
-"""Cells of a level in a group. At a hundredth of the load of full contact, 512², points lie in a tenth of the groups of the lowest level and in two
-tenths of the next; at five hundredths in four and six tenths."""
-
 
 @dataclass(frozen=True)
 class Totals:
@@ -88,45 +81,45 @@ class Products(NamedTuple):
     second: float
 
 
-@dataclass(frozen=True)
-class Merge:
-    """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
-
-    ``offset_x`` and ``offset_y`` (0 or 1) are one where the first cell stays single; ``weight`` is the deflection that a
-    unit load on a merged cell adds to all of its points, over that of a point under its own load.
-    """
-
-    x: bool
-    y: bool
-    offset_x: int
-    offset_y: int
-    weight: float
+def cells_of(n: int, wraps: bool) -> int:
+    """Number of cells that ``n`` cells in a row form in pairs: with one more at either end, where they do not wrap, since B-splines reach beyond the last pairs."""
+    return (n + 1) // 2 if wraps else n // 2 + 2
 
 
 @dataclass(frozen=True)
-class Hierarchy:
-    """Nested cells from single points up by ``merges``, after the points have been rolled by ``roll`` along x and y.
+class SplineModel:
+    """A compliance of nested quadratic B-splines on the points of a grid, and coefficients of its inverse on a free set.
 
-    Rolled points re-enter at the other end, so that cells of a periodic grid reach over its borders.
+    The compliance is B = own + sum over levels of w P P^T, P being the B-splines of the cells of a level at the points: a part takes three quarters
+    of the deflection of the cell that it lies in and a quarter of that of the nearest other one, along each axis, from level to level. Its inverse on
+    a set is approximated, level by level, with diagonal matrices for the products of B-splines (see ``splines``) and a local stiffness.
+
+    Parameters
+    ----------
+    wraps
+        Whether the grid is periodic along x and y.
+    merges
+        Axes along which the cells of each level merge in pairs, until one cell is left.
+    weights
+        w of each level: deflection by a unit load on a cell.
+    own
+        Deflection of a point by its own unit load, by two of a half at the nearest points along x, two along y, and four of a quarter at the diagonal ones.
+    inverse_weights
+        w of each level for the inverse, over the deflection of a point under its own load.
+    stiffness
+        Load for a unit deflection of a single point.
+    fall, bend
+        Share of it for the differences from the neighbours in the set, and for the curvature, along x and y.
     """
 
-    merges: tuple[Merge, ...]
-    roll: tuple[int, int] = (0, 0)
-
-
-@dataclass(frozen=True, eq=False)
-class CoarseCompliance:
-    """True compliance of pressures constant on the cells of level ``depth``, which replaces the levels from there on up.
-
-    ``kernel`` is the half spectrum, on the grid ``padded``, of a convolution of fields of the shape ``cells`` (at least
-    that of the level): deflection by unit loads on cells, as in ``Merge``, beyond what the levels below give. It is not
-    negative. On a periodic grid ``padded`` is ``cells``.
-    """
-
-    depth: int
-    kernel: RealArray
-    cells: tuple[int, int]
-    padded: tuple[int, int]
+    wraps: tuple[bool, bool]
+    merges: tuple[tuple[bool, bool], ...]
+    weights: tuple[float, ...]
+    own: tuple[float, ...]
+    inverse_weights: tuple[float, ...]
+    stiffness: float
+    fall: tuple[float, float]
+    bend: tuple[float, float]
 
 
 class Convolution(Protocol):
@@ -134,9 +127,6 @@ class Convolution(Protocol):
 
     def apply(self, field: Any, out: Any) -> Any:
         """Convolve ``field`` into ``out`` and return it."""
-
-    def solve(self, field: Any, out: Any) -> Any:
-        """Divide by the kernel instead; the mean mode, whose kernel may be zero, by twice the largest entry."""
 
 
 class FreeSet(Protocol):
@@ -177,6 +167,9 @@ class FreeSet(Protocol):
     def gather_products(self, field: Any, a: Any, b: Any, out: Any) -> Products:
         """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
 
+    def products(self, vector: Any, a: Any, b: Any) -> Products:
+        """``vector`` with its sum and its products with a and b."""
+
     def scatter(self, values: Any, field: Any) -> None:
         """Set ``field`` on the set to the vector ``values``."""
 
@@ -214,12 +207,8 @@ class FreeSet(Protocol):
         """Set the array ``values`` on the set to old + share (values - old)."""
 
 
-class Cells(Protocol):
-    """A compliance of nested cells and its inverse on a free set; the mean over two hierarchies.
-
-    The inverse is exact without coarse correction; with it, up to the loads on its cells, which one step of conjugate
-    gradients finds.
-    """
+class Splines(Protocol):
+    """A compliance of nested splines B and its approximate inverse, symmetric and positive definite, on a free set."""
 
     def factorise(self, free: FreeSet) -> None:
         """Prepare the inverse for the points of ``free``."""
@@ -227,12 +216,11 @@ class Cells(Protocol):
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where that can be."""
 
-    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any, factor: float) -> Any:
-        """Vector r - factor times the deflection of the cells that the points of ``free`` lie in.
+    def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
+        """Vector B t on the set, and its products with t and ``other``; in ``out`` where that can be."""
 
-        ``change`` is the load, a vector of the set ``loaded``. The deflection of single points under their own load is left
-        out. Afterwards the inverse must be factorised again.
-        """
+    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any) -> Any:
+        """Vector r less the deflection of the points of ``free`` by ``change``, a vector of the set ``loaded``."""
 
 
 class Survey(Protocol):
@@ -288,14 +276,8 @@ class Engine(Protocol):
     ) -> Convolution:
         """Free convolution: fields of ``shape`` zero-padded to ``padded``, the grid of ``kernel``."""
 
-    def cells(
-        self,
-        shape: tuple[int, int],
-        hierarchies: tuple[Hierarchy, Hierarchy],
-        coarse: CoarseCompliance | None,
-        dtype: str,
-    ) -> Cells:
-        """Nested cells on points of ``shape``, for vectors of the precision ``dtype``."""
+    def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
+        """Nested splines on points of ``shape``, for vectors of the precision ``dtype``."""
 
     def prolonged(
         self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float

@@ -1,14 +1,27 @@
-"""Compiled sweeps over nested cells of loads and deflections with two components.
+"""Compiled sweeps over nested cells, of loads and deflections with two components: summed up the levels, prolonged down again.
 
-A point may yield along one direction only, or by more along one than along the other: its conductance is a symmetric tensor. S, T and g of
-``cell_kernels`` then are a vector and tensors, which commute, so that its formulas hold as they stand. ``g`` and ``t`` hold the entries xx, xy, yy of all
-cells, ``s`` the components.
+The compliance of nested cells is B = 1 + sum over cells of w 1 1^T, in units of the deflection of a point under its own
+load. Its inverse on any set of points follows from the Sherman-Morrison formula, cell by cell: with S the sum over the
+parts of a cell of what they pass up, T the same for unit loads, and g = 1 / (1 + w T), a cell passes up g S and down
+the deflection D = g (D of its parent + w S).
+
+A point may yield along one direction only, or by more along one than along the other: its conductance is a symmetric tensor. S, T and g
+then are a vector and tensors, which commute, so that the formulas hold as they stand. ``g`` and ``t`` hold the entries xx, xy, yy of all
+cells, ``s`` the components: the sums S on the way up and the deflections D on the way down.
+
+``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
+the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets; then, how far the points are
+rolled along x and y, round the grid, before they form cells. Level 0 are the points. Cells are stored with a rim of empty ones (g = s = 0), so the
+edges are no special case.
 """
 
 from __future__ import annotations
 
-from .cell_kernels import COLUMNS, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL_Y, ROWS, START, STRIDE
+import numpy as np
+
 from .kernels import compiled
+
+START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL_Y = range(10)
 
 
 @compiled
@@ -124,3 +137,37 @@ def vector_deflections(span, levels, weights, shape, rows, index, values, g, s):
                 s[1, j] = g[1, j] * along + g[2, j] * across
         for depth in range(last - 1, 0, -1):
             _prolong_vectors(own[depth + 1], own[depth], weights[depth], g, s)
+
+
+@compiled
+def subtract_deflections(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
+    """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
+    half = s.dtype.type(0.5)
+    one, two = levels[0, 1], levels[1, 1]
+    merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]
+    end_one, end_two = shape[1] + one[OFFSET_Y], shape[1] + two[OFFSET_Y]
+    for row in range(span[0], span[1]):
+        moved_one, moved_two = row + one[ROLL_X], row + two[ROLL_X]
+        moved_one -= shape[0] if moved_one >= shape[0] else 0
+        moved_two -= shape[0] if moved_two >= shape[0] else 0
+        base_one = one[START] + ((moved_one + one[OFFSET_X]) >> one[MERGE_X]) * one[STRIDE]
+        base_two = two[START] + ((moved_two + two[OFFSET_X]) >> two[MERGE_X]) * two[STRIDE]
+        shift_one = one[OFFSET_Y] + one[ROLL_Y] - row * shape[1]
+        shift_two = two[OFFSET_Y] + two[ROLL_Y] - row * shape[1]
+        total = 0.0
+        with_values = 0.0
+        with_other = 0.0
+        for k in range(rows[row], rows[row + 1]):
+            i = index[k]
+            column_one, column_two = i + shift_one, i + shift_two
+            column_one -= shape[1] if column_one >= end_one else 0
+            column_two -= shape[1] if column_two >= end_two else 0
+            d = s[np.uint64(base_one + (column_one >> merge_one))] + s[np.uint64(base_two + (column_two >> merge_two))]
+            z = values[k] - half * d
+            out[k] = z
+            total += z
+            with_values += np.float64(z) * values[k]
+            with_other += np.float64(z) * other[k]
+        sums[row, 0] = total
+        sums[row, 1] = with_values
+        sums[row, 2] = with_other

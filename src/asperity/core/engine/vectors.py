@@ -2,16 +2,42 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform
-from .cell_layout import layout
 from .cpu import SERIAL_BELOW, CpuEngine
-from .protocol import Hierarchy
+
+
+@dataclass(frozen=True)
+class Merge:
+    """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
+
+    ``offset_x`` and ``offset_y`` (0 or 1) are one where the first cell stays single; ``weight`` is the deflection that a
+    unit load on a merged cell adds to all of its points, over that of a point under its own load.
+    """
+
+    x: bool
+    y: bool
+    offset_x: int
+    offset_y: int
+    weight: float
+
+
+@dataclass(frozen=True)
+class Hierarchy:
+    """Nested cells from single points up by ``merges``, after the points have been rolled by ``roll`` along x and y.
+
+    Rolled points re-enter at the other end, so that cells of a periodic grid reach over its borders.
+    """
+
+    merges: tuple[Merge, ...]
+    roll: tuple[int, int] = (0, 0)
 
 
 class VectorConvolution:
@@ -52,14 +78,14 @@ class VectorConvolution:
 
 
 class VectorCells:
-    """Exact inverse of nested cells for loads (2, n) along two directions on a free set (see ``cell_kernels``), a hierarchy per thread."""
+    """Exact inverse of nested cells for loads (2, n) along two directions on a free set (see ``vector_kernels``), a hierarchy per thread."""
 
     def __init__(
         self, engine: CpuEngine, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
     ) -> None:
         self._blocks, self._shape = engine.blocks, shape
         self._kernels: Any = import_module(".vector_kernels", __package__)
-        cells = layout(shape, hierarchies)
+        cells = _layout(shape, hierarchies)
         self.levels, size = cells.levels, cells.size
         self.weights = np.array([1.0, *(merge.weight for merge in hierarchies[0].merges)], dtype)
         self.g, self.s = np.zeros((3, size), dtype), np.zeros((2, size), dtype)
@@ -73,7 +99,7 @@ class VectorCells:
         """Inverse times ``r`` (2, n)."""
         self._sweep("vector_deflections", free, _times(conductance, r), self.s)
         out, sums = np.empty_like(r), np.zeros((self._shape[0], 3))
-        subtract = self._blocks.cell_kernels.subtract_deflections
+        subtract = self._kernels.subtract_deflections
         for component in range(2):
             fields = r[component], r[component], self.s[component], out[component]
             arguments = self.levels, self._shape, free.rows, free.index, *fields, sums
@@ -90,3 +116,30 @@ def _times(tensor: RealArray, vectors: RealArray) -> RealArray:
     """Symmetric tensors (3, n) times vectors (2, n)."""
     xx, xy, yy = tensor
     return np.stack([xx * vectors[0] + xy * vectors[1], xy * vectors[0] + yy * vectors[1]])
+
+
+def _merged(n: int, pairs: bool, offset: int) -> int:
+    """Number of cells that ``n`` cells form in ``pairs`` (or stay), the first alone if ``offset`` is 1."""
+    return ((n - 1 + offset) >> 1) + 1 if pairs else n
+
+
+class _Layout(NamedTuple):
+    """Table ``levels`` of ``vector_kernels`` (hierarchy, level, column), and the ``size`` of all cells in elements. Shared: not to be written to."""
+
+    levels: Any
+    size: int
+
+
+@lru_cache(maxsize=32)
+def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) -> _Layout:
+    """Layout of the cells of ``hierarchies`` on a grid of ``shape``."""
+    levels, size = np.zeros((len(hierarchies), len(hierarchies[0].merges) + 1, 10), np.int64), 0
+    for number, hierarchy in enumerate(hierarchies):
+        nx, ny = shape
+        for depth, merge in enumerate(hierarchy.merges, start=1):
+            nx, ny = _merged(nx, merge.x, merge.offset_x), _merged(ny, merge.y, merge.offset_y)
+            stride = ny + 2
+            flags = int(merge.x), int(merge.y), merge.offset_x, merge.offset_y, *hierarchy.roll
+            levels[number, depth] = size + stride + 1, nx, ny, stride, *flags
+            size += (nx + 2) * stride
+    return _Layout(levels, size)

@@ -11,7 +11,7 @@ import numpy as np
 from ....core.arrays import RealArray
 from ...operators.convolution import restricted
 from ..protocol import ContactQP, FixedMean, Solver, feasible_start, run
-from .linear_system import pixel_compliance
+from .spline_model import pixel_compliance
 
 COARSEST = 64
 """Points per side at which there is no coarser grid. Pairs for 32, 128: elastic 13.8, 14.2; free 43.1, 47.6; cap 15.3, 18.8."""

@@ -36,7 +36,7 @@ from ..protocol import (
 from ..reference.steepest_descent import descend, levelling_step
 from .bounds import add_clipped, clear_tension, clipped_update, free_set
 from .first_guess import COARSE_ITERATIONS, COARSEST, nested_start
-from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients, nearly_full
+from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
 
 # Plane level and error of an iterate.
 
@@ -84,6 +84,13 @@ _UNSETTLED_STEPS = 3
 """Most steps while the set changes, doubled with every fallback. Pairs for 2, 4, 6: film 21.7, 22.9, 22.9, all others the same;
 two would do on these surfaces, the third is for harder ones."""
 
+_UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
+"""Effort on a correction that is clipped afterwards, and on the last one: a single direction of the model of the compliance, whose deflection the product with what is
+left of it after clipping, or that which ends the solve, shows."""
+
+_SINGLE = 0.06
+"""Reduction of the error that a single direction is trusted to reach."""
+
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
@@ -95,7 +102,7 @@ _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
 1e-2: tight 24.4, 22.4, 22.2, all others the same; for 8, 20, 40 steps the same."""
 
-_LAST_STEP = 0.3
+_LAST_STEP = 0.15
 """Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
 ends every solve, serves it too. Pairs for 0.2, 0.4 (0.3: elastic 12.9, film 19.5, free 38.8, cap 14.6, tight 22.7): elastic 12.4, 13.1; film 20.3, 19.5; free
 38.1, 38.8; tight 23.2, 22.7; without such steps 12.9, 20.5, 41.1, 15.6 and 23.7. Paths of 20 loads take 10.8 pairs a load for 11.2."""
@@ -192,15 +199,15 @@ class ActiveSet:
     """Newton's method on the contact set, each linear system solved loosely by preconditioned conjugate gradients.
 
     A step chooses the free set, solves K p = h + level on it to a modest accuracy (preconditioner: the inverse of a
-    compliance of nested cells), and clips the pressure to its bounds. Points enter the set by the mean level of the loaded
+    compliance of nested splines), and clips the pressure to its bounds. Points enter the set by the mean level of the loaded
     points near them, so that it does not follow errors of long wavelength. The first guess comes from coarser grids.
     Corrections are computed in single precision, the gap they must close in double (``precision="mixed"``), so the answer
     has double precision at nearly the cost of single.
 
     Without a cap steps are *unclipped*: tensile points stay until the next step, whose first product with the compliance
     serves both, which saves a product a step. Three unclipped steps in a row that do not lower the error end this. From
-    then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a step that would
-    raise it is shortened to the minimum on its way, or replaced by one along the projected gradient. The product that computes the
+    then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a direction found by the
+    model is clipped and then multiplied, and a step that would raise the energy is shortened to the minimum on its way, or replaced by one along the projected gradient. The product that computes the
     final deflection from scratch serves the last step too, whose length is estimated unless ``monotone``.
 
     Iterates share their arrays: a step changes the arrays of the state it is given, which cannot be used afterwards.
@@ -330,7 +337,7 @@ class ActiveSet:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
         system = LinearSystem(work.scaled, free, work.load_prescribed)
-        last = stopping.ending is not None and not nearly_full(work.scaled, free)
+        last = stopping.ending is not None
 
         def add(length: float) -> None:
             work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
@@ -430,13 +437,18 @@ class ActiveSet:
         Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
         once none does is the system solved to what the tolerance needs.
         """
-        changed = free.entering + memory.clipped
-        if changed > _SETTLED * free.size:
-            return Stopping(_REDUCTION, _UNSETTLED_STEPS << min(memory.fallbacks, _MOST_DOUBLINGS))
+        changed, clips = free.entering + memory.clipped, memory.unsuccessful is None
+        settled, alone = changed <= _SETTLED * free.size, clips and not memory.fallbacks
         wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+        ends = not (self.monotone or self._guess)
+        if ends and wanted >= _SINGLE and (settled or alone):
+            return _LAST
+        if alone:
+            return _UNMEASURED
+        if not settled:
+            return Stopping(_REDUCTION, _UNSETTLED_STEPS << min(memory.fallbacks, _MOST_DOUBLINGS))
         most = _NEARLY_SETTLED if changed else _SETTLED_SET
-        least = _LAST_REDUCTION if changed else _SETTLED_SET.reduction
-        if not (self.monotone or self._guess) and least <= wanted < _LAST_STEP:
+        if ends and wanted >= (_LAST_REDUCTION if changed else _SETTLED_SET.reduction):
             return Stopping(0.0, most.max_steps, wanted / _LAST_STEP)
         return Stopping(min(_REDUCTION, max(wanted, most.reduction)), most.max_steps)
 

@@ -23,12 +23,11 @@ import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ....core.engine import CpuEngine, FreeSet
-from ....core.engine.cpu import CpuCells
 from ...laws import FrictionLaw
 from ...laws.friction import at_points
 from ...operators.tangential import TangentialOperator
 from ..active_set.bounds import free_set
-from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
+from ..active_set.spline_model import spline_compliance
 from ..protocol import ContactQP, FixedMean, FixedOffset, multiplier
 from .linear_system import NewtonSystem, Workspace, gmres
 from .problem import Deviation, Points, Sets, best_shift, size_of
@@ -145,11 +144,8 @@ class JointIterate:
         self.fields = [[self.engine.field(self.shape, "float32") for _ in range(3)] for _ in range(2)]
         nothing = Points(np.empty(0, np.int64), np.empty(0), np.empty((2, 0)), shear.largest)
         self.work = Workspace.of(shear, nothing, "float32")
-        operator = normal.operator
-        nested = hierarchies(operator.octaves, operator.grid, periodic=all(shear.boundary.wraps), share=PIXEL_SHARE)
-        self.cells = CpuCells(self.engine.blocks, self.shape, nested, "float32")
-        own = PIXEL_SHARE * pixel_compliance(operator.octaves, operator.grid)
-        self.softer = np.float32(self.work.pixel / own)
+        model = spline_compliance(normal.operator, self.work.pixel).model
+        self.splines = self.engine.splines(self.shape, model, "float32")
 
     def _into_bounds(self) -> None:
         index = np.flatnonzero(self.p > 0.0)
@@ -302,7 +298,7 @@ class JointSystem:
         """System at ``place``."""
         work = replace(joint.work, points=place.points, free=place.free)
         shear = NewtonSystem.of(work, place.sets, zero_sum=False)
-        joint.cells.factorise(place.free)
+        joint.splines.factorise(place.free)
         slip, p = place.sets.slip, place.p
         slope = np.zeros(len(p))
         more = joint._bound(place.points.index, p * (1.0 + _DIFFERENCE))
@@ -384,6 +380,6 @@ class JointSystem:
 
     def _preconditioned(self, r: RealArray) -> RealArray:
         z, normal = np.empty_like(r), np.ascontiguousarray(r[0])
-        z[0] = self.joint.softer * self.joint.cells.solve(self.free, normal, normal, np.empty_like(normal)).vector
+        z[0] = self.joint.splines.solve(self.free, normal, normal, np.empty_like(normal)).vector
         z[1:] = self.shear.preconditioned(r[1:]) * self.bears
         return z

@@ -20,7 +20,8 @@ from ....core.arrays import BoolArray, RealArray
 from ....core.engine import FreeSet
 from ....core.engine.vectors import VectorCells
 from ...operators.tangential import TangentialOperator
-from ..active_set.linear_system import PIXEL_SHARE, hierarchies, pixel_compliance
+from ..active_set.nested_cells import PIXEL_SHARE, hierarchies
+from ..active_set.spline_model import pixel_compliance
 from .problem import Points, Sets, free_part
 
 
