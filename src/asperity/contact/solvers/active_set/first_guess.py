@@ -14,23 +14,22 @@ from ..protocol import ContactQP, FixedMean, Solver, feasible_start, run
 from .spline_model import pixel_compliance
 
 COARSEST = 64
-"""Points per side at which there is no coarser grid. Pairs for 32, 128: elastic 13.8, 14.2; free 43.1, 47.6; cap 15.3, 18.8."""
+"""Points per side at which there is no coarser grid. Pairs for 32, 128: free 25.4, 26.2; cap 6.3, 7.2."""
 
 COARSE_ITERATIONS = 30
-"""Most steps on a coarse grid; four to eight are the rule. Pairs for 3, 10, 100: the same from 10 on."""
+"""Most steps on a coarse grid; two to four are the rule. Pairs for 3, 10, 100: the same."""
 
 _HIDDEN_SHARE, _HIDDEN_SHARE_CAPPED = 0.5, 0.1
 """Tolerance on a coarse grid over the roughness that it cannot show, both relative to the rms height, without and with a cap. Pairs for
-0.05, 0.1, 0.2, 1: elastic 13.6, 13.6, 13.1, 13.1 (0.5: 12.9); film 21.7, 21.3, 20.8, 20.2 (20.5); free 42.8, 42.8, 41.3, 41.0 (41.1); tight
-22.8, 22.8, 23.7, 23.3 (23.7); with 0.5 for capped ones 17.4 instead of 15.6. Fewer steps on coarse grids save more time than pairs: 5 % at 256²."""
+0.05, 0.1, 0.2, 1: elastic 8.3, 8.3, 8.1, 7.9; film 10.1, 10.0, 9.5, 9.5; free 26.3, 26.2, 25.6, 25.3; tight
+14.8, 14.8, 14.5, 15.1. Fewer steps on coarse grids save more time than pairs."""
 
 _LOOSEST, _LOOSEST_CAPPED = 0.1, 0.03
-"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: elastic 13.3, 12.9, 12.9; film 21.3, 20.5, 20.5; free 42.8, 41.3, 41.1."""
+"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: film 9.8, 9.5, 9.4; free 26.3, 25.5, 25.3."""
 
 _FINE_STIFFNESS = 0.15
 """Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer).
-Saves a tenth of the pairs at 1024² and a quarter at 2048². Pairs for 0, 0.1, 0.2, 0.3: elastic 15.2, 15.1, 13.9, 14.0; film
-22.9, 22.1, 23.5, 24.0. Under a cap there is none: crests that it would load beyond the cap yield. With it, cap 19.6 instead of 16.0
+Pairs for 0, 0.1, 0.2, 0.3: elastic 9.0, 8.0, 7.8, 8.2; film 9.7, 9.7, 9.4, 9.4; free 28.3, 26.8, 25.3, 25.3; tight 15.7, 15.2, 14.7, 14.7. Under a cap there is none: crests that it would load beyond the cap yield. With it, cap 19.6 instead of 16.0
 pairs; at a hardness of 0.1 E* 36 instead of 17, of 1 E* 21 instead of 18; at 512² 19.3 instead of 15.1, where elastic contact takes 14.2."""
 
 

@@ -5,11 +5,8 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 12.8, 19.7, 37.7, 11.7, 22.3 and 15.6 pairs. Figures for *cap*
-and *monotone* other than those of ``_FURTHER`` date from when they took 14.7 and 19.1: before corrections that are clipped ended with a step without a product. All figures
-but those of ``_LAST_STEP`` and ``_LAST_REDUCTION``, of ``_REDUCTION`` (13.6, 21.3, 42.8, 15.6, 22.8, 20.6 then) and of coarse grids date from
-when they took 13.9, 22.8, 43.8, 16.0, 23.2 and 20.5: before loose corrections ended by the plain norm of the residual, and solves without a
-product for their last step.
+elastic, 256², every iterate within its bounds. The constants as they are take 8.0, 9.4, 25.3, 6.0, 14.4 and 9.0 pairs; cases that
+are not named differ from these by 0.3 at most (*free*: 0.8).
 """
 
 from __future__ import annotations
@@ -73,43 +70,39 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 
 _SETTLED = 0.003
-"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0, 0.001,
-0.01, 0.03: elastic 14.1, 13.9, 13.9, 13.9; film 22.8, 22.0, 23.0, 22.5; monotone 20.5, 20.0, 20.8, 20.8."""
+"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0: film
+9.9, tight 15.7; for 0.001, 0.01 and 0.03 none differs."""
 
 _REDUCTION = 0.3
-"""Reduction of the residual while the set changes; conjugate gradients gain a factor of 4 a step, so mostly one step. Pairs for
-0.2, 0.4, 0.5 (0.3: 13.6, 21.3, 42.8, 15.6): elastic 14.1, 14.2, 14.3; film 22.8, 20.9, 20.7; free 42.8, 43.6, 42.5; cap 15.6, 17.1, 17.1."""
+"""Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step, so mostly one step. Pairs for
+0.1: elastic 8.9, film 9.8, tight 16.6; for 0.2 and 0.5 none differs."""
 
 _UNSETTLED_STEPS = 3
-"""Most steps while the set changes, doubled with every fallback. Pairs for 2, 4, 6: film 21.7, 22.9, 22.9, all others the same;
-two would do on these surfaces, the third is for harder ones."""
+"""Most steps while the set changes, doubled with every fallback. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
 
 _UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
 """Effort on a correction that is clipped afterwards, and on the last one: a single direction of the model of the compliance, whose deflection the product with what is
 left of it after clipping, or that which ends the solve, shows."""
 
 _SINGLE = 0.06
-"""Reduction of the error that a single direction is trusted to reach."""
+"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.12, 0.3: film 9.4, 9.7; free 25.3, 26.1; cap 6.7, 7.0."""
 
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03, 0.2, 0.3: elastic 14.7, 13.9, 14.1; film 23.0, 23.4, 22.8; for
-3, 5, 12 steps the same but for films (22.7, 22.8, 22.8)."""
+"""Effort on a nearly settled set. Pairs for a reduction of 0.03, 0.2, 0.3: film 9.4, 9.7, 9.7; tight 13.9, 15.7, 15.7; for 3, 5, 12 steps the same."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
-1e-2: tight 24.4, 22.4, 22.2, all others the same; for 8, 20, 40 steps the same."""
+1e-2: tight 14.4, 14.2, 13.7, all others the same; for 8, 20, 40 steps the same."""
 
 _LAST_STEP = 0.15
 """Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
-ends every solve, serves it too. Pairs for 0.2, 0.4 (0.3: elastic 12.9, film 19.5, free 38.8, cap 14.6, tight 22.7): elastic 12.4, 13.1; film 20.3, 19.5; free
-38.1, 38.8; tight 23.2, 22.7; without such steps 12.9, 20.5, 41.1, 15.6 and 23.7. Paths of 20 loads take 10.8 pairs a load for 11.2."""
+ends every solve, serves it too. Pairs for 0.1, 0.2, 0.3: free 24.6, 25.3, 26.1, all others the same."""
 
 _LAST_REDUCTION = 0.01
-"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: film 19.5, 20.0;
-others within 0.2."""
+"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: free 26.1, 26.1."""
 
 _FURTHER = 0.75
 """Length, over that of the last step of conjugate gradients, of one more step of a correction that is clipped afterwards. The product with what is
@@ -117,8 +110,8 @@ left of it after clipping shows its deflection, so that it takes none of its own
 11.2, 11.2, 11.2 (0.75: 11.2); 0.1 and 1 E* 15.3, 13.4, 12.9, 13.1, 13.5 (12.9); monotone 17.3 (0), 13.4 (0.8), 15.0 (1)."""
 
 _MARGIN = 0.8
-"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 14.6, 14.6,
-13.9; film 23.0, 23.0, 22.5; tight 23.4, 23.4, 23.2."""
+"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 8.7, 8.0,
+8.0; free 26.1, 26.1, 24.6; cap 7.0, 6.2, 6.0; tight 14.9, 14.4, 14.4."""
 
 
 # The solver.
@@ -145,12 +138,12 @@ take 0.83 (512²) and 0.91 (1024²) of the pairs of cold solves (``benchmarks/pa
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: elastic 13.9 for all; film 23.6, 22.8,
-22.8; free 43.9, 43.8, 43.8."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: the same; harder surfaces
+with films need them."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
-precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 14.9, 14.4, 13.9; tight 21.7, 21.7, 23.9."""
+precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 9.2, 8.0, 8.0; film 10.4, 9.7, 9.4; free 28.3, 26.8, 25.3; tight 14.4, 13.9, 15.4."""
 
 
 @dataclass(eq=False)
