@@ -151,7 +151,8 @@ class _Memory:
     """What is carried from step to step, besides the iterate in the arrays of ``work`` and the ``survey`` of it.
 
     ``computed_at`` is the error when the deflection was last computed from scratch (as opposed to updated); ``clipped`` the
-    number of points that the last step took beyond their bounds; ``fallbacks`` how many steps had to be replaced so far.
+    number of points that the last step took beyond their bounds; ``fallbacks`` how many steps had to be replaced so far, one at least where
+    a direction of the model alone had to be shortened.
     ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
     are clipped; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
     ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
@@ -365,6 +366,8 @@ class ActiveSet:
         if share == 0.0:
             return self._gradient_step(memory, spent)
         work.engine.add(work.scaled.response, share * work.scaled.scale, work.deflection)
+        if products > 1 and not memory.fallbacks:  # the model alone goes too far
+            memory.fallbacks = 1
         return replace(memory, survey=work.survey(), clipped=clipped, from_scratch=False), spent
 
     def _ended(self, memory: _Memory, free: FreeSet, d: Any) -> bool:
