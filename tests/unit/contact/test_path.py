@@ -22,6 +22,7 @@ from asperity.contact.solve import steps
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean
 from asperity.contact.solvers.protocol import SolverState
 from asperity.core.arrays import RealArray
+from asperity.core.engine import CpuEngine
 
 SOLVER = ActiveSet(tolerance=1e-10)
 LOADS = (0.05, 0.1, 0.15)
@@ -249,6 +250,60 @@ def test_steps_hold_few_results_and_are_solved_when_asked_for() -> None:
     assert not solver.starts
     next(stream)
     assert len(solver.starts) == 1
+
+
+MANY = tuple(np.geomspace(0.02, 0.3, 33))
+
+
+@pytest.mark.parametrize("count", [15, 16, 24, 33])
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+def test_chains_of_loads_give_the_path_of_its_steps(boundary: Any, count: int) -> None:
+    """In order, each within its certificate of the steps one after the other, whatever the number of threads."""
+    posed, loads = problem(boundary=boundary), pressures(MANY[:count])
+    paths = [asp.solve(posed, asp.History(loads), solver=SOLVER, engine=CpuEngine(threads)) for threads in (1, 3)]
+    for one, other, alone, load in zip(
+        *(path.steps for path in paths), steps(posed, loads, solver=SOLVER), loads, strict=True
+    ):
+        assert one.control is other.control is load
+        np.testing.assert_allclose(one.pressure, other.pressure, rtol=0.0, atol=1e-12 * one.pressure.max())
+        found, bound = energy_distance(one, alone)
+        assert found <= bound
+    cold = sum(step.state.earlier is None for step in paths[0].steps)
+    assert cold == max(1, min(4, count // 8))
+
+
+@pytest.mark.parametrize("law", [asp.Hardness(0.2), None], ids=["hardness", "progress"])
+def test_steps_that_remember_and_steps_that_are_watched_follow_one_another(law: Any) -> None:
+    seen: list[float] = []
+
+    class Watch:
+        def update(self, iteration: int, error: float, tolerance: float) -> None:
+            seen.append(error)
+
+    path = asp.solve(problem(law), asp.History(pressures(MANY[:16])), progress=None if law else Watch())
+    assert [step.state.earlier is None for step in path.steps] == [True] + 15 * [False]
+    assert bool(seen) is not bool(law)
+
+
+@dataclass(frozen=True)
+class FailsAbove(ActiveSet):
+    """Gives up at loads above ``most``."""
+
+    most: float = 0.0
+
+    def step(self, qp: ContactQP, state: SolverState) -> SolverState:
+        following = super().step(qp, state)
+        assert isinstance(qp.constraint, FixedMean)
+        return replace(following, exhausted=qp.constraint.mean_pressure > self.most)
+
+
+def test_a_failure_in_a_chain_has_its_number_in_the_history() -> None:
+    loads, solver = pressures(MANY[:20]), FailsAbove(tolerance=1e-12, most=MANY[13])
+    with refused(asp.ConvergenceError, "Step 15 of the history") as caught:
+        asp.solve(problem(), asp.History(loads), solver=solver)
+    assert caught.value.result.control is loads[14]
+    path = asp.solve(problem(), asp.History(loads), solver=solver, on_failure="return")
+    assert [step.converged for step in path.steps] == 14 * [True] + 6 * [False]
 
 
 def test_inputs_are_left_alone() -> None:

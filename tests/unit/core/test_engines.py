@@ -532,8 +532,17 @@ def set_of(engine: Engine, inside: RealArray, dtype: str) -> Any:
     return free_set(engine.survey(*(engine.array(values, "float64") for values in fields), None), -10.0, 1.0, dtype)
 
 
-@pytest.mark.parametrize("engine", [REFERENCE, *OTHERS.values()], ids=["cpu", *OTHERS])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 30)], ids=str)
+SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 30)]
+
+
+@pytest.mark.parametrize(
+    ("engine", "shape"),
+    [
+        pytest.param(engine, shape, id=f"{name}-{shape}")
+        for name, engine in {"cpu": REFERENCE, **OTHERS}.items()
+        for shape in (SHAPES if engine is REFERENCE else SHAPES[3:5])
+    ],
+)
 @pytest.mark.parametrize("wraps", WRAPS, ids=["round", "free", "strip"])
 @every_type
 def test_nested_splines_are_those_of_dense_matrices(

@@ -18,7 +18,7 @@ fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
-for 8, 32, 64: elastic 13.9, 14.1, 14.1; films 21.9, 22.2, 22.9 (16: 13.9 and 22.8; cases: see ``benchmarks/constants.py``)."""
+for 8, 32, 64: elastic 8.0, 8.3, 8.3; films 9.7, 9.4, 9.9 (16: 8.0 and 9.4; cases: see ``benchmarks/constants.py``)."""
 
 
 @dataclass(frozen=True)

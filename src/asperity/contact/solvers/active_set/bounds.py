@@ -15,12 +15,11 @@ from .linear_system import PressureChange, Workspace
 
 _PRIOR = 4.0
 """Loaded points as which the mean over the wider square counts in that of a square, so that few points do not decide alone.
-Pairs for 1, 2, 8, 16: elastic 13.9 and free 43.8 for all; film 22.2, 22.8, 22.8, 23.0; cap 16.1, 16.0, 16.0, 16.0."""
+Pairs for 1, 2: free 24.6; for 8, 16 the same."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 14.1, 13.9, 13.9, 14.4; film
-22.4, 22.7, 22.0, 21.7; tight 23.4, 23.4, 23.2, 24.7. Film of E 10, h 4 pixels at 1024²: 32, 31, 30, 29 (0.5: 28), and with every
-iterate within its bounds 64, 42, 34, 35 (36)."""
+"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 8.0, 8.0, 8.2, 8.7; film
+9.4, 9.4, 9.7, 9.7; free 24.6, 24.6, 25.3, 26.1; cap 6.4, 6.0, 6.2, 7.2; tight 14.4, 14.4, 14.4, 14.9."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""

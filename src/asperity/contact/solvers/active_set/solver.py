@@ -106,8 +106,8 @@ _LAST_REDUCTION = 0.01
 
 _FURTHER = 0.75
 """Length, over that of the last step of conjugate gradients, of one more step of a correction that is clipped afterwards. The product with what is
-left of it after clipping shows its deflection, so that it takes none of its own. Pairs at 512², hardness 0.3 E*, for 0 (none), 0.6, 0.7, 0.9, 1: 14.2, 11.7,
-11.2, 11.2, 11.2 (0.75: 11.2); 0.1 and 1 E* 15.3, 13.4, 12.9, 13.1, 13.5 (12.9); monotone 17.3 (0), 13.4 (0.8), 15.0 (1)."""
+left of it after clipping shows its deflection, so that it takes none of its own. Only after a fallback, which no case of the sweep has, are there other
+steps of such corrections."""
 
 _MARGIN = 0.8
 """Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 8.7, 8.0,
@@ -134,7 +134,7 @@ class Loaded(NamedTuple):
 
 _POOR = 0.5
 """Error of a start above which one from coarser grids is better: 20 loads from 0.01 to 0.2, each started from the one before,
-take 0.83 (512²) and 0.91 (1024²) of the pairs of cold solves (``benchmarks/paths.py``); a start from another surface, whose
+take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a start from another surface, whose
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
