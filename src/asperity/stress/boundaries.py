@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..core.arrays import ComplexArray, RealArray
-from ..core.engine.cpu import SERIAL_BELOW, Blocks
+from ..core.engine.cpu import LONG_SERIAL_BELOW, Blocks
 from ..core.errors import InputError
 from ..core.interpolation import Panels, panels
 from ..core.spectral import (
@@ -250,7 +250,7 @@ class PeriodicPlanes:
 
     def _share(self, work: Callable[..., None], parts: int, *arguments: Any) -> None:
         shape = self.tractions.grid.shape
-        self._blocks.share(work, parts, *arguments, serial=shape[0] * shape[1] < SERIAL_BELOW)
+        self._blocks.share(work, parts, *arguments, serial=shape[0] * shape[1] < LONG_SERIAL_BELOW)
 
     def _along_x(self, make: _Maker, plane: Plane, means: tuple[float, ...], needed: tuple[slice, ...]) -> ComplexArray:
         """Spectra that ``make`` writes after their transform along x, as far as ``needed``."""

@@ -21,7 +21,7 @@ from asperity.contact.problem import Control
 from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel
-from asperity.core.engine.cpu import SERIAL_BELOW
+from asperity.core.engine import cpu
 
 REFERENCE = asp.CpuEngine(1)
 OTHERS: dict[str, Engine] = {
@@ -610,8 +610,9 @@ def test_points_of_a_conductance_of_their_own_yield_by_it(shape: tuple[int, int]
 
 
 @every_cap
-def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
-    case = iterate((700, 701), cap)  # enough for three threads, on the free too
+def test_passes_do_not_depend_on_the_number_of_threads(cap: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cpu, "SERIAL_BELOW", 1 << 17)
+    case = iterate((700, 701), cap)  # enough for three threads, on the free set too
     one, three = asp.CpuEngine(1), asp.CpuEngine(3)
     first, second = (values_of(e.survey(*case.on(e)).totals) for e in (one, three))
     assert first == second
@@ -619,7 +620,7 @@ def test_passes_do_not_depend_on_the_number_of_threads(cap: str) -> None:
         first, second = (values_of(e.violation(*case.on(e), case.level)) for e in (one, three))
         assert first == second
     first, second = (work_on_free_set(e, case, "float32", centred=True) for e in (one, three))
-    assert first.size > SERIAL_BELOW
+    assert first.size > cpu.SERIAL_BELOW
     for name in vars(first):
         assert np.array_equal(getattr(first, name), getattr(second, name)), name
 

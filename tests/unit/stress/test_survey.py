@@ -342,7 +342,7 @@ def test_maxima_do_not_depend_on_threads_or_blocks(
 ) -> None:
     whole = survey(SLIDING, coated, threads=1)
     monkeypatch.setattr(boundaries, "_POINTS", 50)
-    monkeypatch.setattr(boundaries, "SERIAL_BELOW", 0)
+    monkeypatch.setattr(boundaries, "LONG_SERIAL_BELOW", 0)
     parts = survey(SLIDING, coated, threads=threads)
     for one, other in zip(parts.maxima, whole.maxima, strict=True):
         for name in ("von_mises", "tension", "shear"):

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
-from ...core.engine.cpu import SERIAL_BELOW, Blocks
+from ...core.engine.cpu import LONG_SERIAL_BELOW, Blocks
 from ...core.errors import InputError
 from ...core.spectral import PaddedTransform, RealTransform, wrapped
 from ...solids.compliance.creep import AnyCreep, LayeredCreep, SharedCreep
@@ -307,7 +307,7 @@ class Passes:
 
     def run(self, kernel: str, spectrum: RealArray | ComplexArray, *arguments: Any) -> None:
         """Call ``kernel`` over all rows of a ``spectrum``."""
-        serial = spectrum.size < SERIAL_BELOW
+        serial = spectrum.size < LONG_SERIAL_BELOW
         self._blocks.share(getattr(self._kernels, kernel), len(spectrum), *arguments, serial=serial)
 
     def sums_of(self, kernels: RealArray, weights: TimeWeights) -> RealArray:

@@ -287,8 +287,8 @@ def _at_points(span, levels, wraps, members, points, sums, stencil, vectors, out
 # All levels in one piece of memory, rows of the large ones shared by the threads.
 
 
-_SHARED = 1 << 15
-"""Cells of a level from which on threads share its rows."""
+_SHARED = 1 << 17
+"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on."""
 
 _GAP = 8
 """Points between the rows of the array of points: its margins, and so many that rows of 2^k points do not collide in the cache."""
