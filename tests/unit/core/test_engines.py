@@ -20,8 +20,7 @@ from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
 from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
-from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel
-from asperity.core.engine import cpu
+from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, cpu
 
 REFERENCE = asp.CpuEngine(1)
 OTHERS: dict[str, Engine] = {
