@@ -9,7 +9,7 @@ indentation so far. Where the solid softens with depth (hard film), limits fall 
 round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. Where limits fall
 so steeply that a pixel may come to rest at several depths, one that yields by the error of a normal solve stays indented, so all
 solves are to the full tolerance. Where they fall gently, the fast solver finds limits and pressure together (``solvers.active_set.yielding``),
-and one round confirms them: on self-affine surfaces of 512² points, with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, in 1.6 times the FFT
+and one round confirms them: on self-affine surfaces of 512² points, with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, in 1.2 times the FFT
 pairs of elastic contact. With other solvers, or beside other couplings with feedback, it takes rounds, in which solves follow the residual, and limits
 are foreseen: a point sinks by some compliance times the fall of its limit, at least twice its own since the points around it give way as well, later as
 much as it did in the last round. This and starts in which yielding points go along with their limits take 6.1 times the pairs instead of 12.9.
