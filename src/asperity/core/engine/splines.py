@@ -6,8 +6,6 @@ the same shares. Where the axis wraps, the first cell comes after the last one; 
 
 ``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, and whether the level below
 merges along x and y to it. Level 0 are the points themselves, in an array with a margin.
-
-Rows are told by unsigned places in memory: slices take a tenth longer to compile, and as long to run.
 """
 
 from __future__ import annotations
@@ -76,15 +74,16 @@ def _rise(span, levels, way, wraps, weights, points, sums, g):  # type: ignore[n
 
     What a level passes up is left in ``sums``: g S of its sums S, or, to ``_DEFLECT``, S itself. To ``_FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
     """
-    near, far, one, none = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0), g.dtype.type(0.0)
-    line = np.zeros(levels[way[0] - 1, _COLUMNS] + 8, g.dtype)
-    lead, end, step = np.uint64(1 if wraps[1] else 3), np.uint64(4), np.uint64(1)
+    near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
+    longest = levels[way[0] - 1, _COLUMNS] + 8
+    line, nothing, unit = np.zeros(longest, g.dtype), np.zeros(longest, g.dtype), np.ones(longest, g.dtype)
     for depth in range(way[0], way[1] + 1):
         fine, level, weight = levels[depth - 1], levels[depth], weights[depth]
         source = points if depth == 1 else sums
-        rows, below, stride = fine[_ROWS], fine[_START], fine[_STRIDE]
-        columns, wide, odd = np.uint64(fine[_COLUMNS]), np.uint64(level[_COLUMNS]), fine[_COLUMNS] % 2 != 0
+        rows, columns, below, stride = fine[_ROWS], fine[_COLUMNS], fine[_START], fine[_STRIDE]
+        lead = 1 if wraps[1] else 3
         for cell in range(level[_ROWS] * span[0] // _PARTS, level[_ROWS] * span[1] // _PARTS):
+            own_line = line[lead : lead + columns]
             if level[_MERGE_X]:
                 first = 2 * cell if wraps[0] else 2 * cell - 2
                 before, second, after = first - 1, first + 1, first + 2
@@ -93,43 +92,46 @@ def _rise(span, levels, way, wraps, weights, points, sums, g):  # type: ignore[n
                         before = rows - 1
                     if after >= rows:
                         after = 0
-                # rows that do not exist count with a share of nothing
-                share_a, row_a = (far, before) if 0 <= before < rows else (none, 0)
-                share_b, row_b = (near, first) if 0 <= first < rows else (none, 0)
-                share_c, row_c = (near, second) if 0 <= second < rows else (none, 0)
-                share_d, row_d = (far, after) if 0 <= after < rows else (none, 0)
-                a, b = np.uint64(below + row_a * stride), np.uint64(below + row_b * stride)
-                c, d = np.uint64(below + row_c * stride), np.uint64(below + row_d * stride)
+                row_a = (
+                    source[below + before * stride : below + before * stride + columns]
+                    if 0 <= before < rows
+                    else nothing
+                )
+                row_b = (
+                    source[below + first * stride : below + first * stride + columns] if 0 <= first < rows else nothing
+                )
+                row_c = (
+                    source[below + second * stride : below + second * stride + columns]
+                    if 0 <= second < rows
+                    else nothing
+                )
+                row_d = (
+                    source[below + after * stride : below + after * stride + columns] if 0 <= after < rows else nothing
+                )
                 for j in range(columns):
-                    line[lead + j] = (share_a * source[a + j] + share_d * source[d + j]) + (
-                        share_b * source[b + j] + share_c * source[c + j]
-                    )
+                    own_line[j] = far * (row_a[j] + row_d[j]) + near * (row_b[j] + row_c[j])
             else:
-                b = np.uint64(below + cell * stride)
+                row_b = source[below + cell * stride : below + cell * stride + columns]
                 for j in range(columns):
-                    line[lead + j] = source[b + j]
-            out = np.uint64(level[_START] + cell * level[_STRIDE])
+                    own_line[j] = row_b[j]
+            start, wide = level[_START] + cell * level[_STRIDE], level[_COLUMNS]
+            out, own = sums[start : start + wide], g[start : start + wide] if way[2] != _DEFLECT else unit
             if level[_MERGE_Y]:
-                for k in range(lead + columns, lead + columns + end):
-                    line[k] = none
+                for k in range(lead + columns, lead + columns + 4):
+                    line[k] = 0.0
                 if wraps[1]:
-                    line[0] = none if odd else line[columns]
-                    line[columns + lead + (step if odd else step - step)] = line[1]
+                    line[0] = line[columns] if columns % 2 == 0 else 0.0
+                    line[columns + 1 + columns % 2] = line[1]
                 for k in range(wide):
-                    left = k + k
-                    right = left + step
-                    sums[out + k] = far * (line[left] + line[right + step + step]) + near * (
-                        line[right] + line[right + step]
-                    )
+                    out[k] = far * (line[2 * k] + line[2 * k + 3]) + near * (line[2 * k + 1] + line[2 * k + 2])
             else:
                 for k in range(wide):
-                    sums[out + k] = line[lead + k]
+                    out[k] = own_line[k]
             if way[2] == _FACTORISE:
                 for k in range(wide):
-                    g[out + k] = one / (one + weight * sums[out + k])
-            if way[2] != _DEFLECT:
-                for k in range(wide):
-                    sums[out + k] *= g[out + k]
+                    own[k] = one / (one + weight * out[k])
+            for k in range(wide):
+                out[k] *= own[k]
 
 
 @compiled
@@ -138,50 +140,49 @@ def _fall(span, levels, way, wraps, weights, sums, g):  # type: ignore[no-untype
 
     That of a level is w g S plus g times that of the level above; to ``_DEFLECT``, without g.
     """
-    near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
+    near, far = g.dtype.type(0.75), g.dtype.type(0.25)
     longest = levels[way[1], _COLUMNS] + 8
-    line, own = np.empty(longest, g.dtype), np.ones(longest, g.dtype)
-    lead, step = np.uint64(1 if wraps[1] else 0), np.uint64(1)
+    line, unit = np.empty(longest, g.dtype), np.ones(longest, g.dtype)
     top = len(levels) - 1
     for depth in range(way[0], way[1] - 1, -1):
-        level, weight, wide = levels[depth], weights[depth], np.uint64(levels[depth, _COLUMNS])
+        level, weight, wide = levels[depth], weights[depth], levels[depth, _COLUMNS]
         for cell in range(level[_ROWS] * span[0] // _PARTS, level[_ROWS] * span[1] // _PARTS):
-            out = np.uint64(level[_START] + cell * level[_STRIDE])
+            start = level[_START] + cell * level[_STRIDE]
+            out, own = sums[start : start + wide], g[start : start + wide] if way[2] != _DEFLECT else unit
             for j in range(wide):
-                sums[out + j] *= weight
+                out[j] *= weight
             if depth == top:
                 continue
             above = levels[depth + 1]
-            columns, parent, beside = np.uint64(above[_COLUMNS]), cell, cell
-            share, other = one, one - one
+            columns = above[_COLUMNS]
+            lead = 1 if wraps[1] else 0
+            own_line = line[lead : lead + columns]
             if above[_MERGE_X]:
                 parent = cell >> 1 if wraps[0] else (cell >> 1) + 1
                 beside = parent - 1 if cell & 1 == 0 else parent + 1
                 if wraps[0]:
                     beside = above[_ROWS] - 1 if beside < 0 else 0 if beside >= above[_ROWS] else beside
-                share, other = near, far
-            a = np.uint64(above[_START] + parent * above[_STRIDE])
-            b = np.uint64(above[_START] + beside * above[_STRIDE])
-            for k in range(columns):
-                line[lead + k] = share * sums[a + k] + other * sums[b + k]
-            if way[2] != _DEFLECT:
-                for j in range(wide):
-                    own[j] = g[out + j]
+                a, b = above[_START] + parent * above[_STRIDE], above[_START] + beside * above[_STRIDE]
+                row_a, row_b = sums[a : a + columns], sums[b : b + columns]
+                for k in range(columns):
+                    own_line[k] = near * row_a[k] + far * row_b[k]
+            else:
+                a = above[_START] + cell * above[_STRIDE]
+                row_a = sums[a : a + columns]
+                for k in range(columns):
+                    own_line[k] = row_a[k]
             if above[_MERGE_Y]:
                 if wraps[1]:
-                    line[0], line[columns + step] = line[columns], line[1]
-                half = wide // np.uint64(2)
-                for k in range(half):
-                    left = k + k
-                    right, middle = left + step, near * line[k + step]
-                    sums[out + left] += own[left] * (middle + far * line[k])
-                    sums[out + right] += own[right] * (middle + far * line[k + step + step])
-                if half + half < wide:
-                    last = half + half
-                    sums[out + last] += own[last] * (near * line[half + step] + far * line[half])
+                    line[0], line[columns + 1] = line[columns], line[1]
+                for k in range(wide >> 1):
+                    out[2 * k] += own[2 * k] * (near * line[k + 1] + far * line[k])
+                    out[2 * k + 1] += own[2 * k + 1] * (near * line[k + 1] + far * line[k + 2])
+                if wide & 1:
+                    k = wide >> 1
+                    out[wide - 1] += own[wide - 1] * (near * line[k + 1] + far * line[k])
             else:
                 for j in range(wide):
-                    sums[out + j] += own[j] * line[lead + j]
+                    out[j] += own[j] * own_line[j]
 
 
 @compiled
@@ -214,7 +215,7 @@ def _at_points(span, levels, wraps, members, points, sums, stencil, vectors, out
     own, each, x1, y1, x2, y2, diagonal, factor = stencil
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
     lines, columns, stride = levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
-    level, step, two = levels[1], np.uint64(1), np.uint64(2)
+    level = levels[1]
     wide, merges_x, merges_y = level[_COLUMNS], level[_MERGE_X], level[_MERGE_Y]
     line, found = np.empty(wide + 2, points.dtype), np.empty(columns + 2, points.dtype)
     for row in range(lines * span[0] // _PARTS, lines * span[1] // _PARTS):
@@ -226,52 +227,51 @@ def _at_points(span, levels, wraps, members, points, sums, stencil, vectors, out
             first = (np.int64(index[rows[row]]) - base) >> 1  # in pairs of columns
             pairs = ((np.int64(index[rows[row + 1] - 1]) - base) >> 1) + 1 - first
             parent, beside = row, row
-            share, other_share = factor, factor - factor
             if merges_x:
                 parent = row >> 1 if wraps[0] else (row >> 1) + 1
                 beside = parent - 1 if row & 1 == 0 else parent + 1
                 if wraps[0]:
                     beside = level[_ROWS] - 1 if beside < 0 else 0 if beside >= level[_ROWS] else beside
-                share, other_share = factor * near, factor * far
-            above, next_to = level[_START] + parent * level[_STRIDE], level[_START] + beside * level[_STRIDE]
+            a, b = level[_START] + parent * level[_STRIDE], level[_START] + beside * level[_STRIDE]
             if merges_y:
-                begin = first if wraps[1] else first + 1
-                left, right = begin - 1, begin + pairs
+                begin, number = first if wraps[1] else first + 1, pairs
+                left, right = begin - 1, begin + number
                 if wraps[1]:
                     left = wide - 1 if left < 0 else left
                     right = 0 if right >= wide else right
-                right = wide - 1 if right >= wide else right
-                a, b, number = np.uint64(above + begin), np.uint64(next_to + begin), np.uint64(pairs)
+                right = min(right, wide - 1)
+                row_a, row_b = sums[a + begin : a + begin + number], sums[b + begin : b + begin + number]
+                middle = line[1 : number + 1]
                 for k in range(number):
-                    line[k + step] = share * sums[a + k] + other_share * sums[b + k]
-                line[0] = share * sums[above + left] + other_share * sums[next_to + left]
-                line[number + step] = share * sums[above + right] + other_share * sums[next_to + right]
+                    middle[k] = factor * (near * row_a[k] + far * row_b[k])
+                line[0] = factor * (near * sums[a + left] + far * sums[b + left])
+                line[number + 1] = factor * (near * sums[a + right] + far * sums[b + right])
                 for k in range(number):
-                    middle = near * line[k + step]
-                    found[k + k] = middle + far * line[k]
-                    found[k + k + step] = middle + far * line[k + two]
+                    found[2 * k] = near * line[k + 1] + far * line[k]
+                    found[2 * k + 1] = near * line[k + 1] + far * line[k + 2]
             else:
-                begin = 2 * first
-                a, b = np.uint64(above + begin), np.uint64(next_to + begin)
-                for k in range(np.uint64(2 * pairs if 2 * pairs < columns - begin else columns - begin)):
-                    found[k] = share * sums[a + k] + other_share * sums[b + k]
-            number, place = np.uint64(2 * pairs), levels[0, _START] + row * stride + 2 * first
-            a, b = np.uint64(place - stride), np.uint64(place + stride)
-            left_one, right_one = np.uint64(place - 1), np.uint64(place + 1)
-            for k in range(number):
-                found[k] += x1 * (points[a + k] + points[b + k]) + y1 * (points[left_one + k] + points[right_one + k])
+                begin, number = 2 * first, min(2 * pairs, columns - 2 * first)
+                row_a, row_b = sums[a + begin : a + begin + number], sums[b + begin : b + begin + number]
+                for j in range(number):
+                    found[j] = factor * (near * row_a[j] + far * row_b[j])
+            place = levels[0, _START] + row * stride + 2 * first
+            here = points[place - _MARGIN : place + 2 * pairs + _MARGIN]
+            up, down = (
+                points[place - stride - 1 : place - stride + 2 * pairs + 1],
+                points[place + stride - 1 : place + stride + 2 * pairs + 1],
+            )
+            for j in range(2 * pairs):
+                found[j] += x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
             if diagonal != 0.0:
-                for k in range(number):
-                    found[k] += diagonal * (
-                        (points[a - step + k] + points[b - step + k]) + (points[a + step + k] + points[b + step + k])
-                    )
+                for j in range(2 * pairs):
+                    found[j] += diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
             if x2 != 0.0 or y2 != 0.0:
-                a, b = np.uint64(place - 2 * stride), np.uint64(place + 2 * stride)
-                left_one, right_one = np.uint64(place - 2), np.uint64(place + 2)
-                for k in range(number):
-                    found[k] += x2 * (points[a + k] + points[b + k]) + y2 * (
-                        points[left_one + k] + points[right_one + k]
-                    )
+                above, below = (
+                    points[place - 2 * stride : place - 2 * stride + 2 * pairs],
+                    points[place + 2 * stride : place + 2 * stride + 2 * pairs],
+                )
+                for j in range(2 * pairs):
+                    found[j] += x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
             base += 2 * first
             for k in range(rows[row], rows[row + 1]):
                 z = (own + each * count[k]) * values[k] + found[np.int64(index[k]) - base]
