@@ -111,8 +111,8 @@ def solve(
     control
         ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``, with adhesion also ``Pull`` or ``FixedGrips``; a ``Step`` with one of these and a ``Shift`` or
         ``TangentialForce``, under which the surfaces stick and slip; or a ``History`` of such steps, each of which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
-        All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted. Sixteen loads and more of a
-        contact that remembers nothing are solved in two to four chains at a time, by as many threads as there are.
+        All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted. Sixteen loads and more of an
+        elastic contact are solved in two to four chains, as many at a time as there are threads.
     solver
         Method of the normal solves with its tolerance; chosen by ``default_solver`` if not given.
     state
@@ -223,7 +223,7 @@ def _all_results(
     ended, threads = Event(), max(1, engine.threads // chains)
 
     def chain(part: list[tuple[int, Step]]) -> list[ContactResult]:
-        own, found = Prepared(problem, keep=keep, solver=prepared.solver, engine=CpuEngine(threads)), []
+        own, found = Prepared(problem, keep=keep, **{**options, "operator": None, "engine": CpuEngine(threads)}), []
         for result in _results(own, part, None, on_failure):
             found.append(result)
             if ended.is_set():

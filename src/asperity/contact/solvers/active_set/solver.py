@@ -366,9 +366,8 @@ class ActiveSet:
         if share == 0.0:
             return self._gradient_step(memory, spent)
         work.engine.add(work.scaled.response, share * work.scaled.scale, work.deflection)
-        if products > 1 and not memory.fallbacks:  # the model alone goes too far
-            memory.fallbacks = 1
-        return replace(memory, survey=work.survey(), clipped=clipped, from_scratch=False), spent
+        fallbacks = max(memory.fallbacks, int(products > 1))  # the model alone goes too far
+        return replace(memory, survey=work.survey(), clipped=clipped, fallbacks=fallbacks, from_scratch=False), spent
 
     def _ended(self, memory: _Memory, free: FreeSet, d: Any) -> bool:
         """Whether the clipped step ``d``, whose deflection is computed from scratch, reaches the tolerance; if not, it is taken back."""
