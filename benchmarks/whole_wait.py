@@ -1,4 +1,4 @@
-"""What a person waits for: start-up, reading, a whole command, its pictures and the first compilation, as processor time.
+"""What a person waits for: start-up, reading, a whole command, its pictures, as processor time, and the first compilation by the clock.
 
 Every row is a fresh process, measured by the system with all its children (user and system time), in rounds that do all rows once; the
 smallest of the rounds counts. Times inside a process are those of its own clock of processor time. Python keeps its compiled
@@ -15,6 +15,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -109,10 +110,13 @@ def measured(scan: Path, rounds: int, modules: Path) -> dict[str, float]:
 
 
 def first_result(scan: Path, modules: Path) -> float:
-    """Processor time of a contact for which every kernel must be compiled."""
+    """Time in s from the start to the end of a contact for which every kernel must be compiled, on two processes."""
     command = [sys.executable, "-m", "asperity", "contact", str(scan), *CONTACT]
-    with tempfile.TemporaryDirectory() as name:
-        return processor_seconds(command, environment(modules, NUMBA_CACHE_DIR=name))[0]
+    # the second process may still write there when the contact has ended
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
+        started = time.perf_counter()
+        processor_seconds(command, environment(modules, NUMBA_CACHE_DIR=name))
+        return time.perf_counter() - started
 
 
 def main() -> None:
@@ -128,11 +132,13 @@ def main() -> None:
             write_scan(scan)
         best = measured(scan, given.rounds, Path(folder))
         if given.fresh:
-            best["first contact, kernels compiled"] = min(first_result(scan, Path(folder)) for _ in range(given.fresh))
+            best["first contact, kernels compiled, by the clock"] = min(
+                first_result(scan, Path(folder)) for _ in range(given.fresh)
+            )
     over = {"info": "imports", "contact": "imports", "coated contact, everything": "imports with pictures"}
     for row, seconds in best.items():
         ratio = f"{seconds / best[over[row]]:8.2f} times the {over[row]}" if row in over else ""
-        print(f"{row:<34}{seconds:8.3f} s{ratio}")
+        print(f"{row:<47}{seconds:8.3f} s{ratio}")
     if given.json:
         given.json.write_text(json.dumps(best, indent=2) + "\n")
 

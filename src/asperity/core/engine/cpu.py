@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
 from itertools import pairwise
+from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -51,7 +55,10 @@ class Blocks:
     @cached_property
     def kernels(self) -> Any:
         """Passes over whole arrays and over free sets."""
-        return import_module(".kernels", __package__)
+        passes = import_module(".kernels", __package__)
+        if self.threads > 1:
+            compile_beside(passes.survey)
+        return passes
 
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
         """Call ``kernel`` over all blocks of ``size`` elements."""
@@ -77,6 +84,19 @@ class Blocks:
         partial = np.zeros((blocks, columns))
         self.share(kernel, blocks, *arguments, partial, serial=size < SERIAL_BELOW)
         return partial
+
+
+@cache
+def compile_beside(first: Any) -> None:
+    """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
+    function = first.py_func
+    compiled = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
+    if getattr(sys, "frozen", False) or not sys.executable or any(Path(first.stats.cache_path).glob(compiled)):
+        return
+    command = [sys.executable, "-m", f"{__package__}.first_use"]
+    unseen = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    # the thread waits for its end, so that the system can forget it; the interpreter does not wait for the thread
+    Thread(target=subprocess.call, args=(command,), kwargs=unseen, daemon=True).start()
 
 
 # Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without docstring: see ``protocol``.

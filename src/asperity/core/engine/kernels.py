@@ -352,14 +352,14 @@ def island_sizes(mask, wraps, lines, parent, sizes):  # type: ignore[no-untyped-
                 sizes[found] = 1
             else:
                 if left > 0 and above > 0:
-                    _join(parent, left, above)
+                    _join(parent, np.int64(left), np.int64(above))
                 left = left if left > 0 else above
                 sizes[left] += 1
             lines[1, j] = left
             if i == 0:
                 lines[0, j] = left
         if wraps[1] and lines[1, 0] > 0 and left > 0:
-            _join(parent, lines[1, 0], left)
+            _join(parent, lines[1, 0], np.int64(left))
     for j in range(mask.shape[1]):
         if wraps[0] and lines[0, j] > 0 and lines[1, j] > 0:
             _join(parent, lines[0, j], lines[1, j])

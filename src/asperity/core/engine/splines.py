@@ -11,7 +11,7 @@ merges along x and y to it. Level 0 are the points themselves, in an array with 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import ref
 
@@ -69,14 +69,15 @@ def _neighbours(rows, index, levels, points, factors, out):  # type: ignore[no-u
 
 
 @compiled
-def _rise(span, levels, way, wraps, weights, points, sums, g):  # type: ignore[no-untyped-def]
+def _rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: ignore[no-untyped-def]
     """Sums over the cells of the levels ``way[0]`` to ``way[1]`` of the loads on the ``points``, of the rows of the span.
 
     What a level passes up is left in ``sums``: g S of its sums S, or, to ``_DEFLECT``, S itself. To ``_FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
     """
     near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
-    longest = levels[way[0] - 1, _COLUMNS] + 8
-    line, nothing, unit = np.zeros(longest, g.dtype), np.zeros(longest, g.dtype), np.ones(longest, g.dtype)
+    line, nothing, unit = lines[span[0], 0], lines[span[0], 1], lines[span[0], 2]
+    for k in range(3):
+        line[k] = 0.0
     for depth in range(way[0], way[1] + 1):
         fine, level, weight = levels[depth - 1], levels[depth], weights[depth]
         source = points if depth == 1 else sums
@@ -135,14 +136,13 @@ def _rise(span, levels, way, wraps, weights, points, sums, g):  # type: ignore[n
 
 
 @compiled
-def _fall(span, levels, way, wraps, weights, sums, g):  # type: ignore[no-untyped-def]
+def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no-untyped-def]
     """Deflections of the cells of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``_rise`` has left in ``sums``.
 
     That of a level is w g S plus g times that of the level above; to ``_DEFLECT``, without g.
     """
     near, far = g.dtype.type(0.75), g.dtype.type(0.25)
-    longest = levels[way[1], _COLUMNS] + 8
-    line, unit = np.empty(longest, g.dtype), np.ones(longest, g.dtype)
+    line, unit = lines[span[0], 0], lines[span[0], 2]
     top = len(levels) - 1
     for depth in range(way[0], way[1] - 1, -1):
         level, weight, wide = levels[depth], weights[depth], levels[depth, _COLUMNS]
@@ -203,22 +203,23 @@ def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _at_points(span, levels, wraps, members, points, sums, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
+def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
     """out = (stencil[0] + stencil[1] count) values + what the neighbours among the ``points`` and the cells of level 1 add, at the points of a set.
 
-    ``members`` of the set are (rows, index). ``stencil`` holds further the factors of the nearest points along x and y, of those at twice the distance
+    ``members`` of the set are (rows, index), ``memory`` is (lines, points, sums). ``stencil`` holds further the factors of the nearest points along x and y, of those at twice the distance
     along x and y, of the diagonal ones, and of the deflection of the cells. ``vectors`` are values, count, and two of which the products with out are
     left in ``products``, row by row, after the sum of out.
     """
     rows, index = members
+    lines, points, sums = memory
     values, count, one, other = vectors
     own, each, x1, y1, x2, y2, diagonal, factor = stencil
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
-    lines, columns, stride = levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
+    height, columns, stride = levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
     level = levels[1]
     wide, merges_x, merges_y = level[_COLUMNS], level[_MERGE_X], level[_MERGE_Y]
-    line, found = np.empty(wide + 2, points.dtype), np.empty(columns + 2, points.dtype)
-    for row in range(lines * span[0] // _PARTS, lines * span[1] // _PARTS):
+    line, found = lines[span[0], 0], lines[span[0], 3]
+    for row in range(height * span[0] // _PARTS, height * span[1] // _PARTS):
         total = 0.0
         with_one = 0.0
         with_other = 0.0
@@ -303,6 +304,9 @@ class CpuSplines:
         self._points, self._sums, self._g = (
             np.zeros(size, dtype) for size in (self._layout.points, self._layout.cells, self._layout.cells)
         )
+        # for each part of the rows: a line of sums or deflections, zeros, ones, and what is found at the points of a row
+        self._lines = np.zeros((_PARTS, 4, shape[1] + 8), dtype)
+        self._lines[:, 2] = 1.0
         self._wraps, kind = model.wraps, np.dtype(dtype).type
         self._inverse, self._weights = (
             np.array([0.0, *weights], dtype) for weights in (model.inverse_weights, model.weights)
@@ -364,6 +368,17 @@ class CpuSplines:
         found: RealArray = np.subtract(r, u, out=u)
         return found
 
+    def late_sweeps(self, free: Any) -> list[Callable[[], Any]]:
+        """Calls of the sweeps that a solve needs last, on ``free``: see ``first_use``."""
+        vector = free.zeros()
+        at = (free, self._own, vector, vector, vector, vector, free.empty())
+        gathered = (free.rows, free.index, self._layout.levels, self._points, vector)
+        return [
+            partial(self._fall, _DEFLECT, self._weights),
+            partial(self._at_points, *at),
+            partial(_gather, *gathered),
+        ]
+
     def _rise(self, set_: Any, values: RealArray, purpose: int, weights: RealArray) -> None:
         """Loads ``values`` of the set at its points, and their sums on all levels."""
         levels, large, top = self._layout[:3]
@@ -371,7 +386,7 @@ class CpuSplines:
             self._points[...] = 0.0
             self._loaded = ref(set_)
         _place(set_.rows, set_.index, levels, values, self._points)
-        arguments = self._wraps, weights, self._points, self._sums, self._g
+        arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
         for depth in range(1, large + 1):
             self._share(_rise, levels, (depth, depth, purpose), *arguments, serial=False)
         if large < top:
@@ -380,7 +395,7 @@ class CpuSplines:
     def _fall(self, purpose: int, weights: RealArray) -> None:
         """Deflections on all levels."""
         levels, large, top = self._layout[:3]
-        arguments = self._wraps, weights, self._sums, self._g
+        arguments = self._wraps, weights, self._lines, self._sums, self._g
         if large < top:
             self._share(_fall, levels, (top, large + 1, purpose), *arguments, serial=True)
         for depth in range(large, 0, -1):
@@ -395,8 +410,7 @@ class CpuSplines:
         _surround(levels, self._wraps, self._points)
         arguments = (
             (free.rows, free.index),
-            self._points,
-            self._sums,
+            (self._lines, self._points, self._sums),
             stencil,
             (values, count, one, other),
             out,
