@@ -411,7 +411,7 @@ def finished(
     papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
     return assemble(
         problem,
-        replace(contact, solution=replace(contact.solution, status=status)),
+        contact.ended(status),
         before=before,
         memories={name: memory for name, (memory, _) in ends.items()},
         lift=lift if lift is not None and lift.any() else None,

@@ -75,7 +75,9 @@ def test_the_later_half_of_the_passes_is_compiled_with_the_types_of_a_solve(tmp_
 
 
 FIRST_SOLVE = """
-import subprocess, sys, threading
+import os, subprocess, sys, threading
+if sys.argv[1] == "not compiled":
+    os.environ["NUMBA_DISABLE_JIT"] = "1"
 started = []
 subprocess.call = lambda command, **unseen: started.append(command)
 import numpy as np
@@ -95,10 +97,10 @@ print(*(command[-1] for command in started))
 
 @pytest.mark.parametrize(
     ("installed", "threads", "expected"),
-    [("plain", 2, "asperity.core.engine.first_use"), ("plain", 1, ""), ("frozen", 2, "")],
+    [("plain", 2, "asperity.core.engine.first_use"), ("plain", 1, ""), ("frozen", 2, ""), ("not compiled", 2, "")],
 )
 def test_it_is_started_once_where_there_are_threads_and_an_interpreter(
     tmp_path: Path, installed: str, threads: int, expected: str
 ) -> None:
-    """A frozen application would start itself; one thread has no second core to compile on."""
+    """A frozen application would start itself; one thread has no second core to compile on; Numba may be told not to compile."""
     assert printed(tmp_path, "-c", FIRST_SOLVE, installed, threads=threads).strip() == expected

@@ -13,7 +13,7 @@ import numpy as np
 from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Totals
 from ...core.errors import NoSolutionError
-from ...core.status import Progress
+from ...core.status import Progress, Status
 from ..operators.convolution import Operator
 from ..problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded, mean_pressure
 from ..solvers.protocol import Constraint, ContactQP, Solution, Solver, level_of
@@ -187,6 +187,12 @@ class Contact:
     def force(self) -> float:
         """Force in N that the bodies press each other with."""
         return float(self.pressure.sum(dtype=np.float64)) * self.posed.operator.grid.pixel_area
+
+    def ended(self, status: Status) -> Contact:
+        """The same with this ``status`` of its solution."""
+        same = replace(self, solution=replace(self.solution, status=status))
+        same.__dict__["totals"] = self.totals  # cached there: a survey of all points is not made twice
+        return same
 
     def with_work_of(self, earlier: Contact | None) -> Contact:
         """The same with the work of the rounds before it added."""

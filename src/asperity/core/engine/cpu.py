@@ -89,14 +89,18 @@ class Blocks:
 @cache
 def compile_beside(first: Any) -> None:
     """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
+    interpreter = None if getattr(sys, "frozen", False) else sys.executable
+    if not interpreter or not hasattr(first, "stats"):  # an application of its own, or Numba is told not to compile
+        return
     function = first.py_func
     compiled = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
-    if getattr(sys, "frozen", False) or not sys.executable or any(Path(first.stats.cache_path).glob(compiled)):
+    if any(Path(first.stats.cache_path).glob(compiled)):
         return
-    command = [sys.executable, "-m", f"{__package__}.first_use"]
-    unseen = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    options: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    options["creationflags"] = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows
     # the thread waits for its end, so that the system can forget it; the interpreter does not wait for the thread
-    Thread(target=subprocess.call, args=(command,), kwargs=unseen, daemon=True).start()
+    command = [interpreter, "-m", f"{__package__}.first_use"]
+    Thread(target=subprocess.call, args=(command,), kwargs=options, daemon=True).start()
 
 
 # Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without docstring: see ``protocol``.

@@ -267,7 +267,9 @@ class ActiveSet:
         pressure, deflection = (engine.beyond(late, early, ratio) for late, early in known)
         work = Workspace.of(qp, self.precision, pressure, deflection)
         survey = work.survey()
-        negative = pressure[pressure < 0.0]
+        loaded = np.flatnonzero(pressure != 0.0)
+        values = pressure.ravel()[loaded]
+        negative = values[values < 0.0]
         tension = -float(negative.sum())
         error = relative_error(work, survey.totals) + tension / survey.totals.pressure
         if error <= self.tolerance:  # only the product from scratch shows that
@@ -277,7 +279,7 @@ class ActiveSet:
             return self._started(qp, begin, products + 1, pairs)
         tensile = None
         if negative.size:
-            tensile = engine.points(qp.profile.shape, np.flatnonzero(pressure), work.scaled.dtype)
+            tensile = engine.points(qp.profile.shape, loaded, work.scaled.dtype)
         clipped = max(1, negative.size)
         memory = _Memory(work, survey, error, clipped=clipped, unsuccessful=0, tensile=tensile, tension=tension)
         return self._state(memory, SolverState(pressure, deflection, np.inf, applications=products))
