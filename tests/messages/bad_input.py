@@ -316,6 +316,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a hardness map of another shape": lambda: _problem(law=asp.Hardness(np.ones((3, 4)))),
     "a number as control": lambda: asp.solve(_problem(), 50e3),  # type: ignore[arg-type]
     "text as control": lambda: asp.solve(_problem(), "50 kPa"),  # type: ignore[arg-type]
+    "a keyword of another function": lambda: asp.solve(_problem(), asp.MeanPressure(1.0), threads=2),  # type: ignore[call-overload]
     "a solver by its name": lambda: asp.solve(_problem(), asp.MeanPressure(0.1), solver="nnls"),  # type: ignore[arg-type]
     "an unknown choice on failure": lambda: asp.solve(_problem(), asp.MeanPressure(0.1), on_failure="ignore"),  # type: ignore[call-overload]
     "an operator of another grid": lambda: asp.solve(

@@ -83,6 +83,11 @@ class _Options(TypedDict, total=False):
     on_failure: Literal["raise", "return"]
 
 
+def _require_known(options: Mapping[str, object]) -> None:
+    for name in options:
+        require.one_of(name, _Options.__annotations__, "keyword of solve")
+
+
 @overload
 def solve(problem: ContactProblem, control: Control | Step, **options: Unpack[_Options]) -> ContactResult: ...
 
@@ -140,8 +145,9 @@ def solve(
     ConvergenceError
         If the tolerance is not reached and ``on_failure`` is ``"raise"``.
     InputError
-        If the control is none, or state or operator do not belong to the problem.
+        If the control is none, state or operator do not belong to the problem, or a keyword is none of these.
     """
+    _require_known(options)
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     if isinstance(control, History):
         return HistoryResult(_all_results(problem, control, on_failure, **options), options.get("state"))
@@ -170,6 +176,7 @@ def steps(
 
     Arguments and errors are those of ``solve``; what is wrong with them is raised at the call, before any step.
     """
+    _require_known(options)
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     ordered = history if isinstance(history, History) else History(history)
     prepared = Prepared(problem, keep=keep or Keep(stiffness=False), sticks=sticks(problem, ordered, state), **options)
