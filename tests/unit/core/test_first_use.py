@@ -76,6 +76,7 @@ def test_the_later_half_of_the_passes_is_compiled_with_the_types_of_a_solve(tmp_
 
 FIRST_SOLVE = """
 import os, subprocess, sys, threading
+from pathlib import Path
 if sys.argv[1] == "not compiled":
     os.environ["NUMBA_DISABLE_JIT"] = "1"
 started = []
@@ -84,8 +85,16 @@ import numpy as np
 import asperity as asp
 from asperity.core.engine import CpuEngine
 
-if sys.argv[1] == "frozen":
+case = sys.argv[1]
+if case == "frozen":
     sys.frozen = True
+if case in ("compiled", "outdated"):
+    from asperity.core.engine import kernels
+    index = Path(kernels.survey.stats.cache_path) / "kernels.survey-1.py{0}{1}.1.nbi".format(*sys.version_info)
+    index.parent.mkdir(parents=True, exist_ok=True)
+    index.touch()
+    if case == "outdated":
+        os.utime(index, (1.0, 1.0))
 for _ in range(2):
     CpuEngine().blocks.kernels
 for thread in threading.enumerate():
@@ -97,10 +106,17 @@ print(*(command[-1] for command in started))
 
 @pytest.mark.parametrize(
     ("installed", "threads", "expected"),
-    [("plain", 2, "asperity.core.engine.first_use"), ("plain", 1, ""), ("frozen", 2, ""), ("not compiled", 2, "")],
+    [
+        ("plain", 2, "asperity.core.engine.first_use"),
+        ("plain", 1, ""),
+        ("frozen", 2, ""),
+        ("not compiled", 2, ""),
+        ("compiled", 2, ""),
+        ("outdated", 2, "asperity.core.engine.first_use"),
+    ],
 )
 def test_it_is_started_once_where_there_are_threads_and_an_interpreter(
     tmp_path: Path, installed: str, threads: int, expected: str
 ) -> None:
-    """A frozen application would start itself; one thread has no second core to compile on; Numba may be told not to compile."""
+    """A frozen application would start itself; one thread has no second core to compile on; Numba may be told not to compile, or has done so from the same source."""
     assert printed(tmp_path, "-c", FIRST_SOLVE, installed, threads=threads).strip() == expected

@@ -90,17 +90,28 @@ class Blocks:
 def compile_beside(first: Any) -> None:
     """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
     interpreter = None if getattr(sys, "frozen", False) else sys.executable
-    if not interpreter or not hasattr(first, "stats"):  # an application of its own, or Numba is told not to compile
-        return
-    function = first.py_func
-    compiled = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
-    if any(Path(first.stats.cache_path).glob(compiled)):
+    # an application of its own, or Numba is told not to compile
+    if not interpreter or not hasattr(first, "stats") or _compiled_before(first):
         return
     options: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     options["creationflags"] = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows
     # the thread waits for its end, so that the system can forget it; the interpreter does not wait for the thread
     command = [interpreter, "-m", f"{__package__}.first_use"]
     Thread(target=subprocess.call, args=(command,), kwargs=options, daemon=True).start()
+
+
+def _compiled_before(kernel: Any) -> bool:
+    """Whether the cache on disk holds ``kernel`` for this Python and as its source is now."""
+    function, version = kernel.py_func, sys.version_info
+    module = function.__module__.rpartition(".")[2]
+    indices = Path(kernel.stats.cache_path).glob(
+        f"{module}.{function.__name__}-*.py{version.major}{version.minor}*.nbi"
+    )
+    try:
+        changed = Path(function.__code__.co_filename).stat().st_mtime
+        return any(index.stat().st_mtime >= changed for index in indices)
+    except OSError:  # the source is in an archive
+        return True
 
 
 # Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without docstring: see ``protocol``.
