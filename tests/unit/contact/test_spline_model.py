@@ -96,7 +96,7 @@ def test_the_model_is_near_the_compliance_on_any_set(
 ) -> None:
     """Deflections are within a factor 1.35 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
     of an odd number, on lines, oblong pixels and stiff films within 1.75 (a line of few points, random sets: the worst is 0.58 to 1.49). The
-    inverse is symmetric and positive definite, and on gentle bodies within a factor 2.6 of one multiple of the true one."""
+    inverse is symmetric and positive definite, and within a factor 2.6 of one multiple of the true one, 4.2 with the film of E 10."""
     compliance, shape, spacing, boundary = case
     points = np.random.default_rng(3).permutation(shape[0] * shape[1])[: max(int(share * shape[0] * shape[1]), 4)]
     inside = np.zeros(shape)
@@ -108,21 +108,22 @@ def test_the_model_is_near_the_compliance_on_any_set(
     assert np.linalg.eigvalsh(found["M"])[0] > 0.0
     ratios = eigh(found["K"], found["B"], eigvals_only=True)
     plain = max(spacing) == 1.0 < min(shape) and (boundary == asp.Free() or not any(n % 2 for n in shape))
-    wide = 1.35 if plain and scaled.modelled.steepness <= 3.0 else 1.75
+    gentle = scaled.modelled.steepness <= 1.5
+    wide = 1.35 if plain and gentle else 1.75
     assert 1.0 / wide <= ratios[0]
     assert ratios[-1] <= wide
     whole = np.linalg.eigvals(found["M"] @ found["K"]).real
     assert whole.min() > 0.0
-    if scaled.modelled.steepness <= 3.0:
-        assert whole.max() / whole.min() < 2.6
+    assert whole.max() / whole.min() < (2.6 if gentle else 4.2)
 
 
-def test_the_steepness_is_the_ratio_of_moduli_of_a_film() -> None:
-    operator = asp.prepare_operator(film(10.0, 40.0), grid((65536, 1)), asp.Periodic())
-    assert spline_compliance(operator, 1.0).steepness == pytest.approx(10.0, rel=0.01)
-    assert spline_compliance(
-        asp.prepare_operator(BODY, grid((64, 64)), asp.Periodic()), 1.0
-    ).steepness == pytest.approx(1.0)
+@pytest.mark.parametrize("compliance", [BODY, film(10.0, 2.0), film(10.0, 40.0), film(0.1, 2.0)])
+def test_the_steepness_is_the_rise_of_the_compliance_to_waves_of_sixteen_points(compliance: Compliance) -> None:
+    """Over that of a half-space, q times the compliance: a film as thick as they are long shows itself alone, a soft one makes none."""
+    operator = asp.prepare_operator(compliance, grid((64, 64)), asp.Periodic())
+    q = np.pi / np.array([1.0, 2.0, 4.0, 8.0])
+    rise = q * compliance.spectral(q)
+    assert spline_compliance(operator, 1.0).steepness == pytest.approx(float(np.maximum(rise / rise[0], 1.0).max()))
 
 
 def test_the_model_scales_with_the_compliance() -> None:
@@ -185,7 +186,7 @@ def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.B
 
 
 def test_steps_on_the_model_spare_products_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The inverse of the model as it is, and the same refined by conjugate gradients on the model: 13 products for 8 (E 10), 18 for 8 (E 30)."""
+    """The inverse of the model as it is, and the same refined by conjugate gradients on the model: 11 products for 8 (E 10), 14 for 10 (E 30)."""
     inside = rough_set((128, 128), 0.2, 7)
     refined = [steps_to(inside, 1e-6, film(ratio)) for ratio in (10.0, 30.0)]
     monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEEP", np.inf)

@@ -144,10 +144,10 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 # The linear system of a step, and its preconditioner.
 
 
-_STEEP = 3.0
+_STEEP = 1.5
 """Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1, 6: the same; for 1e9 (never): film 14.0."""
 
-_MODEL_STEPS = 3
+_MODEL_STEPS = 2
 """Steps on the model of the compliance then, each as dear as two uses of its inverse. Pairs for 2: film 10.2; for 4 the same."""
 
 _FIRST_STEPS = 1

@@ -182,8 +182,9 @@ but film 9.7 for 0.01; for 0.05: film 18.0, free 26.8, tight 14.9 (constants and
 _RELATIVE = 1.0, 1.8, 1.9, 1.6, 1.66, 2.6
 """Compliance of a level in the inverse over that of the body at pi over the side of its cells, relative to single points; the last holds for all further levels."""
 
-_STEEPER = 1.45
-"""Power of c(q) q, where it exceeds that of single points, by which that of a level is larger still. Pairs for 0.7, 2: film 9.4, 9.7."""
+_AHEAD, _STEEPER = 2, 0.7
+"""Levels further up at which c(q) q, where it exceeds that of single points, makes the compliance of a level larger still, by this power; the share for the
+curvature falls by the same power from there to the longest waves."""
 
 _FALL, _BEND = 0.34, 0.24
 """Shares of the local stiffness: for differences from the neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5:
@@ -193,12 +194,16 @@ elastic 8.3, 8.0, 8.0; film 9.7, 9.7, 9.4; free 26.8, 23.8, 25.3; tight 16.4, 14
 _OBLONG = 1.7
 """Share of it along the longer side of a pixel, times the ratio of the sides."""
 
-_SMALLEST, _LARGEST, _SPREAD = 1.62, 2.42, 0.35
-"""Bounds of the eigenvalues of M K, in the compliance of a point at the shortest wavelength; the upper one grows with this power of the steepness."""
+_MIDDLE = 2.02
+"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength: they are 1.62 to 2.42 on half-spaces, 1.1 to 2.7 with films of
+E 10 from 8 pixels on, up to 7 with thinner or stiffer ones."""
+
+_NEAR = 3
+"""Level of cells, of eight points, at which a compliance is steep or not: half the shortest wave of it."""
 
 
 class SplineCompliance(NamedTuple):
-    """``model`` of a compliance, and by which factor c(q) q exceeds that of the shortest waves at most: 1 for a half-space, E for a thick film of E on a base of 1."""
+    """``model`` of a compliance, and its steepness: by which factor c(q) q exceeds that of the shortest waves at waves of 16 points, more than 1 for stiff films thinner than that."""
 
     model: SplineModel
     steepness: float
@@ -219,8 +224,10 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
     relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
     steep = levels * sides[0] / (levels[0] * sides)
-    rises = np.diff(relative * levels * np.maximum(steep, 1.0) ** _STEEPER) / (relative[0] * levels[0] * points[1:])
-    middle = 0.5 * (_SMALLEST + _LARGEST * float(steep.max()) ** _SPREAD)
+    above = np.maximum(steep, 1.0)[np.minimum(np.arange(len(levels)) + _AHEAD, len(levels) - 1)] ** _STEEPER
+    bent = _BEND * above[0] / above[-1]
+    above[0] = 1.0
+    rises = np.diff(relative * levels * above) / (relative[0] * levels[0] * points[1:])
     wraps, finest = operator.boundary.wraps, min(grid.spacing)
     local = [
         min(1.0, _OBLONG * finest / side) if n > 1 else 0.0 for side, n in zip(grid.spacing, grid.shape, strict=True)
@@ -231,11 +238,11 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
         weights=tuple((parts[_LOCAL:] / (points[1:] * scale)).tolist()),
         own=tuple((parts[:_LOCAL] / scale).tolist()),
         inverse_weights=tuple(rises.tolist()),
-        stiffness=scale / (middle * float(levels[0])),
+        stiffness=scale / (_MIDDLE * float(levels[0])),
         fall=(_FALL * local[0], _FALL * local[1]),
-        bend=(_BEND * local[0], _BEND * local[1]),
+        bend=(bent * local[0], bent * local[1]),
     )
-    return SplineCompliance(model, float(steep.max()))
+    return SplineCompliance(model, float(steep[: _NEAR + 1].max()))
 
 
 _LOCAL = 4
