@@ -20,7 +20,7 @@ from ..boundary import Boundary, Free, FreeLine, Periodic
 
 
 _OCTAVES_AHEAD = 8
-"""Octaves computed in advance beyond the largest wavenumber asked for: from the coarsest grid of 64² points up to 16384²."""
+"""Octaves computed in advance beyond the wavenumbers asked for: from the coarsest grid of 64² points up to 16384²."""
 
 
 class Spectral(Protocol):
@@ -31,9 +31,9 @@ class Spectral(Protocol):
 
 
 class Octaves:
-    """Compliance at the few wavenumbers, an octave apart, that preconditioners of all grids need; values are kept.
+    """Compliance at the few wavenumbers, an octave apart or in equal parts of one, that preconditioners of all grids need; values are kept.
 
-    Few values cost as much as one: 3 ms for 32 sublayers, twenty times in one solve at 1024² if nothing is kept.
+    Few values cost as much as one: 3 to 10 ms for 32 sublayers, eight times in one solve at 512² if nothing is kept.
     """
 
     def __init__(self, compliance: Spectral) -> None:
@@ -44,10 +44,12 @@ class Octaves:
         """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
         keys = [_key(q) for q in wavenumber.tolist()]
         if not all(key in self._known for key in keys):
-            ahead = float(np.max(wavenumber)) * 2.0 ** np.arange(1, _OCTAVES_AHEAD + 1)
-            asked = np.concatenate([wavenumber, ahead])
-            found = np.asarray(self._compliance.spectral(asked), dtype=float)
-            self._known.update((_key(q), float(c)) for q, c in zip(asked, found, strict=True))
+            ahead = np.multiply.outer(2.0 ** np.arange(_OCTAVES_AHEAD + 1), wavenumber).ravel()
+            missing = {
+                key: q for key, q in zip(map(_key, ahead.tolist()), ahead, strict=True) if key not in self._known
+            }
+            found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
+            self._known.update(zip(missing, found.tolist(), strict=True))
         return np.array([self._known[key] for key in keys])
 
 

@@ -18,7 +18,7 @@ fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
-for 8, 32, 64: elastic 8.0, 8.3, 8.3; films 9.7, 9.4, 9.9 (16: 8.0 and 9.4; cases: see ``benchmarks/constants.py``)."""
+for 8, 32, 64: elastic 8.0, 8.3, 8.3; films 9.2, 9.4, 9.7 (16: 8.0 and 9.7; cases: see ``benchmarks/constants.py``)."""
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ from .linear_system import PressureChange, Workspace
 
 _PRIOR = 4.0
 """Loaded points as which the mean over the wider square counts in that of a square, so that few points do not decide alone.
-Pairs for 1, 2: free 24.6; for 8, 16 the same."""
+Pairs for 1, 2: free 24.6; for 8: film 9.4; for 16 the same."""
 
 _SCATTER_SHARE = 0.5
 """Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 8.0, 8.0, 8.2, 8.7; film
-9.4, 9.4, 9.7, 9.7; free 24.6, 24.6, 25.3, 26.1; cap 6.4, 6.0, 6.2, 7.2; tight 14.4, 14.4, 14.4, 14.9."""
+9.4, 9.7, 9.7, 9.4; free 24.6, 24.6, 25.3, 26.1; cap 6.4, 6.0, 6.2, 7.2; tight 14.4, 14.4, 14.4, 14.9."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""

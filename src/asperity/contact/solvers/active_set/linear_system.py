@@ -145,21 +145,21 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 
 
 _STEEP = 1.5
-"""Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1, 6: the same; for 1e9 (never): film 14.0."""
+"""Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1, 3: film 9.4, 10.9; for 1e9 (never): film 10.5."""
 
 _MODEL_STEPS = 2
-"""Steps on the model of the compliance then, each as dear as two uses of its inverse. Pairs for 2: film 10.2; for 4 the same."""
+"""Steps on the model of the compliance then, each as dear as two uses of its inverse. Pairs for 1, 3, 4: film 10.5, 9.4, 9.4."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 9.5, film 10.2, free 29.1, cap 8.9, tight 15.0, monotone
-10.7; for 2: elastic 7.8, film 9.7, free 24.6, tight 15.7."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 9.5, film 12.0, free 29.1, cap 8.9, tight 15.0, monotone
+10.7; for 2: elastic 7.8, film 9.4, free 24.6, tight 15.7."""
 
 _LAST_LENGTH = 0.85
-"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: film 9.7; for 1: free 24.6, cap 6.7, tight 14.2."""
+"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: the same; for 1: free 24.6, cap 6.7, tight 14.2."""
 
 _STEP_LENGTH = 1.0
 """Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 10.3, 9.0, 9.5, 10.5; film
-11.2, 9.7, 10.2, 12.0; free 31.4, 26.8, 27.6, 30.7; cap 8.5, 7.0, 7.0, 9.3; monotone 12.0, 10.2, 11.2, 13.0."""
+11.3, 10.5, 10.5, 11.9; free 31.4, 26.8, 27.6, 30.7; cap 8.5, 7.0, 7.0, 9.3; monotone 12.0, 10.2, 11.2, 13.0."""
 
 
 @dataclass(frozen=True, eq=False)
