@@ -225,7 +225,7 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
     steep = levels * sides[0] / (levels[0] * sides)
     above = np.maximum(steep, 1.0)[np.minimum(np.arange(len(levels)) + _AHEAD, len(levels) - 1)] ** _STEEPER
-    bent = _BEND * above[0] / above[-1]
+    bent = _BEND * float(above[0] / above[-1])
     above[0] = 1.0
     rises = np.diff(relative * levels * above) / (relative[0] * levels[0] * points[1:])
     wraps, finest = operator.boundary.wraps, min(grid.spacing)
