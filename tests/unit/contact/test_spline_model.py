@@ -119,7 +119,7 @@ def test_the_model_is_near_the_compliance_on_any_set(
 
 @pytest.mark.parametrize("compliance", [BODY, film(10.0, 2.0), film(10.0, 40.0), film(0.1, 2.0)])
 def test_the_steepness_is_the_rise_of_the_compliance_to_waves_of_sixteen_points(compliance: Compliance) -> None:
-    """Over that of a half-space, q times the compliance: a film as thick as they are long shows itself alone, a soft one makes none."""
+    """The largest q c(q) down to these waves over that of the shortest: 1 for a half-space, a thick film and a soft one."""
     operator = asp.prepare_operator(compliance, grid((64, 64)), asp.Periodic())
     q = np.pi / np.array([1.0, 2.0, 4.0, 8.0])
     rise = q * compliance.spectral(q)

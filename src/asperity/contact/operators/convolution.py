@@ -45,9 +45,7 @@ class Octaves:
         keys = [_key(q) for q in wavenumber.tolist()]
         if not all(key in self._known for key in keys):
             ahead = np.multiply.outer(2.0 ** np.arange(_OCTAVES_AHEAD + 1), wavenumber).ravel()
-            missing = {
-                key: q for key, q in zip(map(_key, ahead.tolist()), ahead, strict=True) if key not in self._known
-            }
+            missing = {key: q for q in ahead.tolist() if (key := _key(q)) not in self._known}
             found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
             self._known.update(zip(missing, found.tolist(), strict=True))
         return np.array([self._known[key] for key in keys])

@@ -57,7 +57,7 @@ class Blocks:
         """Passes over whole arrays and over free sets."""
         passes = import_module(".kernels", __package__)
         if self.threads > 1:
-            compile_beside(passes.survey)
+            _compile_beside(passes.survey)
         return passes
 
     def run(self, kernel: Callable[..., None], size: int, *arguments: Any) -> None:
@@ -87,7 +87,7 @@ class Blocks:
 
 
 @cache
-def compile_beside(first: Any) -> None:
+def _compile_beside(first: Any) -> None:
     """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
     interpreter = None if getattr(sys, "frozen", False) else sys.executable
     # an application of its own, or Numba is told not to compile

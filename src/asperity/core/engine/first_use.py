@@ -34,7 +34,7 @@ def passes() -> list[Callable[[], Any]]:
         bend=(0.0, 0.0),
     )
     convolution = engine.convolution(np.ones((16, 9)), shape, single)
-    islands = (mask, (True, True), np.zeros((2, 16), np.int64), np.zeros(145, np.int64), np.zeros(145, np.int64))
+    rows, parent, sizes = (np.zeros(size, np.int64) for size in ((2, 16), mask.size, mask.size))
     return [
         *engine.splines(shape, model, single).late_sweeps(free),
         partial(free.update_direction, vector, 0.0, 0.0, vector.copy(), vector, field),
@@ -49,7 +49,7 @@ def passes() -> list[Callable[[], Any]]:
         partial(free.scatter_add, vector, 1.0, field),
         partial(engine.prolonged, np.zeros((8, 8)), np.zeros((8, 8)), p, 1.0),
         partial(engine.violation, p, p, p, None, 0.0),
-        partial(engine.blocks.kernels.island_sizes, *islands),
+        partial(engine.blocks.kernels.island_sizes, mask, (True, True), rows, parent, sizes),
     ]
 
 

@@ -352,7 +352,7 @@ def island_sizes(mask, wraps, lines, parent, sizes):  # type: ignore[no-untyped-
                 sizes[found] = 1
             else:
                 if left > 0 and above > 0:
-                    _join(parent, np.int64(left), np.int64(above))
+                    _join(parent, np.int64(left), np.int64(above))  # of one type, to be compiled once
                 left = left if left > 0 else above
                 sizes[left] += 1
             lines[1, j] = left

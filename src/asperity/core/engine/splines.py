@@ -33,7 +33,7 @@ _SOLVE, _FACTORISE, _DEFLECT = range(3)
 """What a sweep is for: the inverse, g for it, or the deflection by loads."""
 
 _PARTS = 64
-"""Parts into which the rows of a level are divided among threads."""
+"""Parts into which the rows of a level are divided among threads: the line of scratch memory of a thread follows from its first part."""
 
 
 @compiled
@@ -75,7 +75,8 @@ def _rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: i
     What a level passes up is left in ``sums``: g S of its sums S, or, to ``_DEFLECT``, S itself. To ``_FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
     """
     near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
-    line, nothing, unit = lines[span[0], 0], lines[span[0], 1], lines[span[0], 2]
+    scratch = lines[-(-span[0] * len(lines) // _PARTS)]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
     for k in range(3):
         line[k] = 0.0
     for depth in range(way[0], way[1] + 1):
@@ -142,7 +143,8 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no
     That of a level is w g S plus g times that of the level above; to ``_DEFLECT``, without g.
     """
     near, far = g.dtype.type(0.75), g.dtype.type(0.25)
-    line, unit = lines[span[0], 0], lines[span[0], 2]
+    scratch = lines[-(-span[0] * len(lines) // _PARTS)]
+    line, unit = scratch[0], scratch[2]
     top = len(levels) - 1
     for depth in range(way[0], way[1] - 1, -1):
         level, weight, wide = levels[depth], weights[depth], levels[depth, _COLUMNS]
@@ -218,7 +220,8 @@ def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, prod
     height, columns, stride = levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
     level = levels[1]
     wide, merges_x, merges_y = level[_COLUMNS], level[_MERGE_X], level[_MERGE_Y]
-    line, found = lines[span[0], 0], lines[span[0], 3]
+    scratch = lines[-(-span[0] * len(lines) // _PARTS)]
+    line, found = scratch[0], scratch[3]
     for row in range(height * span[0] // _PARTS, height * span[1] // _PARTS):
         total = 0.0
         with_one = 0.0
@@ -304,8 +307,8 @@ class CpuSplines:
         self._points, self._sums, self._g = (
             np.zeros(size, dtype) for size in (self._layout.points, self._layout.cells, self._layout.cells)
         )
-        # for each part of the rows: a line of sums or deflections, zeros, ones, and what is found at the points of a row
-        self._lines = np.zeros((_PARTS, 4, shape[1] + 8), dtype)
+        # for each thread: a line of sums or deflections, zeros, ones, and what is found at the points of a row
+        self._lines = np.zeros((min(blocks.threads, _PARTS), 4, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
         self._wraps, kind = model.wraps, np.dtype(dtype).type
         self._inverse, self._weights = (

@@ -195,8 +195,8 @@ _OBLONG = 1.7
 """Share of it along the longer side of a pixel, times the ratio of the sides."""
 
 _MIDDLE = 2.02
-"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength: they are 1.62 to 2.42 on half-spaces, 1.1 to 2.7 with films of
-E 10 from 8 pixels on, up to 7 with thinner or stiffer ones."""
+"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength: they are 1.6 to 2.4 on half-spaces, 1.2 to 2.9 with films of
+E 10 from 8 pixels on, up to 8 with thinner ones, up to 17 with E 100 on 2 pixels."""
 
 _NEAR = 3
 """Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model. Pairs for 2, 4, 5: film 10.9, 9.4, 9.4."""
@@ -226,8 +226,8 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     steep = levels * sides[0] / (levels[0] * sides)
     above = np.maximum(steep, 1.0)[np.minimum(np.arange(len(levels)) + _AHEAD, len(levels) - 1)] ** _STEEPER
     bent = _BEND * float(above[0] / above[-1])
-    above[0] = 1.0
-    rises = np.diff(relative * levels * above) / (relative[0] * levels[0] * points[1:])
+    inverse = np.append(levels[0], (relative * levels * above)[1:])  # that of a point is its own
+    rises = np.diff(inverse) / (levels[0] * points[1:])
     wraps, finest = operator.boundary.wraps, min(grid.spacing)
     local = [
         min(1.0, _OBLONG * finest / side) if n > 1 else 0.0 for side, n in zip(grid.spacing, grid.shape, strict=True)
