@@ -18,7 +18,7 @@ from weakref import ref
 import numpy as np
 
 from ..arrays import RealArray
-from .kernels import compiled
+from .kernels import compiled, natural
 from .protocol import Products, SplineModel, cells_of
 
 if TYPE_CHECKING:
@@ -208,20 +208,21 @@ def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
 def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
     """out = (stencil[0] + stencil[1] count) values + what the neighbours among the ``points`` and the cells of level 1 add, at the points of a set.
 
-    ``members`` of the set are (rows, index), ``memory`` is (lines, points, sums). ``stencil`` holds further the factors of the nearest points along x and y, of those at twice the distance
+    ``members`` of the set are (rows, index), ``memory`` is (lines, found, points, sums), found being lines as well: were they rows of the same array, the
+    loop that writes every second value would not be vectorised. ``stencil`` holds further the factors of the nearest points along x and y, of those at twice the distance
     along x and y, of the diagonal ones, and of the deflection of the cells. ``vectors`` are values, count, and two of which the products with out are
     left in ``products``, row by row, after the sum of out.
     """
     rows, index = members
-    lines, points, sums = memory
+    lines, founds, points, sums = memory
     values, count, one, other = vectors
     own, each, x1, y1, x2, y2, diagonal, factor = stencil
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
     height, columns, stride = levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
     level = levels[1]
     wide, merges_x, merges_y = level[_COLUMNS], level[_MERGE_X], level[_MERGE_Y]
-    scratch = lines[-(-span[0] * len(lines) // _PARTS)]
-    line, found = scratch[0], scratch[3]
+    thread = -(-span[0] * len(lines) // _PARTS)
+    line, found = lines[thread, 0], founds[thread]
     for row in range(height * span[0] // _PARTS, height * span[1] // _PARTS):
         total = 0.0
         with_one = 0.0
@@ -276,9 +277,11 @@ def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, prod
                 )
                 for j in range(2 * pairs):
                     found[j] += x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
-            base += 2 * first
-            for k in range(rows[row], rows[row + 1]):
-                z = (own + each * count[k]) * values[k] + found[np.int64(index[k]) - base]
+            begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(base + 2 * first)
+            for k in range(begins, ends):
+                out[k] = found[natural(index[k]) - before]
+            for k in range(begins, ends):
+                z = (own + each * count[k]) * values[k] + out[k]
                 out[k] = z
                 total += z
                 with_one += np.float64(z) * one[k]
@@ -307,9 +310,10 @@ class CpuSplines:
         self._points, self._sums, self._g = (
             np.zeros(size, dtype) for size in (self._layout.points, self._layout.cells, self._layout.cells)
         )
-        # for each thread: a line of sums or deflections, zeros, ones, and what is found at the points of a row
-        self._lines = np.zeros((min(blocks.threads, _PARTS), 4, shape[1] + 8), dtype)
+        # for each thread: a line of sums or deflections, zeros and ones; what is found at the points of a row
+        self._lines = np.zeros((min(blocks.threads, _PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
+        self._found = np.zeros((len(self._lines), shape[1] + 8), dtype)
         self._wraps, kind = model.wraps, np.dtype(dtype).type
         self._inverse, self._weights = (
             np.array([0.0, *weights], dtype) for weights in (model.inverse_weights, model.weights)
@@ -413,7 +417,7 @@ class CpuSplines:
         _surround(levels, self._wraps, self._points)
         arguments = (
             (free.rows, free.index),
-            (self._lines, self._points, self._sums),
+            (self._lines, self._found, self._points, self._sums),
             stencil,
             (values, count, one, other),
             out,
