@@ -21,8 +21,8 @@ BLOCK = 1 << 14
 _OPTIONS: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 natural: Any = np.uint64
-"""Type of the indices of long loops: a signed index may count from the end of an array, as in Python. Telling which at every access keeps a loop from being vectorised; with
-an unsigned one ``update_solution`` takes a quarter of the time, ``scale_spectrum`` a third, ``add`` a quarter. Together with a signed number it makes a float."""
+"""Type of the indices of long loops. A signed index could be negative and count from the end of the array, which Numba tests at every access, so that loops are not
+vectorised; with unsigned ones ``update_solution`` and ``add`` take a quarter of the time, ``scale_spectrum`` a third. Arithmetic of an unsigned and a signed integer gives a float: cast both."""
 
 in_order: Any = njit(**_OPTIONS)
 """For differences of differences, which must be rounded one by one: equal residuals are then at no distance from each other."""
@@ -62,7 +62,7 @@ def coupled_product(span, x, y, z, xx, yy, xy, zz, zx, zy):  # type: ignore[no-u
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
     """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of loaded points, their sum r and r².
 
-    Where p < 0 it counts as 0. No branches, and the lowest, which may be a number or not, on its own: the rest vectorises.
+    Where p < 0 it counts as 0. The sums are without branches, so that they are vectorised; the minimum is not, since it must hold with NaN, and has a loop of its own.
     """
     for band in range(span[0], span[1]):
         total = 0.0
@@ -428,25 +428,6 @@ def scatter_change(span, index, place, old, values, r, change, field, sums):  # 
 
 
 @compiled
-def gather_products(span, index, field, a, b, values, sums):  # type: ignore[no-untyped-def]
-    """values = field[index]; per block: sum values, sum values·a, sum values·b."""
-    for block in range(span[0], span[1]):
-        total = 0.0
-        first = 0.0
-        second = 0.0
-        for k in range(natural(block * BLOCK), natural(min((block + 1) * BLOCK, index.size))):
-            values[k] = field[index[k]]
-        for k in range(natural(block * BLOCK), natural(min((block + 1) * BLOCK, index.size))):
-            value = np.float64(values[k])
-            total += value
-            first += value * a[k]
-            second += value * b[k]
-        sums[block, 0] = total
-        sums[block, 1] = first
-        sums[block, 2] = second
-
-
-@compiled
 def products(span, values, a, b, sums):  # type: ignore[no-untyped-def]
     """Per block: sum values, sum values·a, sum values·b."""
     for block in range(span[0], span[1]):
@@ -461,6 +442,14 @@ def products(span, values, a, b, sums):  # type: ignore[no-untyped-def]
         sums[block, 0] = total
         sums[block, 1] = first
         sums[block, 2] = second
+
+
+@compiled
+def gather_products(span, index, field, a, b, values, sums):  # type: ignore[no-untyped-def]
+    """values = field[index]; per block: sum values, sum values·a, sum values·b."""
+    for k in range(natural(span[0] * BLOCK), natural(min(span[1] * BLOCK, index.size))):
+        values[k] = field[index[k]]
+    products(span, values, a, b, sums)
 
 
 @compiled

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .kernels import compiled
+from .kernels import compiled, natural
 
 START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, OFFSET_X, OFFSET_Y, ROLL_X, ROLL_Y = range(10)
 
@@ -162,7 +162,7 @@ def subtract_deflections(span, levels, shape, rows, index, values, other, s, out
             column_one, column_two = i + shift_one, i + shift_two
             column_one -= shape[1] if column_one >= end_one else 0
             column_two -= shape[1] if column_two >= end_two else 0
-            d = s[np.uint64(base_one + (column_one >> merge_one))] + s[np.uint64(base_two + (column_two >> merge_two))]
+            d = s[natural(base_one + (column_one >> merge_one))] + s[natural(base_two + (column_two >> merge_two))]
             z = values[k] - half * d
             out[k] = z
             total += z
