@@ -20,45 +20,9 @@ CLOSE = 1e-7
 """Part of √(J2/3) by which the principal stresses above may be wrong: near r = ±1 the rounding of r, 1e-15, becomes its root."""
 
 _MOST = 256  # points kept that are as close to the largest: a uniform field has more, all within ``CLOSE``
-_LANES = 256  # points of a row at a time: their largest values so far stay in the first-level cache
 
 # no stress is NaN: without that case comparisons become vector instructions
 _compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "nnan"})
-
-
-@_compiled
-def _invariants(xx, yy, zz, xy, xz, yz, least, J2, mean, tension):  # type: ignore[no-untyped-def]
-    """Raise the largest of J2, mean stress, and 4 J2/3 - (least - mean)|least - mean|, positive where σ1 may be above ``least``."""
-    for k in range(xx.size):
-        a, b, c = np.float64(xx[k]), np.float64(yy[k]), np.float64(zz[k])
-        d, e, f = np.float64(xy[k]), np.float64(xz[k]), np.float64(yz[k])
-        m = (a + b + c) * (1.0 / 3.0)
-        a, b, c = a - m, b - m, c - m
-        j = 0.5 * (a * a + b * b + c * c) + d * d + e * e + f * f
-        t = least - m
-        J2[k] = max(J2[k], j)
-        mean[k] = max(mean[k], m)
-        tension[k] = max(tension[k], j * (4.0 / 3.0) - t * abs(t))
-
-
-@_compiled
-def _tangential(xx, yy, xy, xz, yz, least, in_plane, along, across):  # type: ignore[no-untyped-def]
-    """Likewise the square of the half difference of the stresses in the plane less that of ``least``, |σxz| and |σyz|."""
-    for k in range(xx.size):
-        a, b, d = np.float64(xx[k]), np.float64(yy[k]), np.float64(xy[k])
-        half, t = 0.5 * (a - b), least - 0.5 * (a + b)
-        in_plane[k] = max(in_plane[k], half * half + d * d - t * abs(t))
-        along[k] = max(along[k], abs(np.float64(xz[k])))
-        across[k] = max(across[k], abs(np.float64(yz[k])))
-
-
-@_compiled
-def _tractions(zz, xz, yz, square, normal):  # type: ignore[no-untyped-def]
-    """Likewise the square of the shear traction on the plane, and σzz."""
-    for k in range(zz.size):
-        a, b = np.float64(xz[k]), np.float64(yz[k])
-        square[k] = max(square[k], a * a + b * b)
-        normal[k] = max(normal[k], np.float64(zz[k]))
 
 
 @_compiled
@@ -67,31 +31,36 @@ def overview(rows, least, interface):  # type: ignore[no-untyped-def]
 
     The last two quantities are those of an ``interface`` only.
     """
-    largest = np.full((8, _LANES), -np.inf)
-    width = rows.shape[2]
-    for first in range(0, width, _LANES):
-        last = min(width, first + _LANES)
-        n = last - first
-        for i in range(rows.shape[1]):
-            xx, yy, zz = rows[0, i, first:last], rows[1, i, first:last], rows[2, i, first:last]
-            xy, xz, yz = rows[3, i, first:last], rows[4, i, first:last], rows[5, i, first:last]
-            _invariants(xx, yy, zz, xy, xz, yz, least[1], largest[0, :n], largest[1, :n], largest[2, :n])
-            _tangential(xx, yy, xy, xz, yz, least[3], largest[3, :n], largest[4, :n], largest[5, :n])
-            if interface:
-                _tractions(zz, xz, yz, largest[6, :n], largest[7, :n])
-    found = np.empty(8)
-    for column in range(8):
-        value = largest[column, 0]
-        for k in range(1, _LANES):
-            value = max(value, largest[column, k])
-        found[column] = value
-    root = np.sqrt(found[0])
+    deviator, mean, tension, in_plane, along, across = 0.0, -np.inf, -np.inf, -np.inf, 0.0, 0.0
+    square, normal = 0.0, -np.inf
+    for i in range(rows.shape[1]):
+        xx, yy, zz, xy, xz, yz = rows[0, i], rows[1, i], rows[2, i], rows[3, i], rows[4, i], rows[5, i]
+        for k in range(xx.size):
+            c, d, e, f = np.float64(zz[k]), np.float64(xy[k]), abs(np.float64(xz[k])), abs(np.float64(yz[k]))
+            middle, half = 0.5 * (np.float64(xx[k]) + np.float64(yy[k])), 0.5 * (np.float64(xx[k]) - np.float64(yy[k]))
+            radius = half * half + d * d
+            m = (middle + middle + c) * (1.0 / 3.0)
+            j = radius + (middle - c) * (middle - c) * (1.0 / 3.0) + e * e + f * f
+            s, t = least[1] - m, least[3] - middle
+            beyond_all, beyond_plane = j * (4.0 / 3.0) - s * abs(s), radius - t * abs(t)  # positive beyond ``least``
+            deviator = j if j > deviator else deviator
+            mean = m if m > mean else mean
+            tension = beyond_all if beyond_all > tension else tension
+            in_plane = beyond_plane if beyond_plane > in_plane else in_plane
+            along = e if e > along else along
+            across = f if f > across else across
+        if interface:
+            for k in range(xx.size):
+                c, e, f = np.float64(zz[k]), np.float64(xz[k]), np.float64(yz[k])
+                square = max(square, e * e + f * f)
+                normal = max(normal, c)
+    root = np.sqrt(deviator)
     beyond = np.zeros(8, np.bool_)
-    beyond[0], beyond[1], beyond[2] = np.sqrt(3.0) * root > least[0], found[2] > 0.0, root > least[2]
-    beyond[3], beyond[4], beyond[5] = found[3] > 0.0, found[4] > least[4], found[5] > least[5]
+    beyond[0], beyond[1], beyond[2] = np.sqrt(3.0) * root > least[0], tension > 0.0, root > least[2]
+    beyond[3], beyond[4], beyond[5] = in_plane > 0.0, along > least[4], across > least[5]
     if interface:
-        beyond[6], beyond[7] = np.sqrt(found[6]) > least[6], found[7] > least[7]
-    return beyond, root, found[1]
+        beyond[6], beyond[7] = np.sqrt(square) > least[6], normal > least[7]
+    return beyond, root, mean
 
 
 @_compiled
