@@ -48,8 +48,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "coupled_product": "a compiled pass takes its arrays and numbers one by one",
         "factorise_tensors": "a compiled pass takes its arrays and numbers one by one",
         "vector_deflections": "a compiled pass takes its arrays and numbers one by one",
-        "_invariants": "a compiled pass takes its arrays and numbers one by one",
-        "_tangential": "a compiled pass takes its arrays and numbers one by one",
         "_invariant": "a compiled pass takes its arrays and numbers one by one",
         "execute": "independent keyword-only choices of the callers, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",

@@ -185,6 +185,8 @@ def test_passes_over_a_free_set_agree(
         "changed",
     ):
         agree(getattr(found, name), getattr(wanted, name), case.p.size, dtype)
+    agree(found.alone, found.direction, 1, dtype)
+    agree(found.sums[5], found.sums[4], case.p.size, dtype)
     assert not found.released.any()
 
 
@@ -208,12 +210,15 @@ def work_on_free_set(engine: Engine, case: Iterate, dtype: str, centred: bool) -
     t, product = free.update_direction(z, 0.25, 0.0, free.zeros(), r, field)
     t, second = free.update_direction(z, 0.25, 0.5, t, r, field)
     seen.direction = engine.numpy(field).copy()
+    alone, _ = free.update_direction(z, 0.25, 0.0, free.zeros(), r, None)  # the same without a field
+    alone, again = free.update_direction(z, 0.25, 0.5, alone, r, None)
+    seen.alone = scattered(alone)
     kt, *third = free.gather_products(response, t, r, free.zeros())
     d, r, _ = free.update_solution(0.7, t, kt, 0.125, free.zeros(), r)
     d, r, left = free.update_solution(0.3, t, kt, 0.125, d, r)
     assert left == pytest.approx(free.square(r), rel=1e-6 if dtype == "float32" else 1e-14)
     seen.advanced = [scattered(d), scattered(r)]
-    seen.sums = [*first, product, second, *third]
+    seen.sums = [*first, product, second, again, *third]
     old, total = free.gather(p)
     found, seen.clipped = free.add_clipped(p, d, 0.8, cap)
     seen.moved = engine.numpy(p).copy()
@@ -289,6 +294,48 @@ def test_tensile_points_are_counted_and_cleared(engine: Engine, dtype: str) -> N
     free.scatter_add(change, 0.5, field)
     rounding = 1e-14 if dtype == "float64" else 4.0 * EPS[dtype] * np.abs(step).max()
     np.testing.assert_allclose(engine.numpy(field), step + (pressed - wanted) / 3.0, atol=rounding)
+
+
+@every_engine
+@every_type
+def test_the_loaded_points_of_a_free_set(engine: Engine, dtype: str) -> None:
+    """Where the pressure has become positive, with the vector given on them and a residual of zero, in rows of their own."""
+    case, shape = iterate((12, 7), "none"), (12, 7)
+    _, u, h, _ = case.on(engine)
+    p = engine.array(case.p.copy(), "float64")
+    free = free_set(engine.survey(p, u, h, None), case.level, 1.0, dtype)
+    free.add_unclipped(p, free.residual(centred=False), 3.0)
+    ramp, field = engine.array(np.arange(84.0).reshape(shape), dtype), engine.zeros(shape, dtype)
+    free.scatter(free.gather(engine.array(np.ones(shape), dtype))[0], field)
+    inside = (engine.numpy(field) > 0.0) & (engine.numpy(p) > 0.0)
+    loaded, vector = free.loaded(p, free.gather(ramp)[0])
+    assert 0 < loaded.size == inside.sum() < free.size
+    assert loaded.entering == 0
+    assert loaded.square(loaded.residual(centred=False)) == 0.0
+    engine.clear_field(free, field)
+    loaded.scatter(vector, field)
+    np.testing.assert_array_equal(engine.numpy(field), np.where(inside, engine.numpy(ramp), 0.0))
+    spread = engine.field(shape, dtype) if isinstance(engine, asp.CpuEngine) else engine.zeros(shape, dtype)
+    loaded.scatter_add(vector, 2.0, spread)
+    np.testing.assert_array_equal(engine.numpy(spread), 2.0 * engine.numpy(field))
+
+
+@every_engine
+@pytest.mark.parametrize("shape", [(8, 12), (9, 7), (1, 10), (130, 66)])
+@pytest.mark.parametrize("wraps", [(True, True), (False, False), (True, False)])
+def test_interpolation_between_coarser_points(engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool]) -> None:
+    """A plane comes out as it is between the outermost points of a coarse grid; around them it goes on on the other side, or is flat."""
+    x, y = np.meshgrid(*(np.arange(-(-n // 2)) for n in shape), indexing="ij")
+    found = engine.interpolated(3.0 * x - 2.0 * y + 1.0, shape, wraps)
+
+    def along(n: int, around: bool) -> RealArray:
+        """Coordinate of each point in the units of coarse points, if linear interpolation of that coordinate is all there is."""
+        coarse, place = -(-n // 2), 0.5 * np.arange(n) - 0.25
+        wide = np.arange(-1.0, coarse + 1.0)
+        return np.interp(place, wide, wide % coarse if around else np.clip(wide, 0, coarse - 1))
+
+    wanted = 3.0 * along(shape[0], wraps[0])[:, None] - 2.0 * along(shape[1], wraps[1]) + 1.0
+    np.testing.assert_allclose(found, wanted, atol=1e-12 * np.abs(wanted).max())
 
 
 @every_engine

@@ -164,7 +164,8 @@ class _ArrayFreeSet:
 
     def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
         t = self.library.select(self.inside, (z - float(mean)) + float(ratio) * t)
-        field[...] = t
+        if field is not None:
+            field[...] = t
         return t, self.library.numbers([self._sum(t * r)])[0]
 
     def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
@@ -185,6 +186,12 @@ class _ArrayFreeSet:
         change = self.library.select(self.inside, value - p) / float(scale)
         self._put(value, p)
         return self.library.xp.astype(change, self.start.dtype)
+
+    def loaded(self, p: Any, vector: Any) -> tuple[FreeSet, Any]:
+        inside = self.inside & (p > 0.0)
+        size = int(self.library.numbers([self.library.count(inside)])[0])
+        left = _ArrayFreeSet(self.library, inside, self.library.xp.zeros_like(self.start), size, 0)
+        return left, self.library.select(inside, vector)
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         library = self.library
@@ -488,6 +495,20 @@ class ArrayEngine:
         )
         raised = p + float(stiffness) * (fine - base)
         return self.numpy(self._library.select((p > 0.0) & (raised > 0.0), raised))
+
+    def interpolated(self, coarse: RealArray, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
+        """Values between coarser points."""
+        xp, values = self._library.xp, self.array(coarse, "float64")
+        for axis in (0, 1):
+            n = values.shape[axis]
+            first, last = _part(values, axis, 0, 1), _part(values, axis, n - 1, n)
+            before, after = (last, first) if wraps[axis] else (first, last)
+            before = xp.concat([before, _part(values, axis, 0, n - 1)], axis=axis)
+            after = xp.concat([_part(values, axis, 1, n), after], axis=axis)
+            parts = [0.75 * values + 0.25 * before, 0.75 * values + 0.25 * after]
+            wide = (2 * n, values.shape[1]) if axis == 0 else (values.shape[0], 2 * n)
+            values = _part(xp.reshape(xp.stack(parts, axis=axis + 1), wide), axis, 0, shape[axis])
+        return self.numpy(values)
 
     def survey(self, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:
         """Survey of an iterate."""

@@ -207,9 +207,14 @@ class _CpuFreeSet:
         return change, self._sums("scatter_change", 1, *arguments)[0]
 
     def update_direction(
-        self, z: RealArray, mean: float, ratio: float, t: RealArray, r: RealArray, field: RealArray
+        self, z: RealArray, mean: float, ratio: float, t: RealArray, r: RealArray, field: RealArray | None
     ) -> tuple[RealArray, float]:
         kind = t.dtype.type
+        if field is None:  # of a model, after others have been compiled: no pass of its own to wait for
+            t *= kind(ratio)
+            t += z
+            t -= kind(mean)
+            return t, float(np.dot(t, r))
         arguments = (self.place(field), z, kind(mean), kind(ratio), t, r, memory(field))
         return t, self._sums("update_direction", 1, *arguments)[0]
 
@@ -227,6 +232,13 @@ class _CpuFreeSet:
         """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
         self._run("clear_tension", self.index, p.ravel(), factor, scale, self.start)
         return self.start
+
+    def loaded(self, p: RealArray, vector: RealArray) -> tuple[FreeSet, RealArray]:
+        kept = p.ravel()[self.index] > 0.0
+        before = np.zeros(kept.size + 1, np.int64)
+        np.cumsum(kept, out=before[1:])
+        index, r = self.index[kept], vector[kept]
+        return _CpuFreeSet(self.blocks, self.shape, index, np.zeros_like(r), np.zeros(1), before[self.rows], 0), r
 
     def add_clipped(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> Clipped:
         total, movable, below, number = self._sums("add_clipped", 4, self.index, p.ravel(), d, scale, bound(cap))
@@ -330,6 +342,13 @@ class CpuEngine:
         fine = _read_only(heights).reshape(heights.shape)
         arguments = (coarse, coarse_heights, fine, stiffness, out)
         self.blocks.share(self.blocks.kernels.prolong_pressure, len(out), *arguments, serial=out.size < SERIAL_BELOW)
+        return out
+
+    def interpolated(self, coarse: RealArray, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
+        """Values between coarser points."""
+        out = np.empty(shape)
+        values, kernel = np.ascontiguousarray(coarse, float), self.blocks.kernels.interpolate_rows
+        self.blocks.share(kernel, len(out), values, wraps, out, serial=out.size < SERIAL_BELOW)
         return out
 
     def survey(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None) -> _CpuSurvey:

@@ -328,6 +328,29 @@ def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # 
 
 
 @compiled
+def interpolate_rows(span, coarse, wraps, out):  # type: ignore[no-untyped-def]
+    """Rows of the span of out: linear interpolation of coarse values, two points for each along either axis; flat beyond an end that does not wrap."""
+    rows, columns = coarse.shape
+    line = np.empty(columns)
+    for i in range(span[0], span[1]):
+        near = i >> 1
+        other = near + 2 * (i & 1) - 1
+        if other < 0 or other >= rows:
+            other = (rows - 1 - near) if wraps[0] else near
+        own, beside = coarse[near], coarse[other]
+        for j in range(columns):
+            line[j] = 0.75 * own[j] + 0.25 * beside[j]
+        before = line[columns - 1] if wraps[1] else line[0]
+        after = line[0] if wraps[1] else line[columns - 1]
+        for j in range(out.shape[1]):
+            k = j >> 1
+            if j & 1:
+                out[i, j] = 0.75 * line[k] + 0.25 * (line[k + 1] if k + 1 < columns else after)
+            else:
+                out[i, j] = 0.75 * line[k] + 0.25 * (line[k - 1] if k > 0 else before)
+
+
+@compiled
 def _join(parent, one, other):  # type: ignore[no-untyped-def]
     """Make the island of the smaller number the parent of the other, of the two to which ``one`` and ``other`` belong."""
     while parent[one] != one:

@@ -18,7 +18,7 @@ fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
-for 8, 32, 64: elastic 8.0, 8.3, 8.3; films 9.2, 9.4, 9.7 (16: 8.0 and 9.7; cases: see ``benchmarks/constants.py``)."""
+for 8, 32, 64: elastic 7.7, 7.3, 7.3; films 8.5, 9.0, 8.8 (16: 7.4 and 8.7; cases: see ``benchmarks/constants.py``)."""
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ class Convolution(Protocol):
 
 
 class FreeSet(Protocol):
-    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver.
+    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but two may be added, and a number to one.
 
     A *field* is an array over the whole grid that goes into or comes out of a convolution.
     """
@@ -183,7 +183,7 @@ class FreeSet(Protocol):
         """
 
     def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """Vector (z - mean) + ratio t, also set in the field, and its product with r; ``t`` may be overwritten."""
+        """Vector (z - mean) + ratio t, also set in the field if there is one, and its product with r; ``t`` may be overwritten."""
 
     def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
         """Vectors d + length t and r - length (kt - mean), and the square of the latter; ``d`` and ``r`` may be overwritten."""
@@ -196,6 +196,9 @@ class FreeSet(Protocol):
 
         The residual vector may be overwritten.
         """
+
+    def loaded(self, p: Any, vector: Any) -> tuple[FreeSet, Any]:
+        """The points of the set where p > 0, with a residual of zero, and ``vector`` on them."""
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         """p + scale d on the set, clipped to [0, cap], in place."""
@@ -286,6 +289,12 @@ class Engine(Protocol):
 
         Where the ``coarse`` one is not zero, ``stiffness`` times what the coarse heights do not show is added, down to
         zero.
+        """
+
+    def interpolated(self, coarse: RealArray, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
+        """Linear interpolation of ``coarse`` values at the points of ``shape``, two for each along either axis, all NumPy arrays.
+
+        Beyond the first and last point of an axis that does not wrap they are as there.
         """
 
     def survey(self, p: Any, u: Any, h: Any, cap: Any) -> Survey:

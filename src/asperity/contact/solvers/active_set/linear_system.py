@@ -62,7 +62,7 @@ class ScaledOperator:
     @property
     def model_steps(self) -> int:
         """Steps of conjugate gradients on the model for one use of the preconditioner; one is its approximate inverse."""
-        return 1 if self.modelled.steepness <= _STEEP else _MODEL_STEPS
+        return _MODEL_STEPS if self.modelled.steep else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,22 +144,19 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 # The linear system of a step, and its preconditioner.
 
 
-_STEEP = 1.5
-"""Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1, 3: film 9.4, 10.9; for 1e9 (never): film 10.5."""
-
 _MODEL_STEPS = 2
-"""Steps on the model of the compliance then, each as dear as two uses of its inverse. Pairs for 1, 3, 4: film 10.5, 9.4, 9.4."""
+"""Steps on the model of a compliance that is steep, each as dear as two uses of its inverse. Pairs for 1, 3, 4: film 9.3, 8.5, 8.5."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 9.5, film 12.0, free 29.1, cap 8.9, tight 15.0, monotone
-10.7; for 2: elastic 7.8, film 9.4, free 24.6, tight 15.7."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.5, film 10.8, free 26.7, cap 8.9, tight 15.1, monotone
+10.7; for 2: tight 13.8."""
 
 _LAST_LENGTH = 0.85
-"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: the same; for 1: free 24.6, cap 6.7, tight 14.2."""
+"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: elastic 7.8; for 1: elastic 7.8, cap 6.7, tight 13.8."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 10.3, 9.0, 9.5, 10.5; film
-11.3, 10.5, 10.5, 11.9; free 31.4, 26.8, 27.6, 30.7; cap 8.5, 7.0, 7.0, 9.3; monotone 12.0, 10.2, 11.2, 13.0."""
+"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.5, 8.5, 8.1, 8.7; film
+10.3, 9.3, 9.5, 11.1; free 28.9, 26.8, 29.1, 29.1; cap 8.5, 7.0, 7.0, 9.3; monotone 12.0, 10.2, 11.2, 13.0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -311,7 +308,7 @@ def _unmeasured(system: LinearSystem, r: Any, last: _Direction | None, length: f
 
 
 def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction | None) -> tuple[Any, float]:
-    """Search direction, set in the field, and its product with ``r``.
+    """Search direction, set in the field unless for the model, which needs none, and its product with ``r``.
 
     ``z`` is the preconditioned residual; its second product is that with K ``last``, to which the direction is conjugate.
     """
@@ -319,7 +316,8 @@ def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction 
     if last is not None:
         ratio = -(z.second - mean * last.total) / last.curvature
     t = system.free.zeros() if last is None else last.t
-    return system.free.update_direction(z.vector, mean, ratio, t, r, system.scaled.field)
+    field = None if system.modelled else system.scaled.field
+    return system.free.update_direction(z.vector, mean, ratio, t, r, field)
 
 
 class _FirstStep(NamedTuple):

@@ -5,7 +5,7 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 8.0, 9.7, 25.3, 6.0, 14.4 and 9.0 pairs; cases that
+elastic, 256², every iterate within its bounds. The constants as they are take 7.4, 8.7, 23.8, 6.0, 14.3 and 9.0 pairs; cases that
 are not named differ from these by 0.3 at most (*free*: 0.8).
 """
 
@@ -23,28 +23,21 @@ from ....core.engine import CpuEngine, FreeSet, Survey, Totals
 from ....core.errors import InputError
 from ..protocol import (
     ContactQP,
-    FixedOffset,
     SolverState,
     feasible_start,
-    multiplier,
     require_settings,
     scaled_error,
 )
 from ..reference.steepest_descent import descend, levelling_step
-from .bounds import add_clipped, clear_tension, clipped_update, free_set
-from .first_guess import COARSE_ITERATIONS, COARSEST, nested_start
+from .bounds import add_clipped, clear_tension, clipped_update, free_set, narrowed, plane_level
+from .first_guess import COARSE_ITERATIONS, COARSEST, NestedStart, nested_start, settle
 from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
 
-# Plane level and error of an iterate.
+# Error of an iterate.
 
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 """Rounding of the sums in the error, relative to their terms: an error below it is reported as this large."""
-
-
-def plane_level(qp: ContactQP, totals: Totals) -> float:
-    """Plane level (the multiplier) in the heights of the workspace, as ``protocol.level``."""
-    return 0.0 if isinstance(qp.constraint, FixedOffset) else multiplier(totals)
 
 
 def relative_error(work: Workspace, totals: Totals) -> float:
@@ -70,12 +63,12 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 
 _SETTLED = 0.003
-"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0:
-tight 15.7; for 0.001: film 9.9; for 0.01 and 0.03 none differs."""
+"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0
+and 0.001: none differs; for 0.01 and 0.03: free 25.3."""
 
 _REDUCTION = 0.3
 """Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step, so mostly one step. Pairs for
-0.1: elastic 8.9, film 10.5, tight 16.6; for 0.2 and 0.5 none differs."""
+0.1: film 9.2, free 25.7; for 0.2 and 0.5 none differs."""
 
 _UNSETTLED_STEPS = 3
 """Most steps while the set changes, doubled with every fallback. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
@@ -85,24 +78,24 @@ _UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
 left of it after clipping, or that which ends the solve, shows."""
 
 _SINGLE = 0.06
-"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.12, 0.3: film 9.9, 9.9; free 25.3, 26.1; cap 6.7, 7.0."""
+"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.03: the same; for 0.12, 0.3: cap 6.7, 7.0; free 23.8, 26.1."""
 
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03, 0.2, 0.3: film 9.7, 9.9, 9.7; tight 13.9, 15.7, 15.7; for 3, 5, 12 steps the same."""
+"""Effort on a nearly settled set. Pairs for a reduction of 0.03: tight 13.3; for 0.2 and 0.3, and for 3, 5, 12 steps the same."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
-1e-2: tight 14.4, 14.2, 13.7, all others the same; for 8, 20, 40 steps the same."""
+1e-2: tight 14.1, 13.6, 13.3, all others the same; for 8, 20, 40 steps the same."""
 
 _LAST_STEP = 0.15
 """Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
-ends every solve, serves it too. Pairs for 0.1, 0.2, 0.3: free 24.6, 25.3, 26.1, all others the same."""
+ends every solve, serves it too. Pairs for 0.1: the same; for 0.2, 0.3: elastic 7.8, 7.9."""
 
 _LAST_REDUCTION = 0.01
-"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: free 26.1, 26.1."""
+"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02: the same; for 0.05: elastic 7.8."""
 
 _FURTHER = 0.75
 """Length, over that of the last step of conjugate gradients, of one more step of a correction that is clipped afterwards. The product with what is
@@ -110,8 +103,8 @@ left of it after clipping shows its deflection, so that it takes none of its own
 steps of such corrections."""
 
 _MARGIN = 0.8
-"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 8.7, 8.0,
-8.0; film 9.9, 9.7, 9.7; free 26.1, 26.1, 24.6; cap 7.0, 6.2, 6.0; tight 14.9, 14.4, 14.4."""
+"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3, 0.5, 1: elastic 7.9, 8.1,
+7.4; free 25.3, 23.8, 23.1; cap 7.0, 6.2, 6.0."""
 
 
 # The solver.
@@ -138,12 +131,12 @@ take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a 
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0: film 9.4; for 1, 4: the same; harder surfaces
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: the same; harder surfaces
 with films need them."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
-precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 9.2, 8.0, 8.0; film 10.7, 9.9, 9.7; free 28.3, 26.8, 25.3; tight 14.4, 13.9, 15.4."""
+precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 8.8, 7.6, 7.4; film 9.7, 9.2, 8.7; free 26.8, 26.8, 23.8; cap 7.0, 6.0, 6.0; tight 13.1, 13.3, 14.8; monotone 10.0, 10.0, 9.0."""
 
 
 @dataclass(eq=False)
@@ -171,6 +164,14 @@ class _Memory:
     tension: float = 0.0
     from_scratch: bool = False
     superseded: bool = False
+
+    def changed(self, free: FreeSet) -> int:
+        """Number of points that enter the set ``free`` or were taken beyond their bounds."""
+        return free.entering + self.clipped
+
+    def settled(self, free: FreeSet) -> bool:
+        """Whether few points change."""
+        return self.changed(free) <= _SETTLED * free.size
 
     def copied(self, state: SolverState) -> SolverState:
         """``state``, whose memory this is, with arrays of its own."""
@@ -236,22 +237,24 @@ class ActiveSet:
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, or at the solution on coarser grids where there is no start or a worse one."""
         if start is not None and start.any():
-            state = self._started(qp, feasible_start(qp, start), 1, 0.0)
+            state = self._started(qp, NestedStart(feasible_start(qp, start)), 1)
             if state.error <= _POOR or min(qp.profile.shape) <= COARSEST:
                 return state
-            begin, pairs = nested_start(qp, self)
-            return self._started(qp, begin, 2, pairs)
-        begin, pairs = nested_start(qp, self)
-        return self._started(qp, begin, 1, pairs)
+            return self._started(qp, nested_start(qp, self), 2)
+        return self._started(qp, nested_start(qp, self), 1)
 
-    def _started(self, qp: ContactQP, begin: RealArray, applications: int, pairs: float) -> SolverState:
-        """State at the feasible pressure ``begin``, with the work it has cost."""
-        work = Workspace.of(qp, self.precision, begin)
+    def _started(self, qp: ContactQP, begin: NestedStart, applications: int) -> SolverState:
+        """State at a feasible pressure, with the work it has cost."""
+        work = Workspace.of(qp, self.precision, begin.pressure, begin.deflection)
+        if begin.deflection is not None:
+            settle(work)
+            work.exact.apply(work.pressure, work.deflection)
         survey = work.survey()
         unsuccessful = None if self.monotone or work.cap is not None else 0
         error = relative_error(work, survey.totals)
         memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful)
-        return self._state(memory, SolverState(begin, begin, np.inf, applications=applications, extra_pairs=pairs))
+        iterate = work.pressure, work.deflection
+        return self._state(memory, SolverState(*iterate, np.inf, applications=applications, extra_pairs=begin.pairs))
 
     def extrapolated(self, qp: ContactQP, last: Loaded, earlier: Loaded, ratio: float) -> SolverState | None:
         """State beyond the ``last`` of two loads by ``ratio`` times the step between them, without a product where their deflections are known.
@@ -273,10 +276,9 @@ class ActiveSet:
         tension = -float(negative.sum())
         error = relative_error(work, survey.totals) + tension / survey.totals.pressure
         if error <= self.tolerance:  # only the product from scratch shows that
-            return self._started(qp, feasible_start(qp, pressure), products + 1, 0.0)
+            return self._started(qp, NestedStart(feasible_start(qp, pressure)), products + 1)
         if error > _POOR and min(qp.profile.shape) > COARSEST:
-            begin, pairs = nested_start(qp, self)
-            return self._started(qp, begin, products + 1, pairs)
+            return self._started(qp, nested_start(qp, self), products + 1)
         tensile = None
         if negative.size:
             tensile = engine.points(qp.profile.shape, loaded, work.scaled.dtype)
@@ -314,7 +316,7 @@ class ActiveSet:
 
     def _begun_anew(self, qp: ContactQP, spent: SolverState) -> SolverState:
         """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
-        state = self._started(qp, feasible_start(qp, None), spent.applications + 1, spent.extra_pairs)
+        state = self._started(qp, NestedStart(feasible_start(qp, None), spent.extra_pairs), spent.applications + 1)
         assert isinstance(state.memory, _Memory)
         state.memory.unsuccessful = None
         return replace(state, iterations=spent.iterations)
@@ -332,6 +334,9 @@ class ActiveSet:
         if memory.tensile is not None and memory.clipped:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
+        elif spent.iterations == 1 and memory.tensile is None and not memory.settled(free):
+            free, r, pending = narrowed(work, free, r)
+            stopping = Stopping(_REDUCTION, max_steps=1)
         system = LinearSystem(work.scaled, free, work.load_prescribed)
         last = stopping.ending is not None
 
@@ -434,8 +439,8 @@ class ActiveSet:
         Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
         once none does is the system solved to what the tolerance needs.
         """
-        changed, clips = free.entering + memory.clipped, memory.unsuccessful is None
-        settled, alone = changed <= _SETTLED * free.size, clips and not memory.fallbacks
+        changed, clips = memory.changed(free), memory.unsuccessful is None
+        settled, alone = memory.settled(free), clips and not memory.fallbacks
         wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
         ends = not (self.monotone or self._guess)
         if ends and wanted >= _SINGLE and (settled or alone):

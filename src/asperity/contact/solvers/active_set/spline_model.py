@@ -176,20 +176,20 @@ def _samples(grid: Grid) -> _Samples:
 
 
 _TRUST = 0.001
-"""Weight of the guess, an octave of the compliance for each level, in the fit of a level: where no wave tells it, it is as guessed. Pairs for 1e-4, 0.01: the same
-but film 9.4 for 0.01; for 0.05: film 12.0, free 26.8, tight 14.9 (constants and cases as in ``solver``)."""
+"""Weight of the guess, an octave of the compliance for each level, in the fit of a level: where no wave tells it, it is as guessed. Pairs for 1e-4: the same;
+for 0.01: free 25.3; for 0.05: film 17.3 (constants and cases as in ``solver``)."""
 
 _RELATIVE = 1.0, 1.8, 1.9, 1.6, 1.66, 2.6
 """Compliance of a level in the inverse over that of the body at pi over the side of its cells, relative to single points; the last holds for all further levels."""
 
 _AHEAD, _STEEPER = 2, 0.7
 """Levels further up at which c(q) q, where it exceeds that of single points, makes the compliance of a level larger still, by this power; the share for the
-curvature falls by the same power from there to the longest waves. Pairs for 0, 1, 3 levels: film 10.4, 10.2, 9.9; for a power of 0, 0.5, 0.9: film 13.3, 9.9, 9.7."""
+curvature falls by the same power from there to the longest waves. Pairs for 0, 1, 3 levels: film 9.5, 9.0, 9.0; for a power of 0, 0.5, 0.9: film 11.6, 8.7, 9.0."""
 
 _FALL, _BEND = 0.34, 0.24
 """Shares of the local stiffness: for differences from the neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5:
-elastic 8.3, 8.0, 8.0; film 10.2, 9.7, 9.2; free 26.8, 23.8, 25.3; tight 16.4, 14.4, 14.9; for a bend of 0, 0.12, 0.4: elastic 8.8, 8.3, 8.3; film 10.7, 9.4, 9.9; free
-26.1, 25.3, 25.3; cap 6.0, 6.0, 6.5."""
+elastic 8.2, 7.4, 7.6; tight 16.1, 14.3, 14.3; for a bend of 0, 0.12, 0.4: elastic 7.9, 7.8, 7.4; film 9.7, 8.7, 8.7; free
+24.6, 23.8, 26.1; cap 6.0, 6.0, 6.5; tight 16.1, 14.6, 12.7."""
 
 _OBLONG = 1.7
 """Share of it along the longer side of a pixel, times the ratio of the sides."""
@@ -199,7 +199,11 @@ _MIDDLE = 2.02
 E 10 from 8 pixels on, up to 8 with thinner ones, up to 17 with E 100 on 2 pixels."""
 
 _NEAR = 3
-"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model. Pairs for 2, 4, 5: film 10.9, 9.4, 9.4."""
+"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model. Pairs for 2, 4, 5: film 9.5, 8.5, 8.4."""
+
+
+_STEEP = 1.5
+"""Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1: the same; for 3 and 1e9 (never): film 9.3."""
 
 
 class SplineCompliance(NamedTuple):
@@ -208,6 +212,11 @@ class SplineCompliance(NamedTuple):
     model: SplineModel
     steepness: float
 
+    @property
+    def steep(self) -> bool:
+        """Whether its inverse is not good enough by itself."""
+        return self.steepness > _STEEP
+
 
 def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     """Nested splines that follow the compliance of ``operator`` over ``scale``.
@@ -215,15 +224,13 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     Coefficients of the inverse were found by a search for the smallest spread of eigenvalues over half-spaces and films of E 0.3 to 10, 4 to 20 pixels thick.
     """
     grid = operator.grid
-    merges, sides, points = octaves(grid)
+    merges, _, points = octaves(grid)
     samples = _samples(grid)
-    first = float(operator.octaves.spectral(np.pi / sides[:1])[0]) * np.pi / float(sides[0])
-    levels = samples.octaves.compliance(operator, first)
+    first, levels, steep = _levels(operator)
     parts = _fitted(samples.parts, samples.waves.compliance(operator, first), np.diff(levels))
     relative = np.full(len(levels), _RELATIVE[-1])
     relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
     relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
-    steep = levels * sides[0] / (levels[0] * sides)
     above = np.maximum(steep, 1.0)[np.minimum(np.arange(len(levels)) + _AHEAD, len(levels) - 1)] ** _STEEPER
     bent = _BEND * float(above[0] / above[-1])
     inverse = np.append(levels[0], (relative * levels * above)[1:])  # that of a point is its own
@@ -242,7 +249,24 @@ def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
         fall=(_FALL * local[0], _FALL * local[1]),
         bend=(bent * local[0], bent * local[1]),
     )
-    return SplineCompliance(model, float(steep[: _NEAR + 1].max()))
+    return SplineCompliance(model, _steepest(steep))
+
+
+def steepness(operator: Operator) -> float:
+    """That of ``spline_compliance``, without the rest of it."""
+    return _steepest(_levels(operator)[2])
+
+
+def _steepest(steep: RealArray) -> float:
+    return float(steep[: _NEAR + 1].max())
+
+
+def _levels(operator: Operator) -> tuple[float, RealArray, RealArray]:
+    """c(q) q of the shortest waves of ``operator``, c of every level (levels + 1,), and by which factor c(q) q there exceeds the first."""
+    sides = octaves(operator.grid).sides
+    first = float(operator.octaves.spectral(np.pi / sides[:1])[0]) * np.pi / float(sides[0])
+    levels = _samples(operator.grid).octaves.compliance(operator, first)
+    return first, levels, levels * sides[0] / (levels[0] * sides)
 
 
 _LOCAL = 4

@@ -27,10 +27,10 @@ from ....core.engine import CpuEngine
 from ....core.status import NoProgress, Progress
 from ...operators.convolution import restricted
 from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
-from .bounds import free_set
+from .bounds import free_set, plane_level
 from .first_guess import COARSEST, coarse_tolerance, coarsened
 from .linear_system import Workspace
-from .solver import ActiveSet, plane_level, relative_error
+from .solver import ActiveSet, relative_error
 
 _UNSETTLED, _REDUCTION = 0.2, 0.05
 """Reduction of the residual of the model in a step while the set changes, and afterwards. The system is nearly singular where a limit falls about as fast as a
