@@ -58,15 +58,19 @@ def coarse_tolerance(qp: ContactQP, coarse: ContactQP, solver: Adjustable) -> fl
     return max(min(share * float(hidden), loosest), solver.tolerance)
 
 
-class NestedStart(NamedTuple):
-    """Feasible ``pressure`` (Pa), the FFT ``pairs`` it took, and a ``deflection`` (m), not quite that by it, where steps on the model are to follow."""
+class Start(NamedTuple):
+    """Feasible ``pressure`` (Pa), the FFT ``pairs`` it took, and whether it is ``guessed`` from a coarser grid or the heights, with many points that will not touch.
+
+    ``deflection`` (m), not quite that by it, is given where it is to ``settle``.
+    """
 
     pressure: RealArray
     pairs: float = 0.0
     deflection: RealArray | None = None
+    guessed: bool = False
 
 
-def nested_start(qp: ContactQP, solver: Adjustable) -> NestedStart:
+def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     """Pressure prolonged from the solution of ``solver`` on the coarser grid.
 
     On the coarsest grid it is uniform on the highest points. The coarse problem is solved to a fraction of the roughness that its grid cannot show. Its pressures are constant on
@@ -74,7 +78,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> NestedStart:
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
     if min(qp.profile.shape) <= COARSEST:
-        return NestedStart(feasible_start(qp, highest_points(qp)))
+        return Start(feasible_start(qp, highest_points(qp)), guessed=True)
     coarse, engine = coarsened(qp), qp.operator.engine
     state = run(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
@@ -87,9 +91,9 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> NestedStart:
     if settles:
         deflection = engine.interpolated(state.deflection, qp.profile.shape, qp.operator.boundary.wraps)
     if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
-        return NestedStart(feasible_start(qp, start), pairs * share, deflection)
+        return Start(feasible_start(qp, start), pairs * share, deflection, guessed=True)
     start *= qp.constraint.mean_pressure / start.mean()
-    return NestedStart(start, pairs * share, deflection)
+    return Start(start, pairs * share, deflection, guessed=True)
 
 
 _SETTLING_FROM = 3.0

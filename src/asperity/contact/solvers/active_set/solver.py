@@ -30,7 +30,7 @@ from ..protocol import (
 )
 from ..reference.steepest_descent import descend, levelling_step
 from .bounds import add_clipped, clear_tension, clipped_update, free_set, narrowed, plane_level
-from .first_guess import COARSE_ITERATIONS, COARSEST, NestedStart, nested_start, settle
+from .first_guess import COARSE_ITERATIONS, COARSEST, Start, nested_start, settle
 from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradients
 
 # Error of an iterate.
@@ -149,7 +149,7 @@ class _Memory:
     ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
     are clipped; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
     ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
-    just been computed so.
+    just been computed so; ``guessed``: the iterate is a start that is (``Start``).
     ``superseded``: a later step has changed the arrays.
     """
 
@@ -163,6 +163,7 @@ class _Memory:
     tensile: FreeSet | None = None
     tension: float = 0.0
     from_scratch: bool = False
+    guessed: bool = False
     superseded: bool = False
 
     def changed(self, free: FreeSet) -> int:
@@ -237,13 +238,13 @@ class ActiveSet:
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, or at the solution on coarser grids where there is no start or a worse one."""
         if start is not None and start.any():
-            state = self._started(qp, NestedStart(feasible_start(qp, start)), 1)
+            state = self._started(qp, Start(feasible_start(qp, start)), 1)
             if state.error <= _POOR or min(qp.profile.shape) <= COARSEST:
                 return state
             return self._started(qp, nested_start(qp, self), 2)
         return self._started(qp, nested_start(qp, self), 1)
 
-    def _started(self, qp: ContactQP, begin: NestedStart, applications: int) -> SolverState:
+    def _started(self, qp: ContactQP, begin: Start, applications: int) -> SolverState:
         """State at a feasible pressure, with the work it has cost."""
         work = Workspace.of(qp, self.precision, begin.pressure, begin.deflection)
         if begin.deflection is not None:
@@ -252,7 +253,7 @@ class ActiveSet:
         survey = work.survey()
         unsuccessful = None if self.monotone or work.cap is not None else 0
         error = relative_error(work, survey.totals)
-        memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful)
+        memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful, guessed=begin.guessed)
         iterate = work.pressure, work.deflection
         return self._state(memory, SolverState(*iterate, np.inf, applications=applications, extra_pairs=begin.pairs))
 
@@ -276,7 +277,7 @@ class ActiveSet:
         tension = -float(negative.sum())
         error = relative_error(work, survey.totals) + tension / survey.totals.pressure
         if error <= self.tolerance:  # only the product from scratch shows that
-            return self._started(qp, NestedStart(feasible_start(qp, pressure)), products + 1)
+            return self._started(qp, Start(feasible_start(qp, pressure)), products + 1)
         if error > _POOR and min(qp.profile.shape) > COARSEST:
             return self._started(qp, nested_start(qp, self), products + 1)
         tensile = None
@@ -316,7 +317,7 @@ class ActiveSet:
 
     def _begun_anew(self, qp: ContactQP, spent: SolverState) -> SolverState:
         """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
-        state = self._started(qp, NestedStart(feasible_start(qp, None), spent.extra_pairs), spent.applications + 1)
+        state = self._started(qp, Start(feasible_start(qp, None), spent.extra_pairs), spent.applications + 1)
         assert isinstance(state.memory, _Memory)
         state.memory.unsuccessful = None
         return replace(state, iterations=spent.iterations)
@@ -334,11 +335,11 @@ class ActiveSet:
         if memory.tensile is not None and memory.clipped:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
-        elif spent.iterations == 1 and memory.tensile is None and not memory.settled(free):
+        elif memory.guessed and not memory.settled(free):
             free, r, pending = narrowed(work, free, r)
             stopping = Stopping(_REDUCTION, max_steps=1)
         system = LinearSystem(work.scaled, free, work.load_prescribed)
-        last = stopping.ending is not None
+        memory.guessed, last = False, stopping.ending is not None
 
         def add(length: float) -> None:
             work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
