@@ -196,7 +196,8 @@ class ActiveSet:
 
     A step chooses the free set, solves K p = h + level on it to a modest accuracy (preconditioner: the inverse of a
     compliance of nested splines), and clips the pressure to its bounds. Points enter the set by the mean level of the loaded
-    points near them, so that it does not follow errors of long wavelength. The first guess comes from coarser grids.
+    points near them, so that it does not follow errors of long wavelength. The first guess comes from coarser grids, and a step on the model
+    of the compliance alone takes most points that will not touch out of its set before the first product.
     Corrections are computed in single precision, the gap they must close in double (``precision="mixed"``), so the answer
     has double precision at nearly the cost of single.
 
