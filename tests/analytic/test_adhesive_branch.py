@@ -105,7 +105,9 @@ def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
         if branch.force[k] < -0.7 * FORCE:
             assert held.external_force == pytest.approx(branch.force[k], rel=1e-3)
             assert held.adhesion.margin == pytest.approx(branch.margin[k], abs=0.01)
-    off, on = branch.folds
+    # around the first, where single points leave the wall one after the other, the branch goes to and fro by less than the steps of the search for a jump
+    off, *between, on = branch.folds
+    assert all(abs(fold.approach - off.approach) < 0.004 * APPROACH for fold in between)
     way = np.linspace(0.0, -1.2, 25) * APPROACH
     history = asp.solve(problem, asp.History([asp.FixedGrips(float(d)) for d in [*way, *way[-2::-1]]]))
     tolerance = 1e-3 * APPROACH
