@@ -211,10 +211,13 @@ class _CpuFreeSet:
     ) -> tuple[RealArray, float]:
         kind = t.dtype.type
         if field is None:  # of a model, after others have been compiled: no pass of its own to wait for
-            t *= kind(ratio)
-            t += z
-            t -= kind(mean)
-            return t, float(np.dot(t, r))
+            with np.errstate(
+                over="ignore", invalid="ignore"
+            ):  # as in compiled passes; what comes of it is seen in the sums
+                t *= kind(ratio)
+                t += z
+                t -= kind(mean)
+            return t, self.products(t, r, r).first
         arguments = (self.place(field), z, kind(mean), kind(ratio), t, r, memory(field))
         return t, self._sums("update_direction", 1, *arguments)[0]
 

@@ -170,7 +170,7 @@ class LinearSystem:
 
     def mean(self, total: float) -> float:
         """Mean of a vector that sums to ``total``, where it is to be taken out."""
-        return total / self.free.size if self.zero_sum else 0.0
+        return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
     @property
     def pairs(self) -> float:
