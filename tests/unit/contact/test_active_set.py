@@ -159,16 +159,17 @@ def test_monotone_steps_lead_to_the_same_answer(boundary: Any) -> None:
 
 
 def test_unclipped_steps_end_where_they_do_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With first steps much too long none of them helps: after three clipped ones take over, and the answer is found."""
+    """With first steps much too long none of them helps: clipped ones take over, and the answer is found."""
     monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP_LENGTH", 50.0)
     qp = posed((64, 60))
-    state, solver = ActiveSet().init(qp, None), ActiveSet(tolerance=1e-9)
+    # a start that is given: its first step is measured, and helps
+    state, solver = ActiveSet().init(qp, highest_points(qp)), ActiveSet(tolerance=1e-9)
     unclipped = 0
     while state.error > solver.tolerance:
         state = solver.step(qp, state)
         unclipped += int(state.memory.unsuccessful is not None)  # type: ignore[attr-defined]
         assert state.iterations < 60
-    assert solver_module._MOST_UNSUCCESSFUL <= unclipped < state.iterations
+    assert 3 <= unclipped < state.iterations
     assert state.pressure.min() >= 0.0
 
 

@@ -331,10 +331,7 @@ class _ArraySplines:
             else:
                 values = xp.concat([values, self._zeros(values, axis, 1)], axis=axis)
                 own, before, next_ = (_part(values, axis, k, k + n) for k in (1, 0, 2))
-            parts = [0.75 * own + 0.25 * before, 0.75 * own + 0.25 * next_]
-            wide = [*values.shape]
-            wide[axis] = 2 * n
-            values = _part(xp.reshape(xp.stack(parts, axis=axis + 1), tuple(wide)), axis, 0, shape[axis])
+            values = _parts(xp, axis, own, before, next_, shape[axis])
         return values
 
     def _zeros(self, values: Any, axis: int, width: int) -> Any:
@@ -345,6 +342,14 @@ class _ArraySplines:
 def _part(values: Any, axis: int, first: int, end: int) -> Any:
     """Part of ``values`` along the axis."""
     return values[first:end, :] if axis == 0 else values[:, first:end]
+
+
+def _parts(xp: Any, axis: int, own: Any, before: Any, after: Any, length: int) -> Any:
+    """Values at the two parts of every cell along the axis, up to this ``length``: three quarters of the cell's and a quarter of those of the nearer neighbour."""
+    pairs = xp.stack([0.75 * own + 0.25 * before, 0.75 * own + 0.25 * after], axis=axis + 1)
+    wide = [*own.shape]
+    wide[axis] *= 2
+    return _part(xp.reshape(pairs, tuple(wide)), axis, 0, length)
 
 
 def _halves(values: Any, axis: int) -> tuple[Any, Any]:
@@ -505,9 +510,7 @@ class ArrayEngine:
             before, after = (last, first) if wraps[axis] else (first, last)
             before = xp.concat([before, _part(values, axis, 0, n - 1)], axis=axis)
             after = xp.concat([_part(values, axis, 1, n), after], axis=axis)
-            parts = [0.75 * values + 0.25 * before, 0.75 * values + 0.25 * after]
-            wide = (2 * n, values.shape[1]) if axis == 0 else (values.shape[0], 2 * n)
-            values = _part(xp.reshape(xp.stack(parts, axis=axis + 1), wide), axis, 0, shape[axis])
+            values = _parts(xp, axis, values, before, after, shape[axis])
         return self.numpy(values)
 
     def survey(self, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:

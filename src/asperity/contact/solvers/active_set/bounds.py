@@ -105,9 +105,8 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, closely: bool = False) -
     """
     system = LinearSystem(work.scaled, free, work.load_prescribed)
     z = system.preconditioned(system.prepared(r), r, free.empty(), first=closely)
-    with np.errstate(
-        over="ignore", invalid="ignore"
-    ):  # beyond single precision the step fails, and says so, as others do
+    # beyond single precision the step fails, and says so, as others do
+    with np.errstate(over="ignore", invalid="ignore"):
         d = z.vector - system.mean(z.total)
         total = free.add_unclipped(work.pressure, d, work.unit).pressure
         r = free.copy(r)  # whose memory clearing may take
