@@ -288,7 +288,10 @@ class _Iteration:
         found = coupling.ahead(self.exchanges[name], qp, self._start(qp), self.solver, self.watched)
         if found is None:
             return False
-        self.exchanges[name], self.spent = found.exchange, (found.iterations, found.pairs)
+        self.spent = found.iterations, found.pairs
+        if found.exchange is None:
+            return False
+        self.exchanges[name] = found.exchange
         return True
 
     def _need(self) -> None:

@@ -291,9 +291,9 @@ class Exchange:
 
 
 class Ahead(NamedTuple):
-    """Exchange of a coupling that has found the contact with its own unknown, and the FFT ``pairs`` and ``iterations`` that took."""
+    """Exchange of a coupling that has found the contact with its own unknown, None if it has not, and the FFT ``pairs`` and ``iterations`` spent on it."""
 
-    exchange: Exchange
+    exchange: Exchange | None
     pairs: float
     iterations: int
 

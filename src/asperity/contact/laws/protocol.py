@@ -81,7 +81,10 @@ class Hardness:
 
 @runtime_checkable
 class LimitByDepth(InterfaceLaw, Protocol):
-    """Law with a limit of the pressure that depends on the permanent indentation of each point."""
+    """Law with a limit of the pressure that depends on the permanent indentation of each point, on nothing else and everywhere alike.
+
+    Both methods take any selection of points as a two-dimensional array.
+    """
 
     def cap_at(self, indentation: RealArray) -> float | RealArray:
         """Largest pressure in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""
@@ -95,7 +98,10 @@ def work_density(law: InterfaceLaw, before: RealArray, after: RealArray) -> Real
     added = after - before
     if not added.any():
         return np.zeros_like(added)
-    if isinstance(law, LimitByDepth):
-        return law.work_at(after) - law.work_at(before)
-    work: RealArray = law.pressure_cap() * added
-    return work
+    if not isinstance(law, LimitByDepth):
+        work: RealArray = law.pressure_cap() * added
+        return work
+    index, density = np.flatnonzero(added), np.zeros_like(added)
+    last, first = (law.work_at(depth.reshape(-1)[index][None])[0] for depth in (after, before))
+    density.reshape(-1)[index] = last - first
+    return density
