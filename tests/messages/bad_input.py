@@ -108,6 +108,7 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     ("--body", "unobtainium", *LOAD),
     ("--body", "rigid", *LOAD),
     (*BODY, *LOAD, "--hardness", "5"),
+    (*BODY, *LOAD, "--hardness", "layers"),
     ("--body", "E=1GPa,nu=0.3", *LOAD, "--hardness", "body"),
     (*BODY, *LOAD, "--boundary", "open"),
     (*BODY, *LOAD, "--boundary", "line"),

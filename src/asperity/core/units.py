@@ -122,6 +122,11 @@ def parse_in(text: str, unit: str, what: str) -> float:
         raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 
 
+def starts_with_number(text: str) -> bool:
+    """Whether ``text`` is a number, with or without something that stands for a unit."""
+    return _NUMBER.fullmatch(text) is not None
+
+
 def _split(text: str, example: str, what: str, *, plain: bool) -> tuple[float, str]:
     """Number and name of the unit in ``text``; a ``plain`` number needs none."""
     match = _NUMBER.fullmatch(str(text))

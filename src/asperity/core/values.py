@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 from . import units
-from .errors import InputError
+from .errors import InputError, UnitError
 
 LEAST, LARGEST = 1e-41, 1e40
 """Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
@@ -158,6 +158,9 @@ class Number(Values):
                     f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare number {value!r}."
                 )
             return self._checked(value, what, repr(value))
+        if self.words and not units.starts_with_number(value):
+            unit = f' with a unit, such as "{self._example}",' if self.unit else ""
+            raise UnitError(f"{what} must be a number{unit}{self._or_words}, but is {value!r}.")
         number = units.parse(value, self.quantity if self.quantity in units.DIMENSIONS else self.unit, what)
         self._checked(number, what, repr(value))
         return Written(number, value)
@@ -166,14 +169,18 @@ class Number(Values):
     def _example(self) -> str:
         return units.EXAMPLES.get(self.quantity, f"1 {self.unit}".rstrip())
 
+    @property
+    def _or_words(self) -> str:
+        """The words that may stand instead, for messages."""
+        return f" or {' or '.join(map(repr, self.words))}" if self.words else ""
+
     def _checked(self, value: Any, what: str, shown: str) -> float | str:
         """``value`` within the bounds; the message shows it as ``shown``."""
         if isinstance(value, str) and value in self.words:
             return value
         if isinstance(value, bool | str):
             unit = f" in {self.unit}" if self.unit else ""
-            word = f" or {' or '.join(map(repr, self.words))}" if self.words else ""
-            raise InputError(f"{what} must be a number{unit}{word}, but is {shown}.")
+            raise InputError(f"{what} must be a number{unit}{self._or_words}, but is {shown}.")
         try:
             number = float(value)
         except (TypeError, ValueError):
