@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh, null_space
 
 import asperity as asp
+from asperity.contact.solvers.active_set import spline_model
 from asperity.contact.solvers.active_set.bounds import free_set
 from asperity.contact.solvers.active_set.linear_system import (
     LinearSystem,
@@ -137,6 +141,22 @@ def test_the_model_scales_with_the_compliance() -> None:
     np.testing.assert_allclose(other.inverse_weights, one.inverse_weights, rtol=1e-9)
     assert other.stiffness == pytest.approx(one.stiffness / factor, rel=1e-9)
     assert (other.fall, other.bend, other.merges, other.wraps) == (one.fall, one.bend, one.merges, one.wraps)
+
+
+def test_a_model_is_fitted_once_for_an_operator_and_goes_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Solves with one operator, on all of its grids, fit no model again; nothing is kept of an operator that is gone."""
+    fitted = []
+    monkeypatch.setattr(spline_model, "_fit", lambda *to, fit=spline_model._fit: fitted.append(to[0].grid) or fit(*to))
+    problem = asp.ContactProblem(asp.Surface(rough_set((128, 128), 0.5, 1), 1.0, periodic=True), asp.Elastic(2.0, 0.0))
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    for load in (0.01, 0.02):
+        asp.solve(problem, asp.MeanPressure(load), operator=operator)
+    assert [one.shape for one in fitted] == [(64, 64), (128, 128)]
+    assert operator in spline_model._FITTED
+    gone = weakref.ref(operator)
+    del operator
+    gc.collect()
+    assert gone() is None
 
 
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 3.0), (7.0, 1.0)])
