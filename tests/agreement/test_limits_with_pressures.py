@@ -35,7 +35,7 @@ def posed(body: asp.Layered, n: int, seed: int, boundary=asp.Periodic()) -> asp.
 def in_rounds(monkeypatch, problem: asp.ContactProblem, control, tolerance: float) -> asp.ContactResult:
     """The same without the joint method."""
     with monkeypatch.context() as patch:
-        patch.setattr(hardness, "follow", lambda *_: Followed(0.0, 0))
+        patch.setattr(hardness, "follow", lambda *_: Followed())
         return asp.solve(problem, control, solver=ActiveSet(tolerance=tolerance))
 
 
@@ -139,7 +139,7 @@ def test_a_load_that_the_base_does_not_bear(monkeypatch, load):
     for foreseen in (True, False):
         with monkeypatch.context() as patch:
             if not foreseen:
-                patch.setattr(hardness, "follow", lambda *_: Followed(0.0, 0))
+                patch.setattr(hardness, "follow", lambda *_: Followed())
             try:
                 outcomes.append(asp.solve(problem, asp.MeanPressure(load)).max_permanent_indentation)
             except asp.NoSolutionError as error:

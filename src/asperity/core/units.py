@@ -77,7 +77,7 @@ class _OtherDimensionError(Exception):
     """A unit is of another dimension than the one that is wanted."""
 
 
-def parse(text: str | float, kind: str, what: str) -> float:
+def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
     """Return the SI value of a quantity such as ``"50 kPa"`` or ``"5nm"``.
 
     Parameters
@@ -88,6 +88,8 @@ def parse(text: str | float, kind: str, what: str) -> float:
         One of ``DIMENSIONS``, or an SI unit such as ``"N/m"`` for a quantity that is none of them.
     what
         Name of the input, for the error message.
+    instead
+        What else it may be, for the message about text that is no number.
 
     Raises
     ------
@@ -97,13 +99,13 @@ def parse(text: str | float, kind: str, what: str) -> float:
     if isinstance(text, float) and hasattr(text, "text"):
         return float(text)
     if kind not in DIMENSIONS:
-        return parse_in(str(text), kind, what)
+        return parse_in(str(text), kind, what, instead)
     unit = DIMENSIONS[kind]
-    number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, plain=kind == "number")
+    number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, instead, plain=kind == "number")
     return number * unit_factor(name, kind, what)
 
 
-def parse_in(text: str, unit: str, what: str) -> float:
+def parse_in(text: str, unit: str, what: str, instead: str = "") -> float:
     """Return the value in ``unit`` of a quantity such as ``"3 um**-2"``, for ``unit`` = ``"1/m^2"``; no unit is a plain number.
 
     Raises
@@ -112,7 +114,7 @@ def parse_in(text: str, unit: str, what: str) -> float:
         If number or unit is missing, unknown, or of another dimension.
     """
     known = {DIMENSIONS[kind]: example for kind, example in EXAMPLES.items()}
-    number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, plain=not unit)
+    number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, instead, plain=not unit)
     try:
         return number * _factor(name or "dimensionless", unit or "dimensionless")
     except _OtherDimensionError:
@@ -122,17 +124,12 @@ def parse_in(text: str, unit: str, what: str) -> float:
         raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 
 
-def starts_with_number(text: str) -> bool:
-    """Whether ``text`` is a number, with or without something that stands for a unit."""
-    return _NUMBER.fullmatch(text) is not None
-
-
-def _split(text: str, example: str, what: str, *, plain: bool) -> tuple[float, str]:
+def _split(text: str, example: str, what: str, instead: str, *, plain: bool) -> tuple[float, str]:
     """Number and name of the unit in ``text``; a ``plain`` number needs none."""
     match = _NUMBER.fullmatch(str(text))
     if match is None:
         wanted = "a number" if plain else f'a number with a unit, such as "{example}"'
-        raise UnitError(f"{what} must be {wanted}, but is {text!r}.")
+        raise UnitError(f"{what} must be {wanted}{instead}, but is {text!r}.")
     number, name = float(match.group(1)), match.group(2).strip()
     if not name and not plain:
         raise UnitError(f'{what} must have a unit, such as "{example}", but is {text!r} without one.')

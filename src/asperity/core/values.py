@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 from . import units
-from .errors import InputError, UnitError
+from .errors import InputError
 
 LEAST, LARGEST = 1e-41, 1e40
 """Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
@@ -158,10 +158,8 @@ class Number(Values):
                     f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare number {value!r}."
                 )
             return self._checked(value, what, repr(value))
-        if self.words and not units.starts_with_number(value):
-            unit = f' with a unit, such as "{self._example}",' if self.unit else ""
-            raise UnitError(f"{what} must be a number{unit}{self._or_words}, but is {value!r}.")
-        number = units.parse(value, self.quantity if self.quantity in units.DIMENSIONS else self.unit, what)
+        kind, instead = self.quantity if self.quantity in units.DIMENSIONS else self.unit, self._or_words
+        number = units.parse(value, kind, what, f",{instead}" if instead else "")
         self._checked(number, what, repr(value))
         return Written(number, value)
 

@@ -286,8 +286,6 @@ class _Iteration:
             return False
         qp = self._posed()
         found = coupling.ahead(self.exchanges[name], qp, self._start(qp), self.solver, self.watched)
-        if found is None:
-            return False
         self.spent = found.iterations, found.pairs
         if found.exchange is None:
             return False

@@ -186,19 +186,19 @@ class DepthHardness(Coupling):
 
     def ahead(
         self, exchange: Exchange, qp: ContactQP, start: RealArray | None, solver: Solver, progress: Progress
-    ) -> Ahead | None:
+    ) -> Ahead:
         """Limits that fall gently are found with the pressure."""
         if not (self.falls and self._gentle and isinstance(solver, ActiveSet)):
-            return None
+            return Ahead()
         before = exchange.note.before
         highest, lowest = (self._limits(depth) for depth in (before, np.maximum(before, self.deepest)))
         found = follow(
             qp, FallingLimit(self.law, before, highest, lowest, _FORESEEN * self.tolerance), solver, start, progress
         )
         if found.cap is None:
-            return Ahead(None, found.pairs, found.iterations)
+            return Ahead(found.pairs, found.iterations)
         known = replace(exchange, x=found.cap, target=found.cap, smooth=False, lowest=0.0, pressure=found.pressure)
-        return Ahead(known, found.pairs, found.iterations)
+        return Ahead(found.pairs, found.iterations, known)
 
     def _limits(self, depth: RealArray) -> RealArray:
         """Limit (nx, ny) in Pa at a depth (nx, ny) in m; most points are not indented, and all of these have the same."""
@@ -223,7 +223,8 @@ class DepthHardness(Coupling):
         """The limit at the depth reached; where the solid hardens, at the one that a pixel on its own would reach."""
         before = exchange.note.before
         reached = before + added_indentation(contact)
-        limit, residual = self._limits(reached), self._disagreement(exchange.note, contact, reached)
+        limit = self._limits(reached)
+        residual = self._disagreement(exchange.note, contact, reached, limit)
         smooth = exchange.smooth and not bool(np.any(limit < self._limits(before)))
         if smooth:
             place = contact.pressure + reached / self.own_compliance
@@ -286,16 +287,16 @@ class DepthHardness(Coupling):
         depth.reshape(-1)[index] = np.where(low > start, 0.5 * (low + high), start)[0]
         return depth
 
-    def _disagreement(self, note: _Note, contact: Contact, reached: RealArray) -> float:
-        """Largest relative excess of the pressure over the limit, or at yielding points difference from it either way."""
+    def _disagreement(self, note: _Note, contact: Contact, reached: RealArray, limit: RealArray) -> float:
+        """Largest relative excess of the pressure over the ``limit`` at the depth ``reached``, or at yielding points difference from it either way."""
         p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
-        limit, index = self._limits(reached), np.flatnonzero(reached > note.before)
-        deep, first = (depth.reshape(-1)[index] for depth in (reached, note.before))
+        index, nearest = np.flatnonzero(reached > note.before), limit.copy()
+        deep, first, there = (field.reshape(-1)[index] for field in (reached, note.before, limit))
         near = np.concatenate(
-            [self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, 0.0, resolved)]
+            [there[None], *(self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, resolved))]
         )
-        limit.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
-        off = np.where(p >= contact.cap, np.abs(p - limit), p - limit) / limit
+        nearest.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
+        off = np.where(p >= contact.cap, np.abs(p - nearest), p - nearest) / nearest
         return max(float(off.max()), 0.0)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:

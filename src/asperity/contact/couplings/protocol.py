@@ -291,11 +291,11 @@ class Exchange:
 
 
 class Ahead(NamedTuple):
-    """Exchange of a coupling that has found the contact with its own unknown, None if it has not, and the FFT ``pairs`` and ``iterations`` spent on it."""
+    """FFT ``pairs`` and ``iterations`` that a coupling has spent on the contact with its own unknown, and its ``exchange`` if that has found it."""
 
-    exchange: Exchange | None
-    pairs: float
-    iterations: int
+    pairs: float = 0.0
+    iterations: int = 0
+    exchange: Exchange | None = None
 
 
 class Coupling(Protocol):
@@ -359,8 +359,8 @@ class Foreseeing(Protocol):
 
     def ahead(
         self, exchange: Exchange, qp: ContactQP, start: RealArray | None, solver: Solver, progress: Progress
-    ) -> Ahead | None:
-        """Unknown and pressure that nearly agree, where the coupling has a method for ``qp``, in which its share is; asked if no other feeds back. None if it is not found.
+    ) -> Ahead:
+        """Unknown and pressure that nearly agree, where the coupling has a method for ``qp``, in which its share is, that finds them; asked if no other feeds back.
 
         ``start`` is a pressure (nx, ny) in Pa to start from, if one is known.
         """

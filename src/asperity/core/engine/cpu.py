@@ -211,9 +211,8 @@ class _CpuFreeSet:
     ) -> tuple[RealArray, float]:
         kind = t.dtype.type
         if field is None:  # of a model, after others have been compiled: no pass of its own to wait for
-            with np.errstate(
-                over="ignore", invalid="ignore"
-            ):  # as in compiled passes; what comes of it is seen in the sums
+            # as in compiled passes; what comes of it is seen in the sums
+            with np.errstate(over="ignore", invalid="ignore"):
                 t *= kind(ratio)
                 t += z
                 t -= kind(mean)

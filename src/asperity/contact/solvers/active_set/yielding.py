@@ -92,8 +92,8 @@ class FallingLimit:
 class Followed(NamedTuple):
     """The work, FFT ``pairs`` and ``iterations`` on the fine grid; if it was not in vain, ``pressure`` and the limits ``cap`` (nx, ny) in Pa that agree with it."""
 
-    pairs: float
-    iterations: int
+    pairs: float = 0.0
+    iterations: int = 0
     pressure: RealArray | None = None
     cap: RealArray | None = None
 
@@ -111,9 +111,9 @@ def follow(
     """
     engine, constraint = qp.operator.engine, qp.constraint
     if not isinstance(engine, CpuEngine) or min(qp.profile.shape) < 2:
-        return Followed(0.0, 0)
+        return Followed()
     if isinstance(constraint, FixedMean) and constraint.mean_pressure > limit.lowest.mean():
-        return Followed(0.0, 0)
+        return Followed()
     with np.errstate(all="ignore"):  # what is not finite is given up
         return _nested(qp, limit, solver, start, progress or NoProgress())
 
@@ -279,14 +279,6 @@ class _Iteration:
         found = self.splines.deflection(set_.points, single, single, np.empty_like(single))
         return np.asarray(found.vector, dtype=float)
 
-    def _multiply(self, set_: _Points, values: RealArray) -> None:
-        """K times ``values`` (n,), over its scale, in the response of the scaled operator."""
-        scaled = self.work.scaled
-        set_.points.scatter(values.astype(scaled.dtype), scaled.field)
-        scaled.product.apply(scaled.field, scaled.response)
-        self.engine.clear_field(set_.points, scaled.field)
-        self.pairs += scaled.operator.pairs_per_application
-
     def _step(self, set_: _Points, level: float) -> RealArray:
         """Pressures (n,) in Pa after a step, within their bounds and of the prescribed load.
 
@@ -320,11 +312,14 @@ class _Iteration:
 
     def _add(self, set_: _Points, new: RealArray) -> None:
         """Set the pressures of the set to ``new`` (n,) in Pa, and add the deflection by the change."""
-        work, index = self.work, set_.index
+        work, scaled, index = self.work, self.work.scaled, set_.index
         self.pressure[index] = new
         self.cap[index] = np.where(set_.yields, self.pressure[index], self.highest[index])
-        self._multiply(set_, (new - set_.pressure) / work.unit)
-        self.engine.add(work.scaled.response, work.qp.height_scale, work.deflection)
+        set_.points.scatter(((new - set_.pressure) / work.unit).astype(scaled.dtype), scaled.field)
+        scaled.product.apply(scaled.field, scaled.response)
+        self.engine.clear_field(set_.points, scaled.field)
+        self.pairs += scaled.operator.pairs_per_application
+        self.engine.add(scaled.response, work.qp.height_scale, work.deflection)
 
 
 def _restore(pressure: RealArray, free: BoolArray, highest: RealArray, target: float) -> None:
