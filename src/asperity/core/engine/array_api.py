@@ -131,6 +131,9 @@ class _ArrayFreeSet:
         """``vector``, which nothing changes in place."""
         return vector
 
+    def shifted(self, vector: Any, by: float) -> Any:
+        return self.library.select(self.inside, vector + float(by))
+
     def square(self, vector: Any) -> float:
         found = self.library.numbers([self._sum(vector * vector)])[0]
         return found if math.isfinite(found) else math.nan

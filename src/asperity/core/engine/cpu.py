@@ -174,6 +174,9 @@ class _CpuFreeSet:
     def copy(self, vector: RealArray) -> RealArray:
         return vector.copy()
 
+    def shifted(self, vector: RealArray, by: float) -> RealArray:
+        return vector + by
+
     def square(self, vector: RealArray) -> float:
         with np.errstate(over="ignore"):
             found = float(np.dot(vector, vector))

@@ -130,7 +130,7 @@ class Convolution(Protocol):
 
 
 class FreeSet(Protocol):
-    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but two may be added, and a number to one.
+    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but two may be added.
 
     A *field* is an array over the whole grid that goes into or comes out of a convolution.
     """
@@ -154,6 +154,9 @@ class FreeSet(Protocol):
 
     def copy(self, vector: Any) -> Any:
         """Copy of ``vector`` that may be overwritten."""
+
+    def shifted(self, vector: Any, by: float) -> Any:
+        """``vector`` with a number added to each entry, a new one."""
 
     def square(self, vector: Any) -> float:
         """Sum of the squares of ``vector``; NaN beyond the range of its precision."""

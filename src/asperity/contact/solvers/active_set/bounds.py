@@ -107,7 +107,7 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, closely: bool = False) -
     z = system.preconditioned(system.prepared(r), r, free.empty(), first=closely)
     # beyond single precision the step fails, and says so, as others do
     with np.errstate(over="ignore", invalid="ignore"):
-        d = z.vector - system.mean(z.total)
+        d = free.shifted(z.vector, -system.mean(z.total))
         total = free.add_unclipped(work.pressure, d, work.unit).pressure
         r = free.copy(r)  # whose memory clearing may take
         change = PressureChange(free, d + clear_tension(work, free, total).values)
