@@ -58,7 +58,7 @@ from .contact.transient_sliding import TransientSliding, slide_in_time
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
-from .core.engine import ArrayEngine, CpuEngine
+from .core.engine import ArrayEngine, CpuEngine, GpuEngine
 from .core.errors import (
     AsperityError,
     ConvergenceError,
@@ -165,6 +165,7 @@ __all__ = [
     "FreeLine",
     "Frictionless",
     "FullStick",
+    "GpuEngine",
     "Grid",
     "GrossSliding",
     "HardWall",

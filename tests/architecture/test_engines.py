@@ -7,7 +7,7 @@ import ast
 from architecture.source import Module, imports, library
 
 FFT_LIBRARIES = ("numpy.fft", "scipy.fft", "scipy.fftpack", "ducc0", "pyfftw", "mkl_fft")
-ACCELERATORS = ("numba", "cupy", "jax", "torch", "array_api_compat")
+ACCELERATORS = ("numba", "cupy", "cupyx", "jax", "torch", "array_api_compat")
 RESERVED = FFT_LIBRARIES + ACCELERATORS
 FFT_ATTRIBUTES = {"np.fft", "numpy.fft", "sp.fft", "scipy.fft", "scipy.fftpack"}
 

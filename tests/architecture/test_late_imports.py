@@ -16,6 +16,8 @@ HEAVY = {
     "PIL": "pictures, only where one is read or written",
     "SurfaceTopography": "1.1 s",
     "array_api_compat": "only for arrays of other libraries",
+    "cupy": "only on a GPU",
+    "cupyx": "only on a GPU",
     "dask": "an extra that may be missing",
     "distributed": "an extra that may be missing",
     "ducc0": "an extra that may be missing",

@@ -73,7 +73,7 @@ class InTime:
             return coupling.lifting(coupled=any(operator.coupled for operator in self.shear.operators))
         if isinstance(coupling, SlidingCoupling):
             largest = max(operator.coupling.largest for operator in self.shear.operators)
-            return replace(coupling, feedback=largest > NO_COUPLING * float(self.prepared.operator.kernel.max()))
+            return replace(coupling, feedback=largest > NO_COUPLING * self.prepared.operator.largest)
         return coupling
 
     @property
@@ -164,7 +164,7 @@ class InTime:
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
-        fraction = measure.corrected_area(contact.touching, problem.grid, wraps=problem.boundary.wraps) / area
+        fraction = measure.outline(contact.touching, wraps=problem.boundary.wraps).corrected_area(problem.grid) / area
         force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)

@@ -93,7 +93,11 @@ def certify(
 ) -> Certificate:
     """Certificate of ``solution``, whose sums are ``totals`` and which took ``wall_time`` s."""
     state, at, total, elastic = solution.state, level_of(qp, totals), totals.pressure, 0.5 * totals.deflected
-    sharpest = totals.lowest if qp.elastic else best_level(state.pressure, state.deflection - qp.profile, qp.cap)
+    sharpest = totals.lowest
+    if not qp.elastic:
+        host = state.pressure, state.deflection, qp.profile
+        pressure, deflection, profile = host if isinstance(qp.cap, np.ndarray) else qp.as_computed(state)
+        sharpest = best_level(pressure, deflection - profile, qp.cap)
     found = qp.violation(state, sharpest)
     bound = found.above if qp.elastic else found.above + found.below
     deepest = at - sharpest if qp.elastic else qp.violation(state, at).deepest
@@ -257,7 +261,6 @@ class ContactResult(Stored):
     control: Control
     pressure: RealArray
     displacement: RealArray
-    permanent_indentation: RealArray
     plastic: BoolArray
     offset: float
     mean_pressure: float
@@ -279,6 +282,7 @@ class ContactResult(Stored):
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
+    permanent_indentation: Late[RealArray] = Late()
     gap: Late[RealArray] = Late()
     mean_gap: Late[float] = Late()
     normal_stiffness: Late[float] = Late()
@@ -403,9 +407,9 @@ class ContactResult(Stored):
 
     @property
     def area_fraction_error(self) -> float:
-        """Error of ``area_fraction_corrected`` by the size of the pixels, two standard deviations (see ``measure.area_error``)."""
+        """Error of ``area_fraction_corrected`` by the size of the pixels, two standard deviations (see ``measure.Outline.area_error``)."""
         grid = self.problem.grid
-        return measure.area_error(self.contact, grid, wraps=self.problem.boundary.wraps) / grid.area
+        return measure.outline(self.contact, wraps=self.problem.boundary.wraps).area_error(grid) / grid.area
 
     @property
     def indented(self) -> BoolArray:
@@ -497,10 +501,11 @@ def assemble(
     creeping = outcomes.get("creep")
     if creeping is not None:
         displacement = displacement + creeping.retarded_displacement
-    contact = p > 0.0
-    capped = np.zeros_like(contact) if found.qp.elastic else contact & (p >= found.cap)
-    pixels = int(np.count_nonzero(contact))
-    area = measure.corrected_area(contact, grid, wraps=wraps)
+    capped = np.zeros(p.shape, dtype=bool) if found.qp.elastic else (p > 0.0) & (p >= found.cap)
+    yielding = 0 if found.qp.elastic else int(np.count_nonzero(capped))
+    computed = found.qp.as_computed(found.solution.state)[0]
+    contact = measure.outline(computed > 0.0, wraps=wraps)  # where it was computed: a GPU takes a hundredth of the time
+    pixels, area = contact.pixels, contact.corrected_area(grid)
     load, work = found.totals.pressure, found.totals.deflected
     if lift is not None:
         work += float(np.multiply(p, lift, dtype=np.float64).sum())
@@ -522,14 +527,14 @@ def assemble(
         area_fraction_corrected=area / grid.area,
         contact_area=area,
         mean_real_pressure=load / pixels if pixels else 0.0,
-        max_pressure=float(p.max()),
+        max_pressure=float(computed.max()),
         approach=found.posed.top - offset,
         mean_gap=Later(_mean_gap),
         elastic_energy=0.5 * work * grid.pixel_area if creeping is None else creeping.stored_energy,
-        plastic_area_fraction=int(np.count_nonzero(capped)) / pixels if pixels else 0.0,
+        plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
         spot_areas=Later(_spot_areas),
-        contact_perimeter=measure.contact_perimeter(contact, grid, wraps=wraps),
+        contact_perimeter=contact.perimeter(grid),
         certificate=certificate,
         status=found.solution.status,
         citation_keys=citations,
@@ -546,6 +551,10 @@ def _gap(deflection: RealArray, profile: RealArray, result: ContactResult) -> Re
     gap = deflection - profile
     gap += result.offset
     return np.maximum(gap, 0.0, out=gap)
+
+
+def _unindented(result: ContactResult) -> RealArray:
+    return np.zeros(result.problem.grid.shape)
 
 
 def _mean_gap(result: ContactResult) -> float:
@@ -577,11 +586,12 @@ def _indentation(
     problem: ContactProblem, state: InterfaceState | None, memory: Memory, flow: PlasticBody | None
 ) -> dict[str, Any]:
     """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the imprint of ``flow``."""
-    permanent, total = memory["indentation"], float(memory["work"])
+    known, total, pixel = memory.get("indentation"), float(memory["work"]), problem.grid.pixel_area
+    permanent = np.zeros(1) if known is None else known
     dent = permanent if flow is None else np.maximum(permanent + flow.displacement, 0.0)
-    pixel, virgin = problem.grid.pixel_area, flow is None and not permanent.any()
+    virgin = flow is None and not permanent.any()
     return {
-        "permanent_indentation": permanent,
+        "permanent_indentation": Later(_unindented) if known is None else known,
         "plastic_work": total - (0.0 if state is None else state.plastic_work),
         "total_plastic_work": total,
         "indented_area": 0.0 if virgin else int(np.count_nonzero(permanent)) * pixel,

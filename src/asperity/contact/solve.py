@@ -317,7 +317,7 @@ class Prepared:
             require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded | Pull | FixedGrips):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
-        scale = self._rms(self.profile) or height_scale(self.profile, control, self.operator)
+        scale = self._rms() or height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
         lift: RealArray | float = 0.0
         if retarded is not None:
@@ -329,10 +329,10 @@ class Prepared:
         joined = self.couplings if couplings is None else couplings
         return settled_with(joined, posed, memories, self.solver, rounds=self.rounds, progress=self.progress)
 
-    def _rms(self, profile: RealArray) -> float:
+    def _rms(self) -> float:
         """Rms height (m), computed once for the steps of a surface at rest."""
-        if self._measured is None or self._measured[0] is not profile:
-            self._measured = profile, float(profile.std())
+        if self._measured is None or self._measured[0] is not self.profile:
+            self._measured = self.profile, float(self.operator.engine.resident(self.profile).std())
         return self._measured[1]
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
@@ -500,7 +500,7 @@ def couplings_of(
         tolerance = tolerances.get("stick_slip", STICK_SLIP_TOLERANCE)
         found.append(StickSlipCoupling.prepared(problem, tolerance, threads))
     elif isinstance(friction, Coulomb) and friction.couples:
-        tolerance, stiffest = tolerances.get("sliding", SLIDING_TOLERANCE), float(operator.kernel.max())
+        tolerance, stiffest = tolerances.get("sliding", SLIDING_TOLERANCE), operator.largest
         found.append(SlidingCoupling.prepared(problem, friction, stiffest, tolerance, threads))
     return tuple(found)
 

@@ -21,14 +21,15 @@ def test_perimeter_counts_edges_with_their_lengths():
     contact = pattern("..... .##.. .....")
     grid = asp.Grid(contact.shape, (2.0, 3.0))
     for periodic in (True, False):
-        assert measure.contact_edges(contact, wraps=(periodic, periodic)) == (4, 2)
-        assert measure.contact_perimeter(contact, grid, wraps=(periodic, periodic)) == 4 * 3.0 + 2 * 2.0
+        outline = measure.outline(contact, wraps=(periodic, periodic))
+        assert outline == (2, 4, 2)
+        assert outline.perimeter(grid) == 4 * 3.0 + 2 * 2.0
 
 
 def test_border_is_an_edge_only_where_free():
     contact = pattern("## ##")
-    assert measure.contact_edges(contact, wraps=(False, False)) == (4, 4)
-    assert measure.contact_edges(contact, wraps=(True, True)) == (0, 0)
+    assert measure.outline(contact, wraps=(False, False)) == (4, 4, 4)
+    assert measure.outline(contact, wraps=(True, True)) == (4, 0, 0)
 
 
 def test_corrected_area_is_the_formula_of_the_paper():
@@ -36,7 +37,7 @@ def test_corrected_area_is_the_formula_of_the_paper():
     contact = pattern(".... .##. .##. ....")
     factor = (np.pi - 1.0 + np.log(2.0)) / 24.0
     for spacing in ((1.0, 1.0), (2.0, 0.5)):
-        area = measure.corrected_area(contact, asp.Grid(contact.shape, spacing), wraps=(False, False))
+        area = measure.outline(contact, wraps=(False, False)).corrected_area(asp.Grid(contact.shape, spacing))
         assert area == pytest.approx((4.0 - 8.0 * factor) * spacing[0] * spacing[1], rel=1e-14)
 
 
@@ -53,7 +54,7 @@ def test_diagonal_neighbours_are_two_spots():
 def test_no_contact():
     nothing = np.zeros((4, 4), dtype=bool)
     assert measure.contact_spots(nothing, wraps=(True, True)).size == 0
-    assert measure.corrected_area(nothing, asp.Grid((4, 4), (1.0, 1.0)), wraps=(True, True)) == 0.0
+    assert measure.outline(nothing, wraps=(True, True)).corrected_area(asp.Grid((4, 4), (1.0, 1.0))) == 0.0
 
 
 @settings(max_examples=50)
@@ -162,4 +163,4 @@ def test_area_of_a_rough_surface_lies_within_its_error_on_every_grid(seed, short
 
 def test_no_border_no_error():
     full = np.ones((4, 4), dtype=bool)
-    assert measure.area_error(full, asp.Grid((4, 4), (1.0, 1.0)), wraps=(True, True)) == 0.0
+    assert measure.outline(full, wraps=(True, True)).area_error(asp.Grid((4, 4), (1.0, 1.0))) == 0.0

@@ -183,6 +183,23 @@ def periodic_qp(cap: float | np.ndarray, mean: float, seed: int) -> ContactQP:
     return ContactQP(PeriodicOperator(HalfSpace(1e11), grid), heights, cap, FixedMean(mean), 1e-9)
 
 
+@given(
+    seed=st.integers(0, 2**31),
+    shape=st.tuples(st.integers(1, 8), st.integers(1, 8)),
+    mapped=st.booleans(),
+    share=st.sampled_from([0.0, 0.2, 0.9, 1.0]),
+)
+def test_the_best_level_is_that_of_a_point_with_the_smallest_gap(
+    seed: int, shape: tuple[int, int], mapped: bool, share: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    r, cap = rng.standard_normal(shape), rng.uniform(0.2, 2.0, shape) if mapped else 1.5
+    pressure = cap * np.minimum(1.0, rng.random(shape) * share / 0.9) if share < 1.0 else cap * np.ones(shape)
+    found = duality_gap(pressure, r, cap, best_level(pressure, r, cap))
+    smallest = min(duality_gap(pressure, r, cap, float(level)) for level in r.flat)
+    assert found <= smallest + 1e-13 * r.size
+
+
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(
     seed=st.integers(0, 2**31),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import math
+import sys
 from dataclasses import dataclass, fields, replace
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -13,6 +14,7 @@ import array_api_strict
 import numpy as np
 import pytest
 from contact_cases import elastic, rough
+from emulated_gpu import EmulatedGpu
 from refusals import refused
 
 import asperity as asp
@@ -28,6 +30,7 @@ OTHERS: dict[str, Engine] = {
     "numpy": asp.ArrayEngine(np),
     "array_api_strict": asp.ArrayEngine(array_api_strict),
     "second device": asp.ArrayEngine(array_api_strict, device=array_api_strict.Device("device1")),
+    "emulated gpu": EmulatedGpu(),
 }
 SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (33, 33)]
 CAPS = ["none", "one", "map"]
@@ -182,6 +185,7 @@ def test_passes_over_a_free_set_agree(
         "moved",
         "loads",
         "blended",
+        "shifted",
         "changed",
     ):
         agree(getattr(found, name), getattr(wanted, name), case.p.size, dtype)
@@ -226,6 +230,7 @@ def work_on_free_set(engine: Engine, case: Iterate, dtype: str, centred: bool) -
     seen.loads = [total, *values_of(found), *values_of(raised)]
     free.interpolate(old, 0.25, p)
     seen.blended = engine.numpy(p).copy()
+    seen.shifted = scattered(free.shifted(r, 0.25))
     change, product = free.scatter_change(old, p, r, field)
     seen.changed = [engine.numpy(field).copy(), scattered(change)]
     seen.sums.append(product)
@@ -463,7 +468,7 @@ def test_pressures_are_refined(engine: Engine, shape: tuple[int, int]) -> None:
     half = -(-shape[0] // 2), -(-shape[1] // 2)
     coarse, base = np.maximum(rng.standard_normal(half), 0.0), rng.standard_normal(half)
     heights = rng.standard_normal(shape)
-    fine = engine.prolonged(coarse, base, heights, 0.3)
+    fine = engine.numpy(engine.prolonged(engine.array(coarse, "float64"), base, heights, 0.3))
     for (i, j), value in np.ndenumerate(fine):
         p = coarse[i // 2, j // 2]
         assert value == pytest.approx(max(0.0, p + 0.3 * (heights[i, j] - base[i // 2, j // 2])) if p > 0.0 else 0.0)
@@ -675,6 +680,7 @@ def test_an_engine_has_a_name() -> None:
     assert asp.ArrayEngine(np).name == "numpy (cpu)"
     assert asp.ArrayEngine(array_api_strict).name.startswith("array_api_strict (")
     assert asp.CpuEngine(2).name.endswith("2 threads)")
+    assert EmulatedGpu().name == "gpu (emulated)"
 
 
 def test_what_is_no_array_library_is_refused() -> None:
@@ -735,6 +741,9 @@ def test_solutions_agree(engine: Engine, boundary: str, law: str, control: str, 
     assert np.all(np.maximum(p, q)[differ] <= np.sqrt(bound / eigenvalues.min()))
     assert found.area_fraction == pytest.approx(wanted.area_fraction, abs=differ.mean() + 1e-15)
     assert np.abs(p - q).max() <= 1e-7 * q.max(), "in truth they follow the same path, to rounding"
+    if precision == "double":  # the rounding of single precision may decide on the last step
+        assert found.certificate.iterations == wanted.certificate.iterations
+        assert found.certificate.fft_pairs == wanted.certificate.fft_pairs
 
 
 def solution(engine: Engine, boundary: str, law: str, control: str, precision: Any) -> asp.ContactResult:
@@ -749,16 +758,13 @@ def reference_solution(boundary: str, law: str, control: str, precision: str) ->
     return solution(REFERENCE, boundary, law, control, precision)
 
 
+@functools.cache
 def gpu() -> Engine:
-    """Engine on the GPU, if there is one."""
+    """Engine of the GPU, if there is one."""
     try:
-        cupy = importlib.import_module("cupy")
-    except ImportError:
-        pytest.skip("needs a GPU: cupy is not installed")
-    try:
-        return asp.ArrayEngine(cupy)
-    except cupy.cuda.runtime.CUDARuntimeError as error:
-        pytest.skip(f"needs a GPU: cupy finds none ({error})")
+        return asp.GpuEngine()
+    except asp.InputError as error:
+        pytest.skip(f"needs a GPU: {error}")
 
 
 def test_arrays_and_passes_on_a_gpu() -> None:
@@ -772,6 +778,9 @@ def test_arrays_and_passes_on_a_gpu() -> None:
                 test_nested_splines_are_those_of_dense_matrices(engine, shape, wraps, dtype)
             test_periodic_convolutions_agree(engine, shape, dtype)
             test_free_convolutions_agree(engine, shape, dtype)
+            test_an_empty_free_set(engine, dtype)
+            test_tensile_points_are_counted_and_cleared(engine, dtype)
+            test_the_loaded_points_of_a_free_set(engine, dtype)
         for cap in CAPS:
             test_totals_agree(engine, shape, cap)
             test_violations_agree(engine, shape, cap)
@@ -782,5 +791,25 @@ def test_arrays_and_passes_on_a_gpu() -> None:
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("control", LOADS)
-def test_solutions_on_a_gpu(boundary: str, law: str, control: str) -> None:
-    test_solutions_agree(gpu(), boundary, law, control, "mixed")
+@pytest.mark.parametrize("precision", ["mixed", "double"])
+def test_solutions_on_a_gpu(boundary: str, law: str, control: str, precision: str) -> None:
+    test_solutions_agree(gpu(), boundary, law, control, precision)
+
+
+def test_solutions_by_array_operations_on_a_gpu() -> None:
+    gpu()
+    test_solutions_agree(asp.ArrayEngine(importlib.import_module("cupy")), "periodic", "elastic", "load", "double")
+
+
+def test_without_cupy_or_a_gpu_the_engine_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "cupy", None)
+    with refused(asp.InputError, "library of GpuEngine", "pip install cupy-cuda12x"):
+        asp.GpuEngine()
+
+    def none() -> int:
+        raise RuntimeError("no CUDA-capable device is detected")
+
+    runtime = SimpleNamespace(getDeviceCount=none, CUDARuntimeError=RuntimeError)
+    monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(cuda=SimpleNamespace(runtime=runtime)))
+    with refused(asp.InputError, "machine of GpuEngine", "no CUDA-capable device is detected"):
+        asp.GpuEngine()

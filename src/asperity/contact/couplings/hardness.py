@@ -92,11 +92,14 @@ def _before(posed: Posed, memory: Memory) -> RealArray:
 
 
 def _after(law: InterfaceLaw, note: _Note, contact: Contact) -> Memory:
-    """Indentation (m) and plastic work (J) since the virgin surface, after ``contact``."""
-    after, work = note.before, float(note.memory.get("work", 0.0))
-    if not contact.qp.elastic:
-        after = note.before + added_indentation(contact)
-        work += float(work_density(law, note.before, after).sum()) * contact.posed.operator.grid.pixel_area
+    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface, after ``contact``."""
+    work = float(note.memory.get("work", 0.0))
+    if contact.qp.elastic:
+        known = {name: values for name, values in note.memory.items() if name == "indentation"}
+        return {**known, "work": np.asarray(work)}
+    before = _before(contact.posed, note.memory)
+    after = before + added_indentation(contact)
+    work += float(work_density(law, before, after).sum()) * contact.posed.operator.grid.pixel_area
     return {"indentation": after, "work": np.asarray(work)}
 
 
@@ -124,8 +127,8 @@ class ConstantHardness(Coupling):
     remedy: ClassVar[str] = ""
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The indentation so far, (nx, ny) in m."""
-        before = _before(posed, memory)
+        """The indentation so far, (nx, ny) in m; of no points where there is none."""
+        before = memory.get("indentation", np.zeros(0))
         return Exchange(before, before, note=_Note(before, memory))
 
     def share(self, exchange: Exchange) -> Share:

@@ -94,7 +94,7 @@ class Posed:
     @cached_property
     def top(self) -> float:
         """Highest point (m) of the virgin profile, from which the approach counts."""
-        return float(self.profile.max())
+        return float(self.operator.engine.resident(self.profile).max())
 
     @property
     def external_force(self) -> float | None:

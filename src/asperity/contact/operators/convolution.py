@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ...core.engine import Convolution, CpuEngine, Engine
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.spectral import RealTransform, fast_length, wrapped
-from ...solids.compliance.halfspace import Compliance
+from ...solids.compliance.halfspace import Compliance, HalfSpace
 from ..boundary import Boundary, Free, FreeLine, Periodic
 
 # What a solver may ask of an operator.
@@ -89,7 +89,11 @@ class Operator(Protocol):
 
     @property
     def kernel(self) -> RealArray:
-        """Compliance (m/Pa) on the half spectrum of the grid or of its padded form; the largest entry sets the scale."""
+        """Compliance (m/Pa) on the half spectrum of the grid or of its padded form."""
+
+    @property
+    def largest(self) -> float:
+        """Largest entry of it (m/Pa), that of the longest waves; it sets the scale."""
 
     @property
     def padded(self) -> tuple[int, int]:
@@ -138,13 +142,23 @@ class _Prepared:
     kernel: RealArray
 
     @cached_property
+    def _resident(self) -> Any:
+        """``kernel`` where the engine computes with it."""
+        return self.engine.resident(self.kernel)
+
+    @cached_property
+    def largest(self) -> float:
+        """Largest compliance (m/Pa)."""
+        return float(self._resident.max())
+
+    @cached_property
     def _convolutions(self) -> dict[tuple[str, float], Convolution]:
         return {}
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
         if (dtype, scale) not in self._convolutions:
-            kernel, shape = self.kernel if scale == 1.0 else self.kernel / scale, self.grid.shape
+            kernel, shape = self._resident if scale == 1.0 else self._resident / scale, self.grid.shape
             if self.padded == shape:
                 made = self.engine.convolution(kernel, shape, dtype)
             else:
@@ -169,8 +183,8 @@ class PeriodicOperator(_Prepared):
 
     Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
 
-    ``kernel`` is the compliance (m/Pa) on the half spectrum of ``grid`` where it is known already, ``octaves`` holds values of the
-    compliance to share, from the operator of a finer grid.
+    ``kernel`` is the compliance (m/Pa) on the half spectrum of ``grid`` where it is known already, an array of the host or where the
+    engine computes; ``octaves`` holds values of the compliance to share, from the operator of a finer grid.
     """
 
     pairs_per_application = 1.0
@@ -189,18 +203,24 @@ class PeriodicOperator(_Prepared):
         self.octaves = octaves or Octaves(compliance)
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
-        self.kernel = spectral_kernel(compliance, grid) if kernel is None else kernel
+        self._resident = (
+            spectral_kernel(compliance, grid, self.engine) if kernel is None else self.engine.resident(kernel)
+        )
         self.padded = grid.shape
-        self.zero_mean_mode = bool(self.kernel[0, 0] == 0.0)
+        self.zero_mean_mode = bool(self._resident[0, 0] == 0.0)
+
+    @cached_property
+    def kernel(self) -> RealArray:  # type: ignore[override]
+        """Compliance (m/Pa) on the half spectrum."""
+        return self.engine.numpy(self._resident)
 
     @cached_property
     def coarsened(self) -> PeriodicOperator:
         """Operator on the grid of half as many points per side, whose waves are the longer half of those here."""
         grid = coarse_grid(self.grid)
         fine, (rows, columns) = self.grid.shape[0], grid.shape
-        row = np.arange(rows)
-        of_wave = np.where(row < (rows + 1) // 2, row, fine - rows + row)
-        kernel = self.kernel[of_wave, : columns // 2 + 1]
+        positive, longer = (rows + 1) // 2, self._resident[:, : columns // 2 + 1]
+        kernel = np.concatenate([longer[:positive], longer[fine - rows + positive :]])
         return PeriodicOperator(self.compliance, grid, engine=self.engine, kernel=kernel, octaves=self.octaves)
 
     def matrix(self) -> RealArray:
@@ -210,18 +230,23 @@ class PeriodicOperator(_Prepared):
         return convolution_matrix(self.apply(point), periodic=True)
 
 
-def spectral_kernel(compliance: Compliance, grid: Grid) -> RealArray:
-    """Compliance (m/Pa) on the half spectrum of ``grid``; negative frequencies along x are copies of positive ones."""
-    nx, ny = grid.shape
+def spectral_kernel(compliance: Compliance, grid: Grid, engine: Engine | None = None) -> Any:
+    """Compliance (m/Pa) on the half spectrum of ``grid``, where the ``engine`` computes; negative frequencies along x are copies of positive ones.
+
+    It is computed there if it is that of a half-space, which any array takes; a GPU does that in a hundredth of the time.
+    """
+    nx = grid.shape[0]
     rows = nx // 2 + 1
-    qx, qy = grid.wavevector()
+    waves = grid.wavevector()
+    if engine is not None and isinstance(compliance, HalfSpace):
+        waves = engine.resident(waves[0]), engine.resident(waves[1])
+    qx, qy = waves
     q = np.sqrt(qx[:rows] ** 2 + qy**2)
-    q[0, 0] = q[-1, -1] or 1.0  # any wavenumber of the grid: its value is replaced
-    kernel = np.empty((nx, ny // 2 + 1))
-    kernel[:rows] = compliance.spectral(q)
-    kernel[0, 0] = compliance.mean_mode()
-    kernel[rows:] = kernel[nx - rows : 0 : -1]
-    return kernel
+    q[0, 0] = float(q[-1, -1]) or 1.0  # any wavenumber of the grid: its value is replaced
+    found = compliance.spectral(q)
+    found[0, 0] = compliance.mean_mode()
+    kernel = np.concatenate([found, found[nx - rows : 0 : -1]])
+    return kernel if engine is None else engine.resident(kernel)
 
 
 # Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -63,6 +64,18 @@ class ContactQP:
         """Whether there is no cap at all."""
         return not isinstance(self.cap, np.ndarray) and self.cap == np.inf
 
+    @cached_property
+    def resident(self) -> ContactQP:
+        """The same with the profile where the machine computes, for methods that stay there."""
+        profile = self.operator.engine.resident(self.profile)
+        return self if profile is self.profile else replace(self, profile=profile)
+
+    @property
+    def on_host(self) -> ContactQP:
+        """The same with the profile as a NumPy array."""
+        profile = self.operator.engine.numpy(self.profile)
+        return self if profile is self.profile else replace(self, profile=profile)
+
     def survey(self, state: SolverState) -> Survey:
         """Sums over ``state`` and the profile, in double precision."""
         return self.operator.engine.survey(*self._arrays(state))
@@ -75,12 +88,18 @@ class ContactQP:
         """Pressure, deflection, profile and cap on the machine of the operator; no cap is None."""
         array = self.operator.engine.array
         cap = None if self.elastic else array(np.asarray(self.cap, dtype=float).reshape(-1), "float64")
-        return (*(array(field, "float64") for field in (state.pressure, state.deflection, self.profile)), cap)
+        return (*(array(field, "float64") for field in self.as_computed(state)), cap)
+
+    def as_computed(self, state: SolverState) -> tuple[Any, Any, Any]:
+        """Pressure and deflection of ``state``, and the profile, where the machine computes if they are there as well; they take the operations of NumPy."""
+        if state.resident is None:
+            return state.pressure, state.deflection, self.profile
+        return (*state.resident, self.resident.profile)
 
     @cached_property
     def largest_compliance(self) -> float:
         """Deflection (m/Pa) under a unit pressure of the longest wave."""
-        return float(self.operator.kernel.max())
+        return self.operator.largest
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +129,8 @@ class SolverState:
         What the method carries from step to step; frozen, or ``Borrowing``.
     engine
         Whose arrays pressure and deflection are; None for NumPy arrays.
+    resident
+        Pressure and deflection where the machine computes as well, if they are NumPy arrays and that is elsewhere.
     """
 
     pressure: RealArray
@@ -122,6 +143,7 @@ class SolverState:
     energy: float | None = None
     memory: object = None
     engine: Engine | None = None
+    resident: tuple[Any, Any] | None = None
 
     def copy(self) -> SolverState:
         """State of its own arrays, which steps from this one leave alone, for restarts and branches of a run."""
@@ -134,8 +156,10 @@ class SolverState:
         """The same as NumPy arrays, without the memory of the method: a result, and a start for ``init``."""
         if self.engine is None:
             return replace(self, memory=None)
-        pressure, deflection = self.engine.numpy(self.pressure), self.engine.numpy(self.deflection)
-        return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None)
+        own = self.pressure, self.deflection
+        pressure, deflection = (self.engine.numpy(values) for values in own)
+        kept = own if self.engine.separate_memory else None
+        return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None, resident=kept)
 
 
 @runtime_checkable
@@ -251,6 +275,29 @@ def run(
     begun: SolverState | None = None,
 ) -> Solution:
     """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, or the state ``begun``, until it converges, stagnates or gives up."""
+    ended = iterated(solver, qp, start, progress, begun)
+    state, finished = ended.state, ended.state.finished
+    total = finished.pressure.sum() if state.engine is None else state.engine.total(state.pressure)
+    status = _status(solver, state, ended.stagnated) if np.isfinite(total) else _OVERFLOWN
+    return Solution(finished, status, ended.errors)
+
+
+class Ended(NamedTuple):
+    """Last ``state`` of a solver, with the arrays and the memory of the method, the ``errors`` of all, and whether it has ``stagnated``."""
+
+    state: SolverState
+    errors: tuple[float, ...]
+    stagnated: bool
+
+
+def iterated(
+    solver: Solver,
+    qp: ContactQP,
+    start: RealArray | None = None,
+    progress: Progress | None = None,
+    begun: SolverState | None = None,
+) -> Ended:
+    """As ``run``, but the last state as the method leaves it."""
     report = progress or NoProgress()
     state = solver.init(qp, start) if begun is None else begun
     errors = [state.error]
@@ -259,10 +306,7 @@ def run(
         report.update(state.iterations, state.error, solver.tolerance)
         stagnated = state.exhausted or best.long_ago
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
-            finished = state.finished
-            if not np.isfinite(finished.pressure.sum()):
-                return Solution(finished, _OVERFLOWN, tuple(errors))
-            return Solution(finished, _status(solver, state, stagnated), tuple(errors))
+            return Ended(state, tuple(errors), stagnated)
         state = solver.step(qp, state)
         errors.append(state.error)
         best.add(state)
@@ -347,11 +391,15 @@ def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> flo
     """Level (m) with the smallest duality gap, so the sharpest bound: min r without cap, else a weighted median."""
     if not isinstance(cap, np.ndarray) and cap == np.inf:
         return float(r.min())
-    order = np.argsort(r, axis=None)
-    room = np.broadcast_to(np.asarray(cap, dtype=float), r.shape).ravel()[order].cumsum()
     # slope of the gap in lambda: sum of (cap - p) where r < lambda, minus sum of p where r > lambda
-    index = int(np.searchsorted(room, pressure.sum()))
-    return float(r.ravel()[order[min(index, order.size - 1)]])
+    values, total, least = r.ravel(), float(pressure.sum(dtype=np.float64)), float(np.min(cap))
+    enough = max(1, math.ceil(total / least)) if total < least * values.size else values.size
+    if not isinstance(cap, np.ndarray):
+        return float(np.partition(values, enough - 1)[enough - 1])
+    lowest = np.argpartition(values, enough - 1)[:enough]
+    order = lowest[np.argsort(values[lowest])]
+    index = int(np.searchsorted(cap.ravel()[order].cumsum(), total))
+    return float(values[order[min(index, enough - 1)]])
 
 
 _LIGHT = 1e-3

@@ -1,7 +1,8 @@
-"""Machines to compute on: the CPU with compiled passes, or any array-API library."""
+"""Machines to compute on: the CPU or a GPU with compiled passes, or any array-API library."""
 
 from .array_api import ArrayEngine
 from .cpu import CpuEngine
+from .gpu import GpuEngine
 from .protocol import (
     SQUARE_SIDE,
     Clipped,
@@ -25,6 +26,7 @@ __all__ = [
     "CpuEngine",
     "Engine",
     "FreeSet",
+    "GpuEngine",
     "Load",
     "Products",
     "SplineModel",

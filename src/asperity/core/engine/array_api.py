@@ -22,6 +22,7 @@ from .protocol import (
     Products,
     SplineModel,
     Splines,
+    Survey,
     Totals,
     Unclipped,
     Violation,
@@ -53,8 +54,11 @@ class Library:
             raise _unfit("writable arrays", namespace) from None
         return cls(xp, device)
 
-    def array(self, values: RealArray | float, dtype: str) -> Any:
-        """``values`` on the device."""
+    def array(self, values: Any, dtype: str) -> Any:
+        """``values`` on the device, where they may be already."""
+        adapters = compat()
+        if adapters.is_array_api_obj(values) and not adapters.is_numpy_array(values):
+            return self.xp.astype(values, getattr(self.xp, dtype), copy=False)
         host = np.ascontiguousarray(values, dtype=dtype)
         return self.xp.asarray(host, dtype=getattr(self.xp, dtype), device=self.device)
 
@@ -456,6 +460,7 @@ class ArrayEngine:
 
     def __init__(self, namespace: Any, *, device: Any = None) -> None:
         self._library = library = Library.of(namespace, device)
+        self._fft = library.xp.fft
         where = str(compat().device(library.zeros((1, 1), "float64"))).strip("<>")
         self.name = f"{namespace.__name__} ({where})"
 
@@ -472,6 +477,15 @@ class ArrayEngine:
         return self._library.zeros(shape, dtype)
 
     field = zeros
+    separate_memory = False
+
+    def resident(self, values: Any) -> Any:
+        """``values`` itself: arrays of other libraries do not take the operations of NumPy."""
+        return values
+
+    def total(self, values: Any) -> float:
+        """Sum of the ``values``."""
+        return self._library.numbers([self._library.xp.sum(values, dtype=self._library.xp.float64)])[0]
 
     def copy(self, values: Any) -> Any:
         """New array equal to ``values``."""
@@ -479,21 +493,19 @@ class ArrayEngine:
 
     def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
         """Periodic convolution."""
-        return _Convolution(self._library, kernel, shape, shape, dtype)
+        return _Convolution(self._fft, self.array(kernel, dtype), shape, shape)
 
     def padded_convolution(
         self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
     ) -> Convolution:
         """Free convolution with pruned transforms."""
-        return _Convolution(self._library, kernel, shape, padded, dtype)
+        return _Convolution(self._fft, self.array(kernel, dtype), shape, padded)
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines."""
         return _ArraySplines(self._library, model, dtype)
 
-    def prolonged(
-        self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
-    ) -> RealArray:
+    def prolonged(self, coarse: Any, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> Any:
         """Pressure on the points of ``heights`` from a coarser one."""
         xp, fine = self._library.xp, self.array(heights, "float64")
         nx, ny = fine.shape
@@ -504,7 +516,7 @@ class ArrayEngine:
         raised = p + float(stiffness) * (fine - base)
         return self.numpy(self._library.select((p > 0.0) & (raised > 0.0), raised))
 
-    def interpolated(self, coarse: RealArray, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
+    def interpolated(self, coarse: Any, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
         """Values between coarser points."""
         xp, values = self._library.xp, self.array(coarse, "float64")
         for axis in (0, 1):
@@ -516,7 +528,7 @@ class ArrayEngine:
             values = _parts(xp, axis, values, before, after, shape[axis])
         return self.numpy(values)
 
-    def survey(self, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:
+    def survey(self, p: Any, u: Any, h: Any, cap: Any) -> Survey:
         """Survey of an iterate."""
         double = self._library.xp.float64
         p, u, h = (self._library.xp.astype(values, double, copy=False) for values in (p, u, h))
@@ -547,17 +559,12 @@ class ArrayEngine:
 class _Convolution:
     """Transform, product with the kernel, transform back; along y only the rows that hold data."""
 
-    def __init__(
-        self, library: Library, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
-    ) -> None:
-        self._library = library
-        self._kernel = library.array(kernel, dtype)
-        self._shape = shape
-        self._padded = padded
+    def __init__(self, fft: Any, kernel: Any, shape: tuple[int, int], padded: tuple[int, int]) -> None:
+        self._fft, self._kernel = fft, kernel
+        self._shape, self._padded = shape, padded
 
     def apply(self, field: Any, out: Any) -> Any:
-        factor = self._kernel
-        fft, (mx, my) = self._library.xp.fft, self._padded
+        fft, factor, (mx, my) = self._fft, self._kernel, self._padded
         if self._shape == self._padded:
             out[...] = fft.irfftn(fft.rfftn(field, axes=(0, 1)) * factor, s=(mx, my), axes=(0, 1))
             return out

@@ -302,6 +302,16 @@ class CpuEngine:
         """Array of zeros."""
         return np.zeros(shape, dtype)
 
+    separate_memory = False
+
+    def resident(self, values: RealArray) -> RealArray:
+        """``values`` itself."""
+        return values
+
+    def total(self, values: RealArray) -> float:
+        """Sum of the ``values``."""
+        return float(values.sum())
+
     def copy(self, values: RealArray) -> RealArray:
         """New array equal to ``values``."""
         return np.array(values)

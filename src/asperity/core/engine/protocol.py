@@ -268,6 +268,19 @@ class Engine(Protocol):
     def zeros(self, shape: tuple[int, int], dtype: str) -> Any:
         """Array of zeros."""
 
+    @property
+    def separate_memory(self) -> bool:
+        """Whether ``resident`` arrays lie in another memory than those of NumPy."""
+
+    def resident(self, values: Any) -> Any:
+        """``values`` where the engine computes, in double precision, if arrays there take the operations of NumPy; else as they are.
+
+        Arrays that cannot be written to may be the same in repeated calls.
+        """
+
+    def total(self, values: Any) -> float:
+        """Sum of the ``values``, an array of this engine."""
+
     def copy(self, values: Any) -> Any:
         """New array equal to ``values``."""
 
@@ -285,17 +298,15 @@ class Engine(Protocol):
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines on points of ``shape``, for vectors of the precision ``dtype``."""
 
-    def prolonged(
-        self, coarse: RealArray, coarse_heights: RealArray, heights: RealArray, stiffness: float
-    ) -> RealArray:
-        """Pressure on the points of ``heights`` from the one on half as many per side, all NumPy arrays.
+    def prolonged(self, coarse: Any, coarse_heights: Any, heights: Any, stiffness: float) -> Any:
+        """Pressure on the points of ``heights`` from the ``coarse`` one, an array of this engine, on half as many points per side.
 
-        Where the ``coarse`` one is not zero, ``stiffness`` times what the coarse heights do not show is added, down to
-        zero.
+        Heights and what is returned are as ``resident`` leaves them. Where the ``coarse`` pressure is not zero, ``stiffness`` times what the
+        coarse heights do not show is added, down to zero.
         """
 
-    def interpolated(self, coarse: RealArray, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
-        """Linear interpolation of ``coarse`` values at the points of ``shape``, two for each along either axis, all NumPy arrays.
+    def interpolated(self, coarse: Any, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
+        """Linear interpolation of ``coarse`` values, an array of this engine, at the points of ``shape``, two for each along either axis; a NumPy array.
 
         Beyond the first and last point of an axis that does not wrap they are as there.
         """

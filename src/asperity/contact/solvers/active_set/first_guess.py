@@ -10,7 +10,7 @@ import numpy as np
 
 from ....core.arrays import RealArray
 from ...operators.convolution import restricted
-from ..protocol import ContactQP, FixedMean, Solver, feasible_start, run
+from ..protocol import ContactQP, FixedMean, Solver, feasible_start, iterated
 from .bounds import free_set, narrowed, plane_level
 from .linear_system import Workspace
 from .spline_model import pixel_compliance, steepness
@@ -78,9 +78,10 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
     if min(qp.profile.shape) <= COARSEST:
+        qp = qp.on_host
         return Start(feasible_start(qp, highest_points(qp)), guessed=True)
     coarse, engine = coarsened(qp), qp.operator.engine
-    state = run(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
+    state = iterated(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
     share = coarse.profile.size / qp.profile.size
     settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM
@@ -91,8 +92,8 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     if settles:
         deflection = engine.interpolated(state.deflection, qp.profile.shape, qp.operator.boundary.wraps)
     if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
-        return Start(feasible_start(qp, start), pairs * share, deflection, guessed=True)
-    start *= qp.constraint.mean_pressure / start.mean()
+        return Start(feasible_start(qp, engine.numpy(start)), pairs * share, deflection, guessed=True)
+    start *= qp.constraint.mean_pressure / float(start.mean())
     return Start(start, pairs * share, deflection, guessed=True)
 
 

@@ -96,7 +96,7 @@ class Workspace:
             exact.apply(pressure, begun)
         else:
             begun = engine.array(deflection, dtype)
-        scale = float(operator.kernel.max()) or 1.0
+        scale = operator.largest or 1.0
         return cls(
             qp=qp,
             scaled=ScaledOperator.of(operator, "float64" if precision == "double" else "float32", scale),

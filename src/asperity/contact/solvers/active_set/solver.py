@@ -238,6 +238,7 @@ class ActiveSet:
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, or at the solution on coarser grids where there is no start or a worse one."""
+        qp = qp.resident
         if start is not None and start.any():
             state = self._started(qp, Start(feasible_start(qp, start)), 1)
             if state.error <= _POOR or min(qp.profile.shape) <= COARSEST:
@@ -394,7 +395,7 @@ class ActiveSet:
     def _gradient_step(self, memory: _Memory, spent: SolverState) -> tuple[_Memory, SolverState]:
         """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
         work = memory.work
-        qp, engine = work.qp, work.engine
+        qp, engine = work.qp.on_host, work.engine
         _compute_from_scratch(memory)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))

@@ -133,7 +133,7 @@ class Linearised:
     @cached_property
     def _inverse(self) -> RealArray:
         """1/c(q) on the half spectrum of the grid, the mean as the longest wave."""
-        kernel = spectral_kernel(self.operator.compliance, self.operator.grid)
+        kernel: RealArray = spectral_kernel(self.operator.compliance, self.operator.grid)
         kernel[0, 0] = kernel.max()
         typical = float(np.median(self.soft[self.contact])) if isinstance(self.soft, np.ndarray) else 0.0
         return 1.0 / (kernel + typical)
