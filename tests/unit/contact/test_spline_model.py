@@ -143,16 +143,20 @@ def test_the_model_scales_with_the_compliance() -> None:
     assert (other.fall, other.bend, other.merges, other.wraps) == (one.fall, one.bend, one.merges, one.wraps)
 
 
-def test_a_model_is_fitted_once_for_an_operator_and_goes_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Solves with one operator, on all of its grids, fit no model again; nothing is kept of an operator that is gone."""
-    fitted = []
-    monkeypatch.setattr(spline_model, "_fit", lambda *to, fit=spline_model._fit: fitted.append(to[0].grid) or fit(*to))
-    problem = asp.ContactProblem(asp.Surface(rough_set((128, 128), 0.5, 1), 1.0, periodic=True), asp.Elastic(2.0, 0.0))
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    for load in (0.01, 0.02):
-        asp.solve(problem, asp.MeanPressure(load), operator=operator)
-    assert [one.shape for one in fitted] == [(64, 64), (128, 128)]
-    assert operator in spline_model._FITTED
+def test_a_model_is_fitted_once_for_a_body_and_keeps_no_operator() -> None:
+    """Solves of one body, on all grids, fit no model again; that of another body is another one. Kernels, which are large, go with their operators."""
+    models = []
+    for modulus, new in ((2.125, 2), (2.125, 0), (2.25, 2)):
+        fitted = spline_model._fit.cache_info().misses
+        surface = asp.Surface(rough_set((128, 128), 0.5, 1), 1.0, periodic=True)
+        problem = asp.ContactProblem(surface, asp.Elastic(modulus, 0.0))
+        operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+        asp.solve(problem, asp.MeanPressure(0.01), operator=operator)
+        assert spline_model._fit.cache_info().misses == fitted + new
+        models.append(spline_compliance(operator, operator.largest).model)
+    assert models[0] is models[1]
+    assert models[2].stiffness == pytest.approx(models[0].stiffness)  # over the largest compliance
+    assert models[2] is not models[0]
     gone = weakref.ref(operator)
     del operator
     gc.collect()

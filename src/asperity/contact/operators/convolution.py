@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -49,6 +49,12 @@ class Octaves:
             found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
             self._known.update(zip(missing, found.tolist(), strict=True))
         return np.array([self._known[key] for key in keys])
+
+
+@lru_cache(maxsize=16)
+def octaves_of(compliance: Spectral) -> Octaves:
+    """The same for all operators of a ``compliance``."""
+    return Octaves(compliance)
 
 
 def _key(wavenumber: float) -> int:
@@ -200,7 +206,7 @@ class PeriodicOperator(_Prepared):
     ) -> None:
         self.grid = grid
         self.compliance = compliance
-        self.octaves = octaves or Octaves(compliance)
+        self.octaves = octaves or octaves_of(compliance)
         self.boundary: Boundary = Periodic()
         self.engine: Engine = engine or CpuEngine()
         self._resident = (
@@ -275,7 +281,7 @@ class FreeOperator(_Prepared):
         nx, ny = grid.shape
         self.grid = grid
         self.compliance = compliance
-        self.octaves = octaves or Octaves(compliance)
+        self.octaves = octaves or octaves_of(compliance)
         self.boundary: Free | FreeLine = boundary
         self.engine: Engine = engine or CpuEngine()
         self._influence = boundary.influence(compliance, grid)

@@ -23,14 +23,15 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 from typing import Any, NamedTuple, Protocol
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ....core.arrays import RealArray
 from ....core.engine import SplineModel
 from ....core.grid import Grid
+from ...boundary import Boundary
 from ...operators import Operator
+from ...operators.convolution import Octaves
 
 # Levels of cells.
 
@@ -125,10 +126,10 @@ class _Waves(NamedTuple):
         q[:, x.shape[1] // 2, y.shape[1] // 2] = np.inf
         return cls(wavenumbers, which, own, (shares / q).sum(axis=(1, 2)))
 
-    def compliance(self, operator: Operator, shortest: float) -> RealArray:
-        """Compliance (n,) in m/Pa of the ``operator``, whose ``shortest`` waves have this c(q) q."""
-        found: RealArray = np.asarray(operator.octaves.spectral(self.wavenumbers), dtype=float)[self.which]
-        if not all(operator.boundary.wraps):
+    def compliance(self, octaves: Octaves, boundary: Boundary, shortest: float) -> RealArray:
+        """Compliance (n,) in m/Pa of the operator of these ``octaves`` and this ``boundary``, whose ``shortest`` waves have this c(q) q."""
+        found: RealArray = np.asarray(octaves.spectral(self.wavenumbers), dtype=float)[self.which]
+        if not all(boundary.wraps):
             found = found * self.direct + shortest * self.aliases
         return found
 
@@ -219,27 +220,20 @@ class SplineCompliance(NamedTuple):
         return self.steepness > _STEEP
 
 
-_FITTED: WeakKeyDictionary[Operator, dict[float, SplineCompliance]] = WeakKeyDictionary()
-"""Models by operator and scale: a twentieth of a solve of 512² points would go into fitting those of its grids again."""
-
-
 def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
-    """Nested splines that follow the compliance of ``operator`` over ``scale``; fitted once for an operator.
+    """Nested splines that follow the compliance of ``operator`` over ``scale``, fitted once for a body, boundary and grid.
 
     Coefficients of the inverse were found by a search for the smallest spread of eigenvalues over half-spaces and films of E 0.3 to 10, 4 to 20 pixels thick.
     """
-    fitted = _FITTED.setdefault(operator, {})
-    if scale not in fitted:
-        fitted[scale] = _fit(operator, scale)
-    return fitted[scale]
+    return _fit(operator.octaves, operator.boundary, operator.grid, scale)
 
 
-def _fit(operator: Operator, scale: float) -> SplineCompliance:
-    grid = operator.grid
+@lru_cache(maxsize=64)
+def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineCompliance:
     merges, _, points = octaves(grid)
     samples = _samples(grid)
-    first, levels, steep = _levels(operator)
-    parts = _fitted(samples.parts, samples.waves.compliance(operator, first), np.diff(levels))
+    first, levels, steep = _levels(body, boundary, grid)
+    parts = _fitted(samples.parts, samples.waves.compliance(body, boundary, first), np.diff(levels))
     relative = np.full(len(levels), _RELATIVE[-1])
     relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
     relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
@@ -247,7 +241,7 @@ def _fit(operator: Operator, scale: float) -> SplineCompliance:
     bent = _BEND * float(above[0] / above[-1])
     inverse = np.append(levels[0], (relative * levels * above)[1:])  # that of a point is its own
     rises = np.diff(inverse) / (levels[0] * points[1:])
-    wraps, finest = operator.boundary.wraps, min(grid.spacing)
+    wraps, finest = boundary.wraps, min(grid.spacing)
     local = [
         min(1.0, _OBLONG * finest / side) if n > 1 else 0.0 for side, n in zip(grid.spacing, grid.shape, strict=True)
     ]
@@ -266,18 +260,19 @@ def _fit(operator: Operator, scale: float) -> SplineCompliance:
 
 def steepness(operator: Operator) -> float:
     """That of ``spline_compliance``, without the rest of it."""
-    return _steepest(_levels(operator)[2])
+    return _steepest(_levels(operator.octaves, operator.boundary, operator.grid)[2])
 
 
 def _steepest(steep: RealArray) -> float:
     return float(steep[: _NEAR + 1].max())
 
 
-def _levels(operator: Operator) -> tuple[float, RealArray, RealArray]:
-    """c(q) q of the shortest waves of ``operator``, c of every level (levels + 1,), and by which factor c(q) q there exceeds the first."""
-    sides = octaves(operator.grid).sides
-    first = float(operator.octaves.spectral(np.pi / sides[:1])[0]) * np.pi / float(sides[0])
-    levels = _samples(operator.grid).octaves.compliance(operator, first)
+@lru_cache(maxsize=64)
+def _levels(body: Octaves, boundary: Boundary, grid: Grid) -> tuple[float, RealArray, RealArray]:
+    """c(q) q of the shortest waves of an operator, c of every level (levels + 1,), and by which factor c(q) q there exceeds the first."""
+    sides = octaves(grid).sides
+    first = float(body.spectral(np.pi / sides[:1])[0]) * np.pi / float(sides[0])
+    levels = _samples(grid).octaves.compliance(body, boundary, first)
     return first, levels, levels * sides[0] / (levels[0] * sides)
 
 
