@@ -23,6 +23,7 @@ from asperity.contact.problem import Control
 from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, cpu
+from asperity.core.engine import gpu as gpu_engine
 
 REFERENCE = asp.CpuEngine(1)
 OTHERS: dict[str, Engine] = {
@@ -756,6 +757,17 @@ def solution(engine: Engine, boundary: str, law: str, control: str, precision: A
 @functools.cache
 def reference_solution(boundary: str, law: str, control: str, precision: str) -> asp.ContactResult:
     return solution(REFERENCE, boundary, law, control, precision)
+
+
+@pytest.mark.parametrize("shape", [(5, 8), (1, 9), (12, 7), (17, 18)])
+@every_type
+def test_large_levels_of_a_gpu_have_kernels_of_their_own(
+    shape: tuple[int, int], dtype: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One block goes up and down the small levels; with fewer of them the answer is the same."""
+    monkeypatch.setattr(gpu_engine, "_TURNING", 4)
+    for wraps in WRAPS:
+        test_nested_splines_are_those_of_dense_matrices(EmulatedGpu(), shape, wraps, dtype)
 
 
 @functools.cache

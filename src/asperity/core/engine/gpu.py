@@ -50,17 +50,14 @@ _TOUCHED_FROM = 1 << 26
 _TYPES = {"float32": "float", "float64": "double"}
 
 
-def source() -> str:
-    """Text of the kernels."""
-    return Path(__file__).with_name("gpu_kernels.cu").read_text(encoding="utf-8")
-
-
 class Passes:
     """Kernels for iterates and vectors of given precisions, on arrays of the module ``cupy``."""
 
     def __init__(self, cupy: Any, iterate: str, vector: str, *, threads: int = THREADS) -> None:
-        options = ("--std=c++14", *definitions(iterate, vector))
-        self._cupy, self._module, self._threads = cupy, cupy.RawModule(code=source(), options=options), threads
+        words = {"ITERATE": _TYPES[iterate], "VECTOR": _TYPES[vector], "SIDE": SQUARE_SIDE}
+        options = ("--std=c++14", *(f"-D{word}={meaning}" for word, meaning in words.items()))
+        code = Path(__file__).with_name("gpu_kernels.cu").read_text(encoding="utf-8")
+        self._cupy, self._module, self._threads = cupy, cupy.RawModule(code=code, options=options), threads
         self._kernels: dict[str, Any] = {}
 
     def run(self, name: str, points: int, *arguments: Any, blocks: int | None = None) -> None:
@@ -80,11 +77,6 @@ class Passes:
         """Sums over all blocks."""
         found: list[float] = self.sums(name, points, columns, *arguments).sum(axis=1).tolist()
         return found
-
-
-def definitions(iterate: str, vector: str) -> tuple[str, ...]:
-    """Options of a compiler for the kernels of these precisions."""
-    return f"-DITERATE={_TYPES[iterate]}", f"-DVECTOR={_TYPES[vector]}", f"-DSIDE={SQUARE_SIDE}"
 
 
 def blocks_for(points: int) -> int:
@@ -233,12 +225,12 @@ class _GpuSplines:
             for weights in (cupy.asarray(np.array(given)) for given in (model.weights, model.inverse_weights))
         )
         self._sums, self._factors = (cupy.empty(begin, dtype) for _ in range(2))
-        self._unit = cupy.empty(1, dtype).dtype
+        self._dtype = dtype
 
     def factorise(self, free: FreeSet) -> None:
         """g of all cells for the points of ``free``."""
         assert isinstance(free, _GpuFreeSet)
-        self._sweep(_FACTORISE, self._inverse, free.inside.astype(self._unit))
+        self._sweep(_FACTORISE, self._inverse, free.inside.astype(self._dtype))
 
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _GpuFreeSet)

@@ -15,7 +15,10 @@ from .layered import LayerStack
 
 
 class Compliance(Protocol):
-    """Normal surface compliance of one body or of the sum of two."""
+    """Normal surface compliance of one body or of the sum of two; a value that does not change."""
+
+    def __hash__(self) -> int:
+        """Equal for equal compliances."""
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
