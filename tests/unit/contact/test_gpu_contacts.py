@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import Any
 
 import numpy as np
@@ -62,3 +63,17 @@ def test_contacts_on_a_gpu_are_those_of_the_cpu(case: str) -> None:
     for field in (found.pressure, found.displacement, found.gap, found.permanent_indentation, found.plastic):
         assert type(field) is np.ndarray
     assert found.certificate.duality_gap < 1e-6
+
+
+def test_heights_go_to_the_gpu_once_and_leave_it_with_the_surface() -> None:
+    engine, surface = EmulatedGpu(), rough((66, 70), seed=5)
+    first = engine.resident(surface.heights)
+    assert engine.resident(surface.heights) is first
+    changing = np.array(surface.heights)
+    assert engine.resident(changing) is not engine.resident(changing)
+    kept, gone = weakref.ref(first), weakref.ref(engine)
+    del first, surface
+    assert kept() is None
+    engine.resident(rough((8, 8), seed=1).heights)
+    del engine
+    assert gone() is None, "no search for garbage is needed"

@@ -388,7 +388,7 @@ class _Iteration:
 
     def _solved(self, qp: ContactQP, tolerance: float) -> Contact:
         """Contact of ``qp`` started from the last pressures."""
-        if isinstance(qp.constraint, FixedOffset) and float(qp.resident.profile.max()) <= qp.constraint.offset:
+        if isinstance(qp.constraint, FixedOffset) and float(qp.resident_profile.max()) <= qp.constraint.offset:
             none = np.zeros_like(qp.profile)
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))

@@ -65,9 +65,14 @@ class ContactQP:
         return not isinstance(self.cap, np.ndarray) and self.cap == np.inf
 
     @cached_property
+    def resident_profile(self) -> Any:
+        """The profile where the machine computes."""
+        return self.operator.engine.resident(self.profile)
+
+    @property
     def resident(self) -> ContactQP:
         """The same with the profile where the machine computes, for methods that stay there."""
-        profile = self.operator.engine.resident(self.profile)
+        profile = self.resident_profile
         return self if profile is self.profile else replace(self, profile=profile)
 
     @property
@@ -94,7 +99,7 @@ class ContactQP:
         """Pressure and deflection of ``state``, and the profile, where the machine computes if they are there as well; they take the operations of NumPy."""
         if state.resident is None:
             return state.pressure, state.deflection, self.profile
-        return (*state.resident, self.resident.profile)
+        return (*state.resident, self.resident_profile)
 
     @cached_property
     def largest_compliance(self) -> float:

@@ -389,12 +389,15 @@ class GpuEngine(ArrayEngine):
         if values.flags.writeable or values.base is not None:
             return self.array(values, "float64")
         if self._last is None or self._last[0]() is not values:
-            self._last = ref(values, self._forget), self.array(values, "float64")
-        return self._last[1]
+            engine = ref(self)  # which holds what is to be forgotten
 
-    def _forget(self, which: ref[RealArray]) -> None:
-        if self._last is not None and self._last[0] is which:
-            self._last = None
+            def forget(which: ref[RealArray]) -> None:
+                found = engine()
+                if found is not None and found._last is not None and found._last[0] is which:
+                    found._last = None
+
+            self._last = ref(values, forget), self.array(values, "float64")
+        return self._last[1]
 
     def total(self, values: Any) -> float:
         """Sum of the ``values``."""
