@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from dataclasses import replace
 
 import numpy as np
@@ -314,3 +316,18 @@ def test_nnls_from_a_coarser_grid_gives_the_same_answer(boundary, cap, monkeypat
         found[small] = asp.solve(problem, asp.MeanPressure(2e6), solver=nnls.NonNegativeLeastSquares())
         assert (max(sizes) < heights.size) == (small == 40)
     np.testing.assert_allclose(found[40].pressure, found[10**6].pressure, rtol=1e-9, atol=1e-9 * 1e8)
+
+
+@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(5e9)])
+def test_fields_of_a_contact_go_with_it(law: asp.HardWall | asp.Hardness) -> None:
+    """Large arrays do not wait for the search for garbage, which may be long in coming."""
+    surface = asp.Surface(1e-9 * rough((66, 70), 3).heights / rough((66, 70), 3).heights.std(), 1e-8, periodic=True)
+    gc.collect()
+    gc.disable()
+    try:
+        result = asp.solve(asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), law=law), asp.MeanPressure(1e9))
+        fields = [weakref.ref(values) for values in (surface.heights, result.pressure, result.displacement)]
+        del result, surface
+        assert [field() for field in fields] == [None, None, None]
+    finally:
+        gc.enable()
