@@ -79,23 +79,18 @@ extern "C" __global__ void largest(const scalar *vector, whole n, double *partia
     leave(most, 0, MOST, partial);
 }
 
-extern "C" __global__ void gather_iterate(const flag *inside, const real *values, real *out, whole n, double *partial) {
-    double sum = 0.0;
-    EACH(k, n) {
-        out[k] = inside[k] ? values[k] : (real)0;
-        sum += (double)out[k];
+#define GATHER(name, type)                                                                                        \
+    extern "C" __global__ void name(const flag *inside, const type *values, type *out, whole n, double *partial) { \
+        double sum = 0.0;                                                                                         \
+        EACH(k, n) {                                                                                              \
+            out[k] = inside[k] ? values[k] : (type)0;                                                             \
+            sum += (double)out[k];                                                                                \
+        }                                                                                                         \
+        leave(sum, 0, SUM, partial);                                                                              \
     }
-    leave(sum, 0, SUM, partial);
-}
 
-extern "C" __global__ void gather_vector(const flag *inside, const scalar *values, scalar *out, whole n, double *partial) {
-    double sum = 0.0;
-    EACH(k, n) {
-        out[k] = inside[k] ? values[k] : (scalar)0;
-        sum += (double)out[k];
-    }
-    leave(sum, 0, SUM, partial);
-}
+GATHER(gather_iterate, real)
+GATHER(gather_vector, scalar)
 
 extern "C" __global__ void gather_products(
     const flag *inside, const scalar *field, const scalar *a, const scalar *b, scalar *out, whole n, double *partial) {
@@ -340,14 +335,6 @@ extern "C" __global__ void violation(
     leave(above, 0, SUM, partial);
     leave(below, 1, SUM, partial);
     leave(deepest, 2, MOST, partial);
-}
-
-// Product with a kernel, one real number for each complex one of a spectrum.
-extern "C" __global__ void scale_spectrum(scalar *spectrum, const scalar *kernel, whole n) {
-    EACH(k, n) {
-        spectrum[2 * k] *= kernel[k];
-        spectrum[2 * k + 1] *= kernel[k];
-    }
 }
 
 extern "C" __global__ void prolonged(
