@@ -535,7 +535,7 @@ def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
         return scaled_to_load(guess, qp.cap, mean)
     if start is not None and given:
         return np.asarray(np.clip(start, 0.0, qp.cap))
-    overlap = np.maximum(qp.profile - qp.constraint.offset, 0.0)
+    overlap = np.maximum(qp.on_host.profile - qp.constraint.offset, 0.0)
     response = float((overlap * qp.operator.apply(overlap)).sum())
     factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
     return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))
