@@ -22,7 +22,7 @@ CASES: dict[str, tuple[dict[str, Any], Any]] = {
     "load": ({}, LOAD),
     "position": ({}, asp.Approach(200e-9)),
     "position on a free grid": ({"boundary": asp.Free()}, asp.Approach(200e-9)),
-    "position just in contact": ({}, asp.Approach(2e-9)),
+    "position just in contact": ({"boundary": asp.Free()}, asp.Approach(1e-12)),
     "gap": ({}, asp.MeanGap(150e-9)),
     "stiff film": ({"body": STIFF}, LOAD),
     "history": ({}, asp.History([asp.MeanPressure(p) for p in (0.5e9, 1e9, 0.7e9)])),
