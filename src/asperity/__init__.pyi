@@ -58,7 +58,9 @@ from .contact.transient_sliding import TransientSliding, slide_in_time
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm
 from .core.citations import cite
-from .core.engine import ArrayEngine, CpuEngine, GpuEngine
+from .core.engine import CpuEngine
+from .core.engine.array_api import ArrayEngine
+from .core.engine.gpu import GpuEngine
 from .core.errors import (
     AsperityError,
     ConvergenceError,

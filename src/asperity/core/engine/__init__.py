@@ -1,8 +1,6 @@
-"""Machines to compute on: the CPU or a GPU with compiled passes, or any array-API library."""
+"""Machines to compute on: the CPU; in ``gpu`` and ``array_api``, which few runs need, a GPU and any array-API library."""
 
-from .array_api import ArrayEngine
 from .cpu import CpuEngine
-from .gpu import GpuEngine
 from .protocol import (
     SQUARE_SIDE,
     Clipped,
@@ -20,13 +18,11 @@ from .protocol import (
 
 __all__ = [
     "SQUARE_SIDE",
-    "ArrayEngine",
     "Clipped",
     "Convolution",
     "CpuEngine",
     "Engine",
     "FreeSet",
-    "GpuEngine",
     "Load",
     "Products",
     "SplineModel",
