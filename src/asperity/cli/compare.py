@@ -9,7 +9,6 @@ from typing import Annotated
 import typer
 
 from ..core.arrays import RealArray
-from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from ..core.parameters import Parameter
 from ..core.settings import COMMAND_LINE
@@ -66,7 +65,7 @@ OWN = (
 
 def _options() -> list[Option]:
     own = [Option(option_of(item), ("compare", item.name), item, PANEL, metavar=metavar) for item, metavar in OWN]
-    solver = [option for option in solver_options() if option.name in ("--tolerance", "--threads")]
+    solver = [option for option in solver_options() if option.name in ("--tolerance", "--threads", "--machine")]
     document = (*body_options(), *reading_options(), *preparation_options(), *solver)
     return [*own, YES, *sorted_out(document, BASIC)]
 
@@ -131,7 +130,7 @@ def _compared(case: Case, given: Given, *, numerical: bool) -> Comparison:
             most_contacts=read.get("most_contacts", MOST_CONTACTS),
             solver=case.solver,
             progress=progress,
-            engine=CpuEngine(case.threads),
+            engine=case.engine(),
         )
 
 

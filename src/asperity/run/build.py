@@ -20,6 +20,8 @@ from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.protocol import Solver
 from ..core import units
 from ..core.citations import citation_keys
+from ..core.engine import CpuEngine, Engine
+from ..core.engine.gpu import GpuEngine
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.settings import Settings, json_schema, problems
@@ -120,6 +122,12 @@ class Case:
     def threads(self) -> int | None:
         """Number of threads that the document states."""
         return self.document.solver.threads
+
+    def engine(self, threads: int | None = None) -> Engine:
+        """Machine that the document states; on the CPU with so many ``threads`` instead of those of the document."""
+        if self.document.solver.machine == "gpu":
+            return GpuEngine()
+        return CpuEngine(threads or self.threads)
 
     @property
     def citation_keys(self) -> tuple[str, ...]:

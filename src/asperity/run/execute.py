@@ -15,7 +15,6 @@ from ..contact.operators import Operator, prepare_operator
 from ..contact.result import ContactResult, stiffness_of
 from ..contact.solve import Keep, solve, steps
 from ..contact.state import InterfaceState
-from ..core.engine import CpuEngine
 from ..core.errors import AsperityError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
@@ -330,7 +329,7 @@ class _Solving:
 
     def _options(self) -> dict[str, Any]:
         if self.warm.operator is None:
-            problem, engine = self.case.problem, CpuEngine(self.threads)
+            problem, engine = self.case.problem, self.case.engine(self.threads)
             self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
         options: dict[str, Any] = {
             "operator": self.warm.operator,

@@ -261,6 +261,7 @@ SOLVERS = st.fixed_dictionaries(
         "max_iterations": COUNTS,
         "precision": st.sampled_from(["mixed", "double", "single"]),
         "threads": COUNTS,
+        "machine": st.sampled_from(["cpu", "gpu"]),
     },
 )
 PLACES = LENGTHS | st.sampled_from(["max", "pressure", "0 nm"])

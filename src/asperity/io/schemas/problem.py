@@ -161,6 +161,9 @@ class SolverTable(Settings):
         None, help="arithmetic of active_set; mixed by default"
     )
     threads: Count | None = setting(None, help="threads of the transforms; ASPERITY_THREADS or all cores by default")
+    machine: Literal["cpu", "gpu"] | None = setting(
+        None, help="where the normal contact is computed: a gpu needs the library CuPy; cpu by default"
+    )
 
 
 class ProblemDocument(Settings):
