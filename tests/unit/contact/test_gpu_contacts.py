@@ -27,6 +27,7 @@ CASES: dict[str, tuple[dict[str, Any], Any]] = {
     "stiff film": ({"body": STIFF}, LOAD),
     "history": ({}, asp.History([asp.MeanPressure(p) for p in (0.5e9, 1e9, 0.7e9)])),
     "hardness": ({"law": asp.Hardness(8e9)}, asp.History([asp.MeanPressure(p) for p in (0.5e9, 1e9, 0.3e9)])),
+    "light load under a hardness": ({"law": asp.Hardness(1e7)}, asp.MeanPressure(1e6)),
     "hardness of layers": ({"body": COATED, "law": asp.LayeredHardness(COATED)}, LOAD),
     "adhesion": ({"adhesion": asp.ExponentialAdhesion(0.5, 10e-9)}, LOAD),
     "pull": ({"adhesion": asp.ExponentialAdhesion(0.5, 10e-9)}, asp.Unloaded()),

@@ -397,7 +397,12 @@ def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> flo
     if not isinstance(cap, np.ndarray) and cap == np.inf:
         return float(r.min())
     # slope of the gap in lambda: sum of (cap - p) where r < lambda, minus sum of p where r > lambda
-    values, total, least = r.ravel(), float(pressure.sum(dtype=np.float64)), float(np.min(cap))
+    return _last_needed(r, cap, float(pressure.sum(dtype=np.float64)))
+
+
+def _last_needed(heights: RealArray, cap: float | RealArray, total: float) -> float:
+    """Height of the last point that is needed for a sum ``total`` of pressures at the ``cap``, the lowest points first."""
+    values, least = heights.ravel(), float(np.min(cap))
     enough = max(1, math.ceil(total / least)) if total < least * values.size else values.size
     if not isinstance(cap, np.ndarray):
         return float(np.partition(values, enough - 1)[enough - 1])
@@ -452,10 +457,8 @@ def _rigid_level(qp: ContactQP, mean: float) -> float:
     """Height (m) of the last point that is needed to carry the load at the cap, the highest points first; without a cap the highest."""
     if qp.elastic:
         return float(qp.profile.max())
-    order = np.argsort(-qp.profile, axis=None, kind="stable")
-    carried = np.broadcast_to(np.asarray(qp.cap, dtype=float), qp.profile.shape).ravel()[order].cumsum()
-    last = int(np.searchsorted(carried, mean * qp.profile.size * (1.0 - 1e-12)))
-    return float(qp.profile.ravel()[order[min(last, order.size - 1)]])
+    profile = qp.on_host.profile if isinstance(qp.cap, np.ndarray) else qp.profile
+    return -_last_needed(-profile, qp.cap, mean * profile.size * (1.0 - 1e-12))
 
 
 def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> float:
