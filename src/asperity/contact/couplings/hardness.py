@@ -91,16 +91,14 @@ def _before(posed: Posed, memory: Memory) -> RealArray:
     return memory["indentation"] if "indentation" in memory else np.zeros_like(posed.profile)
 
 
-def _after(law: InterfaceLaw, note: _Note, contact: Contact) -> Memory:
-    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface, after ``contact``."""
-    work = float(note.memory.get("work", 0.0))
+def _after(law: InterfaceLaw, memory: Memory, contact: Contact) -> Memory:
+    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface, after ``contact``; ``memory`` is what they were before."""
     if contact.qp.elastic:
-        known = {name: values for name, values in note.memory.items() if name == "indentation"}
-        return {**known, "work": np.asarray(work)}
-    before = _before(contact.posed, note.memory)
+        return {"work": np.zeros(()), **memory}
+    before = _before(contact.posed, memory)
     after = before + added_indentation(contact)
-    work += float(work_density(law, before, after).sum()) * contact.posed.operator.grid.pixel_area
-    return {"indentation": after, "work": np.asarray(work)}
+    work = float(work_density(law, before, after).sum()) * contact.posed.operator.grid.pixel_area
+    return {"indentation": after, "work": np.asarray(float(memory.get("work", 0.0)) + work)}
 
 
 @dataclass(frozen=True)
@@ -129,7 +127,7 @@ class ConstantHardness(Coupling):
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The indentation so far, (nx, ny) in m; of no points where there is none."""
         before = memory.get("indentation", np.zeros(0))
-        return Exchange(before, before, note=_Note(before, memory))
+        return Exchange(before, before, note=memory)
 
     def share(self, exchange: Exchange) -> Share:
         """The limit, and the indentation before the step, if there is one, as a lift."""
@@ -324,4 +322,4 @@ class DepthHardness(Coupling):
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""
-        return _after(self.law, exchange.note, contact), None
+        return _after(self.law, exchange.note.memory, contact), None

@@ -35,7 +35,7 @@ from .protocol import (
 # Kernels and how they are called.
 
 
-THREADS = 256
+_THREADS = 256
 """Threads of a block."""
 
 _MOST_BLOCKS = 1024
@@ -53,7 +53,7 @@ _TYPES = {"float32": "float", "float64": "double"}
 class Passes:
     """Kernels for iterates and vectors of given precisions, on arrays of the module ``cupy``."""
 
-    def __init__(self, cupy: Any, iterate: str, vector: str, *, threads: int = THREADS) -> None:
+    def __init__(self, cupy: Any, iterate: str, vector: str, *, threads: int = _THREADS) -> None:
         words = {"ITERATE": _TYPES[iterate], "VECTOR": _TYPES[vector], "SIDE": SQUARE_SIDE}
         options = ("--std=c++14", *(f"-D{word}={meaning}" for word, meaning in words.items()))
         code = Path(__file__).with_name("gpu_kernels.cu").read_text(encoding="utf-8")
@@ -81,7 +81,7 @@ class Passes:
 
 def blocks_for(points: int) -> int:
     """Blocks of threads of a pass over so many points."""
-    return max(1, min(-(-points // THREADS), _MOST_BLOCKS))
+    return max(1, min(-(-points // _THREADS), _MOST_BLOCKS))
 
 
 def _of_cap(cap: Any) -> tuple[Any, int]:

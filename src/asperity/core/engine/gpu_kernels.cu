@@ -57,6 +57,17 @@ __device__ double cap_at(const real *cap, whole caps, place k) {
     return caps == 0 ? INFINITY : (double)cap[caps == 1 ? 0 : k];
 }
 
+// Three sums: of a value, and of its products with two others.
+__device__ void add_products(double value, double a, double b, double *sums) {
+    sums[0] += value;
+    sums[1] += value * a;
+    sums[2] += value * b;
+}
+
+__device__ void leave_three(const double *sums, double *partial) {
+    for (int column = 0; column < 3; column++) leave(sums[column], column, SUM, partial);
+}
+
 // Passes over a free set.
 
 extern "C" __global__ void centred(const flag *inside, double mean, scalar *r, whole n) {
@@ -94,17 +105,13 @@ GATHER(gather_vector, scalar)
 
 extern "C" __global__ void gather_products(
     const flag *inside, const scalar *field, const scalar *a, const scalar *b, scalar *out, whole n, double *partial) {
-    double sum = 0.0, first = 0.0, second = 0.0;
+    double products[3] = {0.0, 0.0, 0.0};
     EACH(k, n) {
         double value = inside[k] ? (double)field[k] : 0.0;
         out[k] = (scalar)value;
-        sum += value;
-        first += value * (double)a[k];
-        second += value * (double)b[k];
+        add_products(value, (double)a[k], (double)b[k], products);
     }
-    leave(sum, 0, SUM, partial);
-    leave(first, 1, SUM, partial);
-    leave(second, 2, SUM, partial);
+    leave_three(products, partial);
 }
 
 extern "C" __global__ void scatter_add(const scalar *values, double factor, scalar *field, whole n) {
@@ -197,10 +204,6 @@ __device__ void add_load(double p, double cap, double *load) {
     }
 }
 
-__device__ void leave_load(const double *load, double *partial) {
-    for (int column = 0; column < 3; column++) leave(load[column], column, SUM, partial);
-}
-
 extern "C" __global__ void add_clipped(
     const flag *inside, real *p, const scalar *d, double scale, const real *cap, whole caps, whole n, double *partial) {
     double load[3] = {0.0, 0.0, 0.0}, clipped = 0.0;
@@ -214,7 +217,7 @@ extern "C" __global__ void add_clipped(
         p[k] = value;
         add_load((double)value, most, load);
     }
-    leave_load(load, partial);
+    leave_three(load, partial);
     leave(clipped, 3, SUM, partial);
 }
 
@@ -231,7 +234,7 @@ extern "C" __global__ void rescale(
         }
         add_load((double)p[k], most, load);
     }
-    leave_load(load, partial);
+    leave_three(load, partial);
 }
 
 extern "C" __global__ void interpolate(const flag *inside, const real *old, double share, real *values, whole n) {
@@ -469,7 +472,7 @@ struct Local {
 extern "C" __global__ void invert_points(
     const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *sums, const flag *inside,
     const scalar *r, const scalar *other, scalar *out, double *partial) {
-    double sum = 0.0, first = 0.0, second = 0.0;
+    double products[3] = {0.0, 0.0, 0.0};
     EACH(k, (place)level->nx * level->ny) {
         scalar z = (scalar)0;
         if (inside[k]) {
@@ -488,20 +491,16 @@ extern "C" __global__ void invert_points(
             z *= (scalar)local->stiffness;
         }
         out[k] = z;
-        sum += (double)z;
-        first += (double)z * (double)r[k];
-        second += (double)z * (double)other[k];
+        add_products((double)z, (double)r[k], (double)other[k], products);
     }
-    leave(sum, 0, SUM, partial);
-    leave(first, 1, SUM, partial);
-    leave(second, 2, SUM, partial);
+    leave_three(products, partial);
 }
 
 // Deflection by the load t on the set, with its sum and its products with t and ``other``; what it leaves of ``other`` if ``less``.
 extern "C" __global__ void deflect_points(
     const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *sums, const flag *inside,
     const scalar *t, const scalar *other, whole less, scalar *out, double *partial) {
-    double sum = 0.0, first = 0.0, second = 0.0;
+    double products[3] = {0.0, 0.0, 0.0};
     EACH(k, (place)level->nx * level->ny) {
         scalar found = (scalar)0;
         if (inside[k]) {
@@ -513,11 +512,7 @@ extern "C" __global__ void deflect_points(
             found += (scalar)(0.25 * local->own[3]) * diagonal;
         }
         out[k] = less ? other[k] - found : found;
-        sum += (double)found;
-        first += (double)found * (double)t[k];
-        second += (double)found * (double)other[k];
+        add_products((double)found, (double)t[k], (double)other[k], products);
     }
-    leave(sum, 0, SUM, partial);
-    leave(first, 1, SUM, partial);
-    leave(second, 2, SUM, partial);
+    leave_three(products, partial);
 }
