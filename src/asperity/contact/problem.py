@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, TypeAlias
 
 import numpy as np
@@ -345,7 +346,7 @@ class ContactProblem(Shown):
         """E* in Pa of the materials at the two surfaces, see ``contact_modulus``."""
         return contact_modulus(self.body, self.counter_body)
 
-    @property
+    @cached_property
     def compliance(self) -> Compliance:
         """Sum of the normal compliances of both bodies."""
         return contact_compliance(self.body, self.counter_body)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -106,7 +107,7 @@ class Surface(Drawn):
         """Number of points (nx, ny)."""
         return self.heights.shape[0], self.heights.shape[1]
 
-    @property
+    @cached_property
     def grid(self) -> Grid:
         """Grid of the surface."""
         return Grid(self.shape, (self.dx, self.dy))

@@ -128,7 +128,7 @@ _MANY = 0.05
 """Share of its points on which it takes longer to clear a field than to clear it as a whole."""
 
 _NO_CAP = np.full(1, np.inf)
-_ZERO = {dtype: np.zeros(1, dtype) for dtype in ("float32", "float64")}
+_ZERO = {np.dtype(name): np.zeros(1, name) for name in ("float32", "float64")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +146,7 @@ class _CpuFreeSet:
     rows: Any
     entering: int
 
-    @property
+    @cached_property
     def size(self) -> int:
         return int(self.index.size)
 
@@ -166,10 +166,10 @@ class _CpuFreeSet:
         return self.start
 
     def zeros(self) -> RealArray:
-        return np.zeros_like(self.start)
+        return np.zeros(self.size, self.start.dtype)
 
     def empty(self) -> RealArray:
-        return np.empty_like(self.start)
+        return np.empty(self.size, self.start.dtype)
 
     def copy(self, vector: RealArray) -> RealArray:
         return vector.copy()
@@ -261,7 +261,7 @@ class _CpuFreeSet:
 
     def _sums(self, kernel: str, columns: int, *arguments: Any) -> list[float]:
         found = self.blocks.sums(getattr(self.blocks.kernels, kernel), self.size, columns, *arguments)
-        sums: list[float] = (found.sum(axis=0) if len(found) != 1 else found[0]).tolist()
+        sums: list[float] = (np.add.reduce(found) if len(found) != 1 else found[0]).tolist()
         return sums
 
 
@@ -375,14 +375,14 @@ class CpuEngine:
         kernels, serial = self.blocks.kernels, p.size < SERIAL_BELOW
         if cap is None:
             self.blocks.share(kernels.survey, len(s), *flat, ny, SQUARE_SIDE, s, squares, serial=serial)
-            pressure, deflected, work = (float(v) for v in s[:, :3].sum(axis=0))
+            pressure, deflected, work, _ = np.add.reduce(s).tolist()
             lowest = float(s[:, 3].min())
             totals = Totals(pressure, deflected, work, pressure, work, lowest, -np.inf, lowest)
         else:
             self.blocks.share(
                 kernels.survey_capped, len(s), *flat, bound(cap), ny, SQUARE_SIDE, s, squares, serial=serial
             )
-            pressure, deflected, work, weight, weighted = (float(v) for v in s[:, :5].sum(axis=0))
+            pressure, deflected, work, weight, weighted, *_ = np.add.reduce(s).tolist()
             bounds = float(s[:, 5].min()), float(s[:, 6].max()), float(s[:, 7].min())
             totals = Totals(pressure, deflected, work, weight, weighted, *bounds)
         return _CpuSurvey(totals, self.blocks, (nx, ny), *flat, cap, squares)
@@ -411,9 +411,7 @@ class CpuEngine:
         if free.size > _MANY * field.size:
             field[...] = 0.0
             return
-        self.blocks.run(
-            self.blocks.kernels.scatter, free.size, free.place(field), _ZERO[field.dtype.name], memory(field)
-        )
+        self.blocks.run(self.blocks.kernels.scatter, free.size, free.place(field), _ZERO[field.dtype], memory(field))
 
 
 _LARGEST_KEPT = (1 << 25) - (1 << 13)

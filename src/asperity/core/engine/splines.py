@@ -37,12 +37,30 @@ _PARTS = 64
 
 
 @compiled
-def _place(rows, index, levels, values, points):  # type: ignore[no-untyped-def]
-    """Set the array of points to the ``values`` at the points of a set."""
+def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
+    """Values beyond the rim of the array of points: those of the other end where the axis wraps, else zero."""
+    start, rows, columns, stride = levels[0, _START], levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
+    for row in range(rows):
+        for k in range(_MARGIN):
+            base = start + row * stride
+            points[base - 1 - k] = points[base + (-1 - k) % columns] if wraps[1] else 0.0
+            points[base + columns + k] = points[base + k % columns] if wraps[1] else 0.0
+    for k in range(_MARGIN):
+        before, after = start - (1 + k) * stride - _MARGIN, start + (rows + k) * stride - _MARGIN
+        last, first = start + (-1 - k) % rows * stride - _MARGIN, start + k % rows * stride - _MARGIN
+        for j in range(columns + 2 * _MARGIN):
+            points[before + j] = points[last + j] if wraps[0] else 0.0
+            points[after + j] = points[first + j] if wraps[0] else 0.0
+
+
+@compiled
+def _place(rows, index, levels, wraps, values, points):  # type: ignore[no-untyped-def]
+    """Set the array of points to the ``values`` at the points of a set, and beyond its rim."""
     for row in range(levels[0, _ROWS]):
         shift = levels[0, _START] + row * (levels[0, _STRIDE] - levels[0, _COLUMNS])
         for k in range(rows[row], rows[row + 1]):
             points[index[k] + shift] = values[k]
+    _surround(levels, wraps, points)
 
 
 @compiled
@@ -52,7 +70,6 @@ def _gather(rows, index, levels, points, out):  # type: ignore[no-untyped-def]
         shift = levels[0, _START] + row * (levels[0, _STRIDE] - levels[0, _COLUMNS])
         for k in range(rows[row], rows[row + 1]):
             out[k] = points[index[k] + shift]
-    return out
 
 
 @compiled
@@ -188,23 +205,6 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no
 
 
 @compiled
-def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
-    """Values beyond the rim of the array of points: those of the other end where the axis wraps, else zero."""
-    start, rows, columns, stride = levels[0, _START], levels[0, _ROWS], levels[0, _COLUMNS], levels[0, _STRIDE]
-    for row in range(rows):
-        for k in range(_MARGIN):
-            base = start + row * stride
-            points[base - 1 - k] = points[base + (-1 - k) % columns] if wraps[1] else 0.0
-            points[base + columns + k] = points[base + k % columns] if wraps[1] else 0.0
-    for k in range(_MARGIN):
-        before, after = start - (1 + k) * stride - _MARGIN, start + (rows + k) * stride - _MARGIN
-        last, first = start + (-1 - k) % rows * stride - _MARGIN, start + k % rows * stride - _MARGIN
-        for j in range(columns + 2 * _MARGIN):
-            points[before + j] = points[last + j] if wraps[0] else 0.0
-            points[after + j] = points[first + j] if wraps[0] else 0.0
-
-
-@compiled
 def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
     """out = (stencil[0] + stencil[1] count) values + what the neighbours among the ``points`` and the cells of level 1 add, at the points of a set.
 
@@ -314,6 +314,7 @@ class CpuSplines:
         self._lines = np.zeros((min(blocks.threads, _PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
         self._found = np.zeros((len(self._lines), shape[1] + 8), dtype)
+        self._products = np.empty((shape[0], 3))
         self._wraps, kind = model.wraps, np.dtype(dtype).type
         self._inverse, self._weights = (
             np.array([0.0, *weights], dtype) for weights in (model.inverse_weights, model.weights)
@@ -341,9 +342,7 @@ class CpuSplines:
         """
         unit = np.ones(free.size, self._points.dtype) if conductance is None else conductance.copy()
         self._rise(free, unit, _FACTORISE, self._inverse)
-        levels = self._layout.levels
-        _surround(levels, self._wraps, self._points)
-        _neighbours(free.rows, free.index, levels, self._points, self._falls, unit)
+        _neighbours(free.rows, free.index, self._layout.levels, self._points, self._falls, unit)
         self._count = unit
 
     def solve(self, free: Any, r: RealArray, other: RealArray, out: RealArray) -> Products:
@@ -370,7 +369,8 @@ class CpuSplines:
         """``r`` less the deflection of the points of ``free`` by ``change``."""
         self._rise(loaded, change, _DEFLECT, self._weights)
         self._fall(_DEFLECT, self._weights)
-        at = _gather(free.rows, free.index, self._layout.levels, self._points, np.empty_like(r))
+        at = free.empty()
+        _gather(free.rows, free.index, self._layout.levels, self._points, at)
         u = self._at_points(free, self._own, at, at, at, at, np.empty_like(r)).vector
         found: RealArray = np.subtract(r, u, out=u)
         return found
@@ -392,7 +392,7 @@ class CpuSplines:
         if self._loaded() is not set_:
             self._points[...] = 0.0
             self._loaded = ref(set_)
-        _place(set_.rows, set_.index, levels, values, self._points)
+        _place(set_.rows, set_.index, levels, self._wraps, values, self._points)
         arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
         for depth in range(1, large + 1):
             self._share(_rise, levels, (depth, depth, purpose), *arguments, serial=False)
@@ -412,9 +412,8 @@ class CpuSplines:
         self, free: Any, stencil: tuple[Any, ...], values: RealArray, count: RealArray, *vectors: RealArray
     ) -> Products:
         """Values at the points of ``free`` from those of the points and the cells around them."""
-        levels, products = self._layout.levels, np.empty((len(free.rows) - 1, 3))
+        levels, products = self._layout.levels, self._products
         one, other, out = vectors
-        _surround(levels, self._wraps, self._points)
         arguments = (
             (free.rows, free.index),
             (self._lines, self._found, self._points, self._sums),
@@ -424,7 +423,7 @@ class CpuSplines:
             products,
         )
         self._share(_at_points, levels, self._wraps, *arguments, serial=self._layout.large == 0)
-        return Products(out, *products.sum(axis=0).tolist())
+        return Products(out, *np.add.reduce(products).tolist())
 
     def _share(self, kernel: Any, *arguments: Any, serial: bool) -> None:
         self._blocks.share(kernel, _PARTS, *arguments, serial=serial)

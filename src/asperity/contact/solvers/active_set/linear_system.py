@@ -273,12 +273,13 @@ def conjugate_gradients(
         begun = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
         return _unmeasured(system, predicted, None, _STEP_LENGTH, begun)
     ending = None if stopping.ending is None else stopping.ending * free.largest(r)
-    d, r, first, square, left = _first_step(system, r, predicted, pending, on_step)
+    enough = stopping.reduction**2 * free.square(predicted) if stopping.reduction and stopping.max_steps > 1 else 0.0
+    d, r, first, left = _first_step(system, r, predicted, pending, on_step)
     taken, z, length, reached = int(pending is not None), free.empty(), _STEP_LENGTH, False
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
             return _unmeasured(system, r, last, length, Correction(d, taken * system.pairs, True, open=True))
-        if reached := taken > 0 and left < stopping.reduction**2 * square:
+        if reached := taken > 0 and left < enough:
             break
         preconditioned = system.preconditioned(r, r if last is None else last.kt, z)
         z, product = preconditioned.vector, preconditioned.first
@@ -321,12 +322,11 @@ def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction 
 
 
 class _FirstStep(NamedTuple):
-    """Vector ``d``, the residual ``r`` after it, of the square ``left``; of the predicted residual the ``product`` with its preconditioned self and the ``square``."""
+    """Vector ``d``, the residual ``r`` after it, of the square ``left``; the product ``first`` of the predicted residual with its preconditioned self."""
 
     d: Any
     r: Any
-    product: float
-    square: float
+    first: float
     left: float
 
 
@@ -343,8 +343,7 @@ def _first_step(
     """
     scaled, free = system.scaled, system.free
     if pending is None:
-        square = free.square(r)
-        return _FirstStep(free.zeros(), r, 0.0, square, square)
+        return _FirstStep(free.zeros(), r, 0.0, 0.0)
     z = system.preconditioned(predicted, predicted, free.empty(), first=True)
     t, _ = _next_direction(system, r, z, None)
     pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
@@ -353,7 +352,6 @@ def _first_step(
     response = free.gather_products(scaled.response, t, t, free.empty())
     if on_step is not None:
         on_step(_STEP_LENGTH)
-    square = free.square(predicted)
     mean = system.mean(response.total)
     d, r, left = free.update_solution(_STEP_LENGTH, t, response.vector, mean, free.zeros(), r)
-    return _FirstStep(d, r, z.first, square, left)
+    return _FirstStep(d, r, z.first, left)

@@ -12,6 +12,7 @@ are not named differ from these by 0.3 at most (*free*: 0.8).
 from __future__ import annotations
 
 import math
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, NamedTuple
 
@@ -150,7 +151,7 @@ class _Memory:
     are clipped; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
     ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
     just been computed so; ``guessed``: the iterate is a start that is (``Start``).
-    ``superseded``: a later step has changed the arrays.
+    ``superseded``: a later step has changed the arrays. The work so far is that of ``SolverState``.
     """
 
     work: Workspace
@@ -165,6 +166,10 @@ class _Memory:
     from_scratch: bool = False
     guessed: bool = False
     superseded: bool = False
+    iterations: int = 0
+    applications: int = 0
+    pairs: float = 0.0
+    exhausted: bool = False
 
     def changed(self, free: FreeSet) -> int:
         """Number of points that enter the set ``free`` or were taken beyond their bounds."""
@@ -256,8 +261,8 @@ class ActiveSet:
         unsuccessful = None if self.monotone or work.cap is not None else 0
         error = relative_error(work, survey.totals)
         memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful, guessed=begin.guessed)
-        iterate = work.pressure, work.deflection
-        return self._state(memory, SolverState(*iterate, np.inf, applications=applications, extra_pairs=begin.pairs))
+        memory.applications, memory.pairs = applications, begin.pairs
+        return self._state(memory)
 
     def extrapolated(self, qp: ContactQP, last: Loaded, earlier: Loaded, ratio: float) -> SolverState | None:
         """State beyond the ``last`` of two loads by ``ratio`` times the step between them, without a product where their deflections are known.
@@ -287,7 +292,8 @@ class ActiveSet:
             tensile = engine.points(qp.profile.shape, loaded, work.scaled.dtype)
         clipped = max(1, negative.size)
         memory = _Memory(work, survey, error, clipped=clipped, unsuccessful=0, tensile=tensile, tension=tension)
-        return self._state(memory, SolverState(pressure, deflection, np.inf, applications=products))
+        memory.applications = products
+        return self._state(memory)
 
     def loosened(self, tolerance: float) -> ActiveSet:
         """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection of what it finds."""
@@ -305,26 +311,27 @@ class ActiveSet:
         given = state.memory
         assert isinstance(given, _Memory)
         _require_latest(given)
-        memory = replace(given)
+        memory = copy(given)
         given.superseded, given.tensile = True, None  # its vectors are long: they must go as soon as they are used
+        memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype)
         step = self._clipped_step if memory.unsuccessful is None else self._unclipped_step
-        following, spent = step(memory, replace(state, iterations=state.iterations + 1), free)
+        following = step(memory, free, state.error)
         memory.work.engine.clear_field(free, memory.work.scaled.field)
         del free
         if following.work.load_prescribed and following.survey.totals.pressure <= 0.0:
-            return self._begun_anew(qp, spent)
-        return self._state(following, spent)
+            return self._begun_anew(qp, following)
+        return self._state(following)
 
-    def _begun_anew(self, qp: ContactQP, spent: SolverState) -> SolverState:
+    def _begun_anew(self, qp: ContactQP, spent: _Memory) -> SolverState:
         """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
-        state = self._started(qp, Start(feasible_start(qp, None), spent.extra_pairs), spent.applications + 1)
+        state = self._started(qp, Start(feasible_start(qp, None), spent.pairs), spent.applications + 1)
         assert isinstance(state.memory, _Memory)
-        state.memory.unsuccessful = None
+        state.memory.unsuccessful, state.memory.iterations = None, spent.iterations
         return replace(state, iterations=spent.iterations)
 
-    def _unclipped_step(self, memory: _Memory, spent: SolverState, free: FreeSet) -> tuple[_Memory, SolverState]:
+    def _unclipped_step(self, memory: _Memory, free: FreeSet, error: float) -> _Memory:
         """(3) Step after which points may be tensile.
 
         The deflection by clearing those of the step before is part of the first product of this one, and each product is
@@ -332,7 +339,7 @@ class ActiveSet:
         computed from scratch instead.
         """
         work = memory.work
-        stopping, r = self._stopping(memory, free, spent.error), free.residual(centred=work.load_prescribed)
+        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load_prescribed)
         pending = None
         if memory.tensile is not None and memory.clipped:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
@@ -347,37 +354,36 @@ class ActiveSet:
             work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
 
         found = conjugate_gradients(system, r, stopping, pending=pending, on_step=None if last else add)
-        spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
+        memory.pairs += found.pairs
         if found.d is None:
-            return self._gradient_step(memory, spent)
-        tensile, tension, total = free.add_unclipped(work.pressure, found.d, work.unit)
-        memory = replace(memory, clipped=tensile, tensile=free, tension=tension, from_scratch=False)
+            return self._gradient_step(memory)
+        memory.clipped, memory.tension, total = free.add_unclipped(work.pressure, found.d, work.unit)
+        memory.tensile, memory.from_scratch = free, False
         if last:
             _compute_from_scratch(memory, total)
-            return memory, replace(spent, applications=spent.applications + 1)
-        memory.survey = work.survey()
-        return memory, spent
+        else:
+            memory.survey = work.survey()
+        return memory
 
-    def _clipped_step(self, memory: _Memory, spent: SolverState, free: FreeSet) -> tuple[_Memory, SolverState]:
+    def _clipped_step(self, memory: _Memory, free: FreeSet, error: float) -> _Memory:
         """(4) Step clipped to the bounds and shortened where the energy would rise."""
         work = memory.work
-        stopping, r = self._stopping(memory, free, spent.error), free.residual(centred=work.load_prescribed)
+        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load_prescribed)
         system = LinearSystem(work.scaled, free, work.load_prescribed)
         found = conjugate_gradients(system, free.copy(r), stopping, further=_FURTHER)
-        spent = replace(spent, extra_pairs=spent.extra_pairs + found.pairs)
+        memory.pairs += found.pairs
         if found.d is None:
-            return self._gradient_step(memory, spent)
-        if found.open:
-            spent = replace(spent, applications=spent.applications + 1)
-            if self._ended(memory, free, found.d):
-                return memory, spent
-        clipped, share, products = clipped_update(work, free, found.d, r, memory.survey.totals.pressure)
-        spent = replace(spent, applications=spent.applications + products)
+            return self._gradient_step(memory)
+        if found.open and self._ended(memory, free, found.d):
+            return memory
+        memory.clipped, share, products = clipped_update(work, free, found.d, r, memory.survey.totals.pressure)
+        memory.applications += products
         if share == 0.0:
-            return self._gradient_step(memory, spent)
+            return self._gradient_step(memory)
         work.engine.add(work.scaled.response, share * work.scaled.scale, work.deflection)
-        fallbacks = max(memory.fallbacks, int(products > 1))  # the model alone goes too far
-        return replace(memory, survey=work.survey(), clipped=clipped, fallbacks=fallbacks, from_scratch=False), spent
+        memory.fallbacks = max(memory.fallbacks, int(products > 1))  # the model alone goes too far
+        memory.survey, memory.from_scratch = work.survey(), False
+        return memory
 
     def _ended(self, memory: _Memory, free: FreeSet, d: Any) -> bool:
         """Whether the clipped step ``d``, whose deflection is computed from scratch, reaches the tolerance; if not, it is taken back."""
@@ -392,26 +398,28 @@ class ActiveSet:
         memory.survey = work.survey()
         return False
 
-    def _gradient_step(self, memory: _Memory, spent: SolverState) -> tuple[_Memory, SolverState]:
+    def _gradient_step(self, memory: _Memory) -> _Memory:
         """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
         work = memory.work
         qp, engine = work.qp.on_host, work.engine
         _compute_from_scratch(memory)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
-        lower = descend(qp, replace(spent, pressure=pressure, deflection=deflection), levelling_step(qp))
+        lower = descend(qp, SolverState(pressure, deflection, memory.computed_at), levelling_step(qp))
         work.pressure[...] = engine.array(lower.pressure, work.dtype)
         work.exact.apply(work.pressure, work.deflection)
-        spent = replace(spent, applications=lower.applications + 3, exhausted=lower.exhausted)
-        return _Memory(work, work.survey(), memory.computed_at, clipped=1, fallbacks=memory.fallbacks + 1), spent
+        following = _Memory(work, work.survey(), memory.computed_at, clipped=1, fallbacks=memory.fallbacks + 1)
+        following.iterations, following.pairs = memory.iterations, memory.pairs
+        following.applications, following.exhausted = memory.applications + lower.applications + 2, lower.exhausted
+        return following
 
-    def _state(self, memory: _Memory, spent: SolverState) -> SolverState:
-        """(5) State at the iterate of ``memory`` with the work ``spent``.
+    def _state(self, memory: _Memory) -> SolverState:
+        """(5) State at the iterate of ``memory``.
 
         Its error is ``protocol.relative_error``, plus the tension over the load. Updates of the deflection leave the
         rounding of corrections in it. Once the error has fallen so far that this might show, at the end, and where steps
         are clipped from now on, tensile points are cleared and the deflection is computed from scratch.
         """
-        work, applications = memory.work, spent.applications
+        work = memory.work
         error = relative_error(work, memory.survey.totals)
         if memory.tension:
             load = memory.survey.totals.pressure
@@ -421,20 +429,28 @@ class ActiveSet:
             memory.lowest, memory.unsuccessful = error, 0
         elif failed is not None:  # after some in a row steps are clipped
             memory.unsuccessful = failed + 1 if failed < _MOST_UNSUCCESSFUL else None
-        ends = error <= self.tolerance or spent.iterations >= self.max_iterations
+        ends = error <= self.tolerance or memory.iterations >= self.max_iterations
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
-        if spent.iterations and ends and self._guess:
+        if memory.iterations and ends and self._guess:
             _clear_tensile(memory)
-        elif spent.iterations and due and not memory.from_scratch:
+        elif memory.iterations and due and not memory.from_scratch:
             _compute_from_scratch(memory)
-            applications += 1
             error = memory.computed_at
         totals = memory.survey.totals
         energy = None if memory.unsuccessful is not None else totals.work - 0.5 * totals.deflected
-        iterate = {"pressure": work.pressure, "deflection": work.deflection, "engine": work.engine}
-        found: dict[str, Any] = {"error": error, "energy": energy, "applications": applications, "memory": memory}
-        return replace(spent, **iterate, **found)
+        return SolverState(
+            work.pressure,
+            work.deflection,
+            error,
+            memory.iterations,
+            memory.applications,
+            memory.pairs,
+            memory.exhausted,
+            energy,
+            memory,
+            work.engine,
+        )
 
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
@@ -469,6 +485,7 @@ def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
     work = memory.work
     _clear_tensile(memory, total)
     work.exact.apply(work.pressure, work.deflection)
+    memory.applications += 1
     memory.survey, memory.tension, memory.from_scratch = work.survey(), 0.0, True
     memory.computed_at = relative_error(work, memory.survey.totals)
 
