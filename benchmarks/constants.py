@@ -27,8 +27,8 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
     (solver, "_NEARLY_SETTLED"): [Stopping(x, 8) for x in (0.03, 0.2, 0.3)] + [Stopping(0.1, n) for n in (3, 5, 12)],
     (solver, "_SETTLED_SET"): [Stopping(x, 14) for x in (1e-6, 1e-3, 1e-2)] + [Stopping(1e-4, n) for n in (8, 20, 40)],
-    (solver, "_SINGLE"): [0.03, 0.12, 0.3],
-    (solver, "_LAST_STEP"): [0.1, 0.2, 0.3],
+    (solver, "_SINGLE"): [0.01, 0.06, 0.3],
+    (solver, "_LAST_STEP"): [0.03, 0.15, 0.3],
     (solver, "_LAST_REDUCTION"): [0.02, 0.05],
     (solver, "_MARGIN"): [0.3, 0.5, 1.0],
     (bounds, "LEAST_SHARE"): [0.01, 0.03, 0.3],
@@ -106,6 +106,8 @@ def loads() -> Iterator[Case]:
 
 def pairs(module: Any) -> str:
     """Mean pairs of each kind of case on which the constants of ``module`` bear, as one line; those without a solution do not count."""
+    for models in (spline_model._fit, spline_model._levels):  # fitted with other constants
+        models.cache_clear()
     found, failed = defaultdict(list), Counter[str]()
     for kind, problem, control, method in positions() if module is position else loads():
         keep = asp.Keep(stiffness=False)

@@ -98,8 +98,8 @@ CASES = {
 def test_the_model_is_near_the_compliance_on_any_set(
     case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.Boundary], share: float
 ) -> None:
-    """Deflections are within a factor 1.35 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
-    of an odd number, on lines, oblong pixels and stiff films within 1.75 (a line of few points, random sets: the worst is 0.58 to 1.49). The
+    """Deflections are within a factor 1.2 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
+    of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The
     inverse is symmetric and positive definite, and within a factor 2.6 of one multiple of the true one, 4.2 with the film of E 10."""
     compliance, shape, spacing, boundary = case
     points = np.random.default_rng(3).permutation(shape[0] * shape[1])[: max(int(share * shape[0] * shape[1]), 4)]
@@ -113,7 +113,7 @@ def test_the_model_is_near_the_compliance_on_any_set(
     ratios = eigh(found["K"], found["B"], eigvals_only=True)
     plain = max(spacing) == 1.0 < min(shape) and (boundary == asp.Free() or not any(n % 2 for n in shape))
     gentle = scaled.modelled.steepness <= 1.5
-    wide = 1.35 if plain and gentle else 1.75
+    wide = 1.2 if plain and gentle else 1.7
     assert 1.0 / wide <= ratios[0]
     assert ratios[-1] <= wide
     whole = np.linalg.eigvals(found["M"] @ found["K"]).real

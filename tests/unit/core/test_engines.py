@@ -529,16 +529,42 @@ def moved(shape: tuple[int, int], model: SplineModel, x: int, y: int) -> RealArr
     return np.kron(*picked)
 
 
+def average_matrix(n: int, wraps: bool) -> RealArray:
+    """Averages over ``n`` cells and those beside them, by the definition."""
+    matrix = 0.5 * np.eye(n)
+    for cell in range(n):
+        for beside in (cell - 1, cell + 1):
+            if wraps or 0 <= beside < n:
+                matrix[cell, beside % n] += 0.25
+    return matrix
+
+
+def averages_of(shape: tuple[int, int], model: SplineModel) -> list[RealArray]:
+    """Averages over the cells of every level, along the axes that merge."""
+    found, sizes = [], list(shape)
+    for merge in model.merges:
+        sizes = [
+            parts_matrix(n, wrap).shape[1] if pairs else n
+            for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
+        ]
+        axes = [
+            average_matrix(n, wrap) if pairs else np.eye(n)
+            for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
+        ]
+        found.append(np.kron(*axes))
+    return found
+
+
 def compliance_matrix(shape: tuple[int, int], model: SplineModel) -> RealArray:
-    """own + sum of w P P^T."""
+    """own + sum of w P A P^T."""
     point, x, y, diagonal = model.own
     found, splines = point * np.eye(math.prod(shape)), np.eye(math.prod(shape))
     for sign in (1, -1):
         found += 0.5 * x * moved(shape, model, sign, 0) + 0.5 * y * moved(shape, model, 0, sign)
         found += 0.25 * diagonal * (moved(shape, model, sign, 1) + moved(shape, model, sign, -1))
-    for weight, parts in zip(model.weights, levels_of(shape, model), strict=True):
+    for weight, parts, average in zip(model.weights, levels_of(shape, model), averages_of(shape, model), strict=True):
         splines = splines @ parts
-        found += weight * splines @ splines.T
+        found += weight * splines @ average @ splines.T
     return found
 
 

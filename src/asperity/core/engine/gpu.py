@@ -201,7 +201,7 @@ def _load(sums: list[float]) -> Load:
 
 
 class _GpuSplines:
-    """Compliance of nested splines and its inverse on a free set; sums and factors of all levels in one array each."""
+    """Compliance of nested splines and its inverse on a free set; sums, factors and deflections of all levels in one array each."""
 
     def __init__(self, passes: Passes, cupy: Any, shape: tuple[int, int], model: SplineModel, dtype: str) -> None:
         self._passes = passes
@@ -224,7 +224,7 @@ class _GpuSplines:
             [weights[level:] for level in range(len(levels))]
             for weights in (cupy.asarray(np.array(given)) for given in (model.weights, model.inverse_weights))
         )
-        self._sums, self._factors = (cupy.empty(begin, dtype) for _ in range(2))
+        self._sums, self._factors, self._deflections = (cupy.empty(begin, dtype) for _ in range(3))
         self._dtype = dtype
 
     def factorise(self, free: FreeSet) -> None:
@@ -235,7 +235,7 @@ class _GpuSplines:
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _GpuFreeSet)
         self._sweep(_INVERT, self._inverse, r)
-        arguments = (self._levels[0], *self._wraps, self._local, self._sums, free.inside, r, other, out)
+        arguments = (self._levels[0], *self._wraps, self._local, self._deflections, free.inside, r, other, out)
         return Products(out, *self._passes.totals("invert_points", self._points, 3, *arguments))
 
     def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
@@ -249,23 +249,21 @@ class _GpuSplines:
     def _deflected(self, free: FreeSet, t: Any, other: Any, less: int, out: Any) -> RealArray:
         assert isinstance(free, _GpuFreeSet)
         self._sweep(_DEFLECT, self._weights, t)
-        arguments = (self._levels[0], *self._wraps, self._local, self._sums, free.inside, t, other, less, out)
+        arguments = (self._levels[0], *self._wraps, self._local, self._deflections, free.inside, t, other, less, out)
         return self._passes.sums("deflect_points", self._points, 3, *arguments)
 
     def _sweep(self, way: int, weights: list[Any], points: Any) -> None:
         """Up all levels from the ``points``, and down again to the cells of the first; only up to factorise."""
-        run, turn = self._passes.run, self._turn
+        run, turn, number = self._passes.run, self._turn, len(self._cells) - self._turn
+        sums, memory = (self._sums, self._factors), (self._sums, self._factors, self._deflections)
         for level in range(turn):
-            arguments = (self._levels[level], way, *self._wraps, weights[level], points, self._sums, self._factors)
-            run("rise", self._cells[level], *arguments)
-        number = len(self._cells) - turn
-        last = (self._levels[turn], number, way, *self._wraps, weights[turn], points, self._sums, self._factors)
+            run("rise", self._cells[level], self._levels[level], way, *self._wraps, weights[level], points, *sums)
+        last = (self._levels[turn], number, way, *self._wraps, weights[turn], points, *memory)
         run("turn", self._cells[turn], *last, blocks=1)
         if way == _FACTORISE:
             return
         for level in reversed(range(turn)):
-            arguments = (self._levels[level], way, *self._wraps, weights[level], self._sums, self._factors)
-            run("fall", self._cells[level], *arguments)
+            run("fall", self._cells[level], self._levels[level], way, *self._wraps, weights[level], *memory)
 
 
 _INVERT, _DEFLECT, _FACTORISE = range(3)

@@ -351,7 +351,7 @@ extern "C" __global__ void prolonged(
     }
 }
 
-// Nested splines. Sums over the cells of all levels lie one after the other in ``sums``, their factors g in ``factors``.
+// Nested splines. Sums over the cells of all levels lie one after the other in ``sums``, their factors g in ``factors``, deflections in ``cells``.
 
 struct Level {
     int nx, ny;            // parts
@@ -414,17 +414,36 @@ __device__ void rise_to(
     sums[level->cells + cell] = way == DEFLECT ? sum : *factor * sum;
 }
 
-// Put w S + g d in the place of the sums S of a level, d being the deflection by the levels above (none above the last).
+// Average over cell (i, j) of a level and those beside it: half of its own and a quarter on either side, along the axes that merge.
+__device__ scalar averaged(const scalar *sums, const Level *level, int wraps_x, int wraps_y, int i, int j) {
+    const scalar share[3] = {(scalar)0.25, (scalar)0.5, (scalar)0.25};
+    scalar sum = (scalar)0;
+    for (int a = level->merges_x ? 0 : 1; a < (level->merges_x ? 3 : 2); a++) {
+        int x = part_at(i + a - 1, level->cells_x, level->cells_x, wraps_x);
+        if (x < 0) continue;
+        scalar line = (scalar)0;
+        for (int b = level->merges_y ? 0 : 1; b < (level->merges_y ? 3 : 2); b++) {
+            int y = part_at(j + b - 1, level->cells_y, level->cells_y, wraps_y);
+            if (y >= 0) line += (level->merges_y ? share[b] : (scalar)1) * sums[(place)x * level->cells_y + y];
+        }
+        sum += (level->merges_x ? share[a] : (scalar)1) * line;
+    }
+    return sum;
+}
+
+// Deflection w S + g d of a cell by the sums S of its level, or w times their average + d; d is the deflection by the levels above (none above the last).
 __device__ void fall_to(
-    const Level *level, int last, int way, int wraps_x, int wraps_y, double weight, scalar *sums,
-    const scalar *factors, place cell) {
-    scalar *value = sums + level->cells + cell, above = (scalar)0;
+    const Level *level, int last, int way, int wraps_x, int wraps_y, double weight, const scalar *sums,
+    const scalar *factors, scalar *cells, place cell) {
+    int i = cell / (place)level->cells_y, j = cell % (place)level->cells_y;
+    scalar above = (scalar)0;
     if (!last) {
         const Level *next = level + 1;
-        above = by_cells(sums + next->cells, next, wraps_x, wraps_y, cell / (place)level->cells_y, cell % (place)level->cells_y);
+        above = by_cells(cells + next->cells, next, wraps_x, wraps_y, i, j);
         if (way == INVERT) above *= factors[level->cells + cell];
     }
-    *value = (scalar)weight * *value + above;
+    scalar own = way == INVERT ? sums[level->cells + cell] : averaged(sums + level->cells, level, wraps_x, wraps_y, i, j);
+    cells[level->cells + cell] = (scalar)weight * own + above;
 }
 
 extern "C" __global__ void rise(
@@ -435,16 +454,16 @@ extern "C" __global__ void rise(
 }
 
 extern "C" __global__ void fall(
-    const Level *level, whole way, whole wraps_x, whole wraps_y, const double *weight, scalar *sums,
-    const scalar *factors) {
+    const Level *level, whole way, whole wraps_x, whole wraps_y, const double *weight, const scalar *sums,
+    const scalar *factors, scalar *cells) {
     EACH(cell, (place)level->cells_x * level->cells_y)
-        fall_to(level, 0, way, wraps_x, wraps_y, *weight, sums, factors, cell);
+        fall_to(level, 0, way, wraps_x, wraps_y, *weight, sums, factors, cells, cell);
 }
 
 // Up and down the last ``number`` levels, which are small, in a single block.
 extern "C" __global__ void turn(
     const Level *levels, whole number, whole way, whole wraps_x, whole wraps_y, const double *weights,
-    const scalar *points, scalar *sums, scalar *factors) {
+    const scalar *points, scalar *sums, scalar *factors, scalar *cells) {
     for (int l = 0; l < number; l++) {
         for (place cell = threadIdx.x; cell < (place)levels[l].cells_x * levels[l].cells_y; cell += blockDim.x)
             rise_to(levels + l, way, wraps_x, wraps_y, weights[l], points, sums, factors, cell);
@@ -452,7 +471,7 @@ extern "C" __global__ void turn(
     }
     for (int l = (int)number - 1; l >= 0 && way != FACTORISE; l--) {
         for (place cell = threadIdx.x; cell < (place)levels[l].cells_x * levels[l].cells_y; cell += blockDim.x)
-            fall_to(levels + l, l == number - 1, way, wraps_x, wraps_y, weights[l], sums, factors, cell);
+            fall_to(levels + l, l == number - 1, way, wraps_x, wraps_y, weights[l], sums, factors, cells, cell);
         __syncthreads();
     }
 }
@@ -470,7 +489,7 @@ struct Local {
 
 // z = inverse times r on the set, with its sum and its products with r and ``other``.
 extern "C" __global__ void invert_points(
-    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *sums, const flag *inside,
+    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *cells, const flag *inside,
     const scalar *r, const scalar *other, scalar *out, double *partial) {
     double products[3] = {0.0, 0.0, 0.0};
     EACH(k, (place)level->nx * level->ny) {
@@ -481,7 +500,7 @@ extern "C" __global__ void invert_points(
             scalar members_y = AT(inside, i, j - 1) + AT(inside, i, j + 1);
             scalar alone = (scalar)(1.0 + 0.375 * (local->bend[0] + local->bend[1]));
             alone += (scalar)(0.25 * local->fall[0]) * members_x + (scalar)(0.25 * local->fall[1]) * members_y;
-            z = alone * r[k] - by_cells(sums, level, wraps_x, wraps_y, i, j);
+            z = alone * r[k] - by_cells(cells, level, wraps_x, wraps_y, i, j);
             if (level->nx > 1)
                 z += (scalar)(-0.25 * (local->fall[0] + local->bend[0])) * (AT(r, i - 1, j) + AT(r, i + 1, j))
                      + (scalar)(0.0625 * local->bend[0]) * (AT(r, i - 2, j) + AT(r, i + 2, j));
@@ -498,7 +517,7 @@ extern "C" __global__ void invert_points(
 
 // Deflection by the load t on the set, with its sum and its products with t and ``other``; what it leaves of ``other`` if ``less``.
 extern "C" __global__ void deflect_points(
-    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *sums, const flag *inside,
+    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *cells, const flag *inside,
     const scalar *t, const scalar *other, whole less, scalar *out, double *partial) {
     double products[3] = {0.0, 0.0, 0.0};
     EACH(k, (place)level->nx * level->ny) {
@@ -506,7 +525,7 @@ extern "C" __global__ void deflect_points(
         if (inside[k]) {
             int i = k / (place)level->ny, j = k % (place)level->ny;
             scalar diagonal = AT(t, i - 1, j - 1) + AT(t, i - 1, j + 1) + AT(t, i + 1, j - 1) + AT(t, i + 1, j + 1);
-            found = (scalar)local->own[0] * t[k] + by_cells(sums, level, wraps_x, wraps_y, i, j);
+            found = (scalar)local->own[0] * t[k] + by_cells(cells, level, wraps_x, wraps_y, i, j);
             found += (scalar)(0.5 * local->own[1]) * (AT(t, i - 1, j) + AT(t, i + 1, j));
             found += (scalar)(0.5 * local->own[2]) * (AT(t, i, j - 1) + AT(t, i, j + 1));
             found += (scalar)(0.25 * local->own[3]) * diagonal;

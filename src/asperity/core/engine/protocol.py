@@ -18,7 +18,7 @@ fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
 """Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
-for 8, 32, 64: elastic 7.7, 7.3, 7.3; films 8.5, 9.0, 8.8 (16: 7.4 and 8.7; cases: see ``benchmarks/constants.py``)."""
+for 8, 32, 64: elastic 6.0, 5.9, 6.0; films 6.7, 6.5, 6.5 (16: 5.9 and 6.7; cases: see ``benchmarks/constants.py``)."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,9 @@ def cells_of(n: int, wraps: bool) -> int:
 class SplineModel:
     """A compliance of nested quadratic B-splines on the points of a grid, and coefficients of its inverse on a free set.
 
-    The compliance is B = own + sum over levels of w P P^T, P being the B-splines of the cells of a level at the points: a part takes three quarters
-    of the deflection of the cell that it lies in and a quarter of that of the nearest other one, along each axis, from level to level. Its inverse on
+    The compliance is B = own + sum over levels of w P C P^T, P being the B-splines of the cells of a level at the points: a part takes three quarters
+    of the deflection of the cell that it lies in and a quarter of that of the nearest other one, along each axis, from level to level. C averages the loads of
+    a cell (half of its own) and those beside it (a quarter on either side, none beyond a rim), along the axes that merge. The inverse on
     a set is approximated, level by level, with diagonal matrices for the products of B-splines (see ``splines``) and a local stiffness.
 
     Parameters
@@ -101,7 +102,7 @@ class SplineModel:
     merges
         Axes along which the cells of each level merge in pairs, until one cell is left.
     weights
-        w of each level: deflection by a unit load on a cell.
+        w of each level: deflection by a unit load on a cell and all those beside it.
     own
         Deflection of a point by its own unit load, by two of a half at the nearest points along x, two along y, and four of a quarter at the diagonal ones.
     inverse_weights

@@ -3,6 +3,8 @@
 A cell of a level merges two of the level below along one axis or both. Its B-spline reaches half a cell beyond it on either side: a part passes
 three quarters of its load to the cell that it lies in and a quarter to the nearest other, along each axis, and takes its deflection from both in
 the same shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell at either end, beyond the points.
+The compliance averages the loads of neighbouring cells of a level (half of a cell's own and a quarter of that beside it on either side) before they
+deflect it.
 
 ``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, and whether the level below
 merges along x and y to it. Level 0 are the points themselves, in an array with a margin.
@@ -154,22 +156,40 @@ def _rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: i
 
 
 @compiled
-def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no-untyped-def]
-    """Deflections of the cells of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``_rise`` has left in ``sums``.
+def _fall(span, levels, way, wraps, weights, lines, sums, g, cells):  # type: ignore[no-untyped-def]
+    """Deflections of the ``cells`` of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``_rise`` has left in ``sums``.
 
-    That of a level is w g S plus g times that of the level above; to ``_DEFLECT``, without g.
+    That of a level is w g S plus g times that of the level above; to ``_DEFLECT``, w times the average of S over neighbouring cells plus that of the level above.
     """
-    near, far = g.dtype.type(0.75), g.dtype.type(0.25)
+    near, far, half = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(0.5)
     scratch = lines[-(-span[0] * len(lines) // _PARTS)]
-    line, unit = scratch[0], scratch[2]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
     top = len(levels) - 1
     for depth in range(way[0], way[1] - 1, -1):
-        level, weight, wide = levels[depth], weights[depth], levels[depth, _COLUMNS]
-        for cell in range(level[_ROWS] * span[0] // _PARTS, level[_ROWS] * span[1] // _PARTS):
+        level, weight, wide, rows = levels[depth], weights[depth], levels[depth, _COLUMNS], levels[depth, _ROWS]
+        for cell in range(rows * span[0] // _PARTS, rows * span[1] // _PARTS):
             start = level[_START] + cell * level[_STRIDE]
-            out, own = sums[start : start + wide], g[start : start + wide] if way[2] != _DEFLECT else unit
-            for j in range(wide):
-                out[j] *= weight
+            out, own = cells[start : start + wide], g[start : start + wide] if way[2] != _DEFLECT else unit
+            row_b, mixed = sums[start : start + wide], line[1 : wide + 1]
+            if way[2] == _DEFLECT and level[_MERGE_X]:
+                before, after = cell - 1, cell + 1
+                if wraps[0]:
+                    before, after = before if cell > 0 else rows - 1, after if after < rows else 0
+                a, c = level[_START] + before * level[_STRIDE], level[_START] + after * level[_STRIDE]
+                row_a = sums[a : a + wide] if before >= 0 else nothing
+                row_c = sums[c : c + wide] if after < rows else nothing
+                for j in range(wide):
+                    mixed[j] = half * row_b[j] + far * (row_a[j] + row_c[j])
+                row_b = mixed
+            if way[2] == _DEFLECT and level[_MERGE_Y]:
+                for j in range(wide):
+                    mixed[j] = row_b[j]
+                line[0], line[wide + 1] = (line[wide], line[1]) if wraps[1] else (nothing[0], nothing[0])
+                for j in range(wide):
+                    out[j] = weight * (half * line[j + 1] + far * (line[j] + line[j + 2]))
+            else:
+                for j in range(wide):
+                    out[j] = weight * row_b[j]
             if depth == top:
                 continue
             above = levels[depth + 1]
@@ -182,12 +202,12 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no
                 if wraps[0]:
                     beside = above[_ROWS] - 1 if beside < 0 else 0 if beside >= above[_ROWS] else beside
                 a, b = above[_START] + parent * above[_STRIDE], above[_START] + beside * above[_STRIDE]
-                row_a, row_b = sums[a : a + columns], sums[b : b + columns]
+                row_a, row_b = cells[a : a + columns], cells[b : b + columns]
                 for k in range(columns):
                     own_line[k] = near * row_a[k] + far * row_b[k]
             else:
                 a = above[_START] + cell * above[_STRIDE]
-                row_a = sums[a : a + columns]
+                row_a = cells[a : a + columns]
                 for k in range(columns):
                     own_line[k] = row_a[k]
             if above[_MERGE_Y]:
@@ -208,13 +228,13 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g):  # type: ignore[no
 def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
     """out = (stencil[0] + stencil[1] count) values + what the neighbours among the ``points`` and the cells of level 1 add, at the points of a set.
 
-    ``members`` of the set are (rows, index), ``memory`` is (lines, found, points, sums), found being lines as well: were they rows of the same array, the
+    ``members`` of the set are (rows, index), ``memory`` is (lines, found, points, cells), found being lines as well: were they rows of the same array, the
     loop that writes every second value would not be vectorised. ``stencil`` holds further the factors of the nearest points along x and y, of those at twice the distance
     along x and y, of the diagonal ones, and of the deflection of the cells. ``vectors`` are values, count, and two of which the products with out are
     left in ``products``, row by row, after the sum of out.
     """
     rows, index = members
-    lines, founds, points, sums = memory
+    lines, founds, points, cells = memory
     values, count, one, other = vectors
     own, each, x1, y1, x2, y2, diagonal, factor = stencil
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
@@ -245,18 +265,18 @@ def _at_points(span, levels, wraps, members, memory, stencil, vectors, out, prod
                     left = wide - 1 if left < 0 else left
                     right = 0 if right >= wide else right
                 right = min(right, wide - 1)
-                row_a, row_b = sums[a + begin : a + begin + number], sums[b + begin : b + begin + number]
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
                 middle = line[1 : number + 1]
                 for k in range(number):
                     middle[k] = factor * (near * row_a[k] + far * row_b[k])
-                line[0] = factor * (near * sums[a + left] + far * sums[b + left])
-                line[number + 1] = factor * (near * sums[a + right] + far * sums[b + right])
+                line[0] = factor * (near * cells[a + left] + far * cells[b + left])
+                line[number + 1] = factor * (near * cells[a + right] + far * cells[b + right])
                 for k in range(number):
                     found[2 * k] = near * line[k + 1] + far * line[k]
                     found[2 * k + 1] = near * line[k + 1] + far * line[k + 2]
             else:
                 begin, number = 2 * first, min(2 * pairs, columns - 2 * first)
-                row_a, row_b = sums[a + begin : a + begin + number], sums[b + begin : b + begin + number]
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
                 for j in range(number):
                     found[j] = factor * (near * row_a[j] + far * row_b[j])
             place = levels[0, _START] + row * stride + 2 * first
@@ -307,9 +327,8 @@ class CpuSplines:
     def __init__(self, blocks: Blocks, shape: tuple[int, int], model: SplineModel, dtype: str) -> None:
         self._blocks = blocks
         self._layout = _layout(shape, model.merges, model.wraps)
-        self._points, self._sums, self._g = (
-            np.zeros(size, dtype) for size in (self._layout.points, self._layout.cells, self._layout.cells)
-        )
+        self._points, cells = np.zeros(self._layout.points, dtype), self._layout.cells
+        self._sums, self._g, self._cells = (np.zeros(cells, dtype) for _ in range(3))
         # for each thread: a line of sums or deflections, zeros and ones; what is found at the points of a row
         self._lines = np.zeros((min(blocks.threads, _PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
@@ -402,7 +421,7 @@ class CpuSplines:
     def _fall(self, purpose: int, weights: RealArray) -> None:
         """Deflections on all levels."""
         levels, large, top = self._layout[:3]
-        arguments = self._wraps, weights, self._lines, self._sums, self._g
+        arguments = self._wraps, weights, self._lines, self._sums, self._g, self._cells
         if large < top:
             self._share(_fall, levels, (top, large + 1, purpose), *arguments, serial=True)
         for depth in range(large, 0, -1):
@@ -416,7 +435,7 @@ class CpuSplines:
         one, other, out = vectors
         arguments = (
             (free.rows, free.index),
-            (self._lines, self._found, self._points, self._sums),
+            (self._lines, self._found, self._points, self._cells),
             stencil,
             (values, count, one, other),
             out,

@@ -24,8 +24,8 @@ _PRIOR = 4.0
 Pairs for 1, 2, 8, 16: the same."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 6.8, 7.6, 7.9, 8.0; free
-23.8, 24.0, 24.6, 25.3; cap 6.4, 6.0, 6.2, 7.2; tight 12.9, 13.2, 14.4, 14.2. It is for stiffer films and points of noise that it is not 0."""
+"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 5.7, 5.7, 6.1, 6.3; free
+19.3, 20.8, 20.8, 21.6; tight 12.2, 12.9, 12.6, 13.2. It is for stiffer films and points of noise that it is not 0."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""

@@ -16,22 +16,22 @@ from .linear_system import Workspace
 from .spline_model import pixel_compliance, steepness
 
 COARSEST = 64
-"""Points per side at which there is no coarser grid. Pairs for 32: the same; for 128: cap 7.2, tight 13.3."""
+"""Points per side at which there is no coarser grid. Pairs for 32: the same; for 128: cap 6.5, tight 13.2."""
 
 COARSE_ITERATIONS = 30
 """Most steps on a coarse grid; two to four are the rule. Pairs for 3, 10, 100: the same."""
 
 _HIDDEN_SHARE, _HIDDEN_SHARE_CAPPED = 0.5, 0.1
 """Tolerance on a coarse grid over the roughness that it cannot show, both relative to the rms height, without and with a cap. Pairs for
-0.05, 0.1, 0.2, 1: elastic 8.2, 8.0, 8.0, 7.5; film 9.1, 8.9, 8.8, 8.4; free 24.5, 24.1, 23.9, 25.3. Fewer steps on coarse grids save more time than pairs. With a cap 0.5 takes 7.1
+0.05, 0.1, 0.2, 1: elastic 6.2, 6.2, 6.2, 5.8. Fewer steps on coarse grids save more time than pairs. With a cap 0.5 takes 7.1
 and 10.4 pairs at a hardness of 0.3 and 0.1 E* (512²), 0.1 takes 5.8 and 6.8."""
 
 _LOOSEST, _LOOSEST_CAPPED = 0.1, 0.03
-"""Loosest tolerance on a coarse grid. Pairs for 0.01: elastic 8.0; for 0.03 and 0.3 the same."""
+"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: the same."""
 
 _FINE_STIFFNESS = 0.15
 """Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer).
-Pairs for 0, 0.1, 0.2, 0.3: elastic 8.0, 7.6, 7.4, 7.7; film 8.8, 8.5, 8.7, 9.3; tight 14.4, 14.3, 13.4, 14.4.
+Pairs for 0, 0.1, 0.2, 0.3: elastic 7.0, 6.0, 6.0, 6.3; film 7.0, 6.5, 7.1, 7.7; free 21.6, 20.8, 20.2, 20.2; tight 12.2, 13.1, 12.7, 12.9.
 Under a cap there is none: crests that it would load beyond the cap yield. With it a hardness of 0.3 and 0.1 E* takes 8.2 and 15.3 pairs
 at 256² instead of 5.8 and 8.6, 9.8 and 18.5 at 512² instead of 5.8 and 6.8."""
 
@@ -117,7 +117,7 @@ def settle(work: Workspace) -> None:
 
 _AREA_PER_LOAD = 2.0
 """Factor a in the share erf(a p / E* s) of the points that are loaded first, s being the rms slope: small shares then grow like 2.26 p / E* s, as
-those of computed rough contacts. Pairs for 1.4: cap 6.4; for 2.4: the same; for all points free 24.9. On 64² points two or
+those of computed rough contacts. Pairs for 1.4 and 2.4: the same; for all points free 21.9. On 64² points two or
 three steps do instead of three to seven."""
 
 

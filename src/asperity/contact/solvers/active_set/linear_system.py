@@ -145,18 +145,18 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 
 
 _MODEL_STEPS = 2
-"""Steps on the model of a compliance that is steep, each as dear as two uses of its inverse. Pairs for 1, 3, 4: film 9.3, 8.5, 8.5."""
+"""Steps on the model of a compliance that is steep, each as dear as two uses of its inverse. Pairs for 1, 3, 4: film 7.6, 6.7, 6.7."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.5, film 10.8, free 26.7, cap 8.9, tight 15.1, monotone
-10.7; for 2: tight 13.8."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.6, film 9.9, free 26.7, cap 9.2, tight 14.8, monotone
+10.7; for 2: film 6.4, free 18.9."""
 
 _LAST_LENGTH = 0.85
-"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: elastic 7.8; for 1: elastic 7.8, cap 6.7, tight 13.8."""
+"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: tight 13.5; for 1: the same."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.5, 8.5, 8.1, 8.7; film
-10.3, 9.3, 9.5, 11.1; free 28.9, 26.8, 29.1, 29.1; cap 8.5, 7.0, 7.0, 9.3; monotone 12.0, 10.2, 11.2, 13.0."""
+"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.3, 8.0, 7.5, 8.9; film
+10.3, 8.7, 8.5, 9.8; free 28.8, 23.4, 25.1, 27.6; cap 9.4, 8.0, 8.0, 9.0; tight 15.4, 14.5, 13.3, 14.3; monotone 11.5, 9.9, 9.0, 11.0."""
 
 
 @dataclass(frozen=True, eq=False)
