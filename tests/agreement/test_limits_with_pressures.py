@@ -90,13 +90,16 @@ def test_a_stiff_film_and_odd_sizes(monkeypatch):
 
 
 def test_pairs_of_transforms():
-    """As many as for the elastic contact, in which the same part of the work is on coarser grids; rounds took six times as many."""
-    body = hard_film(8.0)
-    problem, solver = posed(body, 256, 1), ActiveSet(tolerance=1e-6)
-    found = asp.solve(problem, asp.MeanPressure(0.05), solver=solver)
-    elastic = asp.solve(replace(problem, law=asp.HardWall()), asp.MeanPressure(0.05), solver=solver)
-    assert found.plastic.any()
-    assert found.certificate.fft_pairs <= 1.2 * elastic.certificate.fft_pairs
+    """As many as for the elastic contact, in which the same part of the work is on coarser grids, in the mean of some surfaces, since each takes whole pairs; rounds took six times as many."""
+    body, solver, pairs = hard_film(8.0), ActiveSet(tolerance=1e-6), []
+    for seed in (1, 2, 3):
+        problem = posed(body, 256, seed)
+        found = asp.solve(problem, asp.MeanPressure(0.05), solver=solver)
+        elastic = asp.solve(replace(problem, law=asp.HardWall()), asp.MeanPressure(0.05), solver=solver)
+        assert found.plastic.any()
+        pairs.append((found.certificate.fft_pairs, elastic.certificate.fft_pairs))
+    layered, plain = np.mean(pairs, axis=0)
+    assert layered <= 1.2 * plain
 
 
 @pytest.mark.parametrize("seed", [2, 3])

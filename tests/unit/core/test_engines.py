@@ -483,6 +483,7 @@ def splines(shape: tuple[int, int], wraps: tuple[bool, bool], merges: tuple[tupl
     return SplineModel(
         wraps,
         merges,
+        tuple((level < 3 and along_x, level > 0 and along_y) for level, (along_x, along_y) in enumerate(merges)),
         weights,
         (1.0, 0.3 * x, 0.2 * y, 0.1 * x * y),
         rises,
@@ -540,16 +541,16 @@ def average_matrix(n: int, wraps: bool) -> RealArray:
 
 
 def averages_of(shape: tuple[int, int], model: SplineModel) -> list[RealArray]:
-    """Averages over the cells of every level, along the axes that merge."""
+    """Averages over the cells of every level."""
     found, sizes = [], list(shape)
-    for merge in model.merges:
+    for merge, average in zip(model.merges, model.averages, strict=True):
         sizes = [
             parts_matrix(n, wrap).shape[1] if pairs else n
             for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
         ]
         axes = [
-            average_matrix(n, wrap) if pairs else np.eye(n)
-            for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
+            average_matrix(n, wrap) if along else np.eye(n)
+            for n, wrap, along in zip(sizes, model.wraps, average, strict=True)
         ]
         found.append(np.kron(*axes))
     return found

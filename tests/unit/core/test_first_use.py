@@ -40,7 +40,6 @@ LATE = [
     "_fall",
     "_gather",
     "_join",
-    "_surround",
     "add",
     "add_unclipped",
     "clear_tension",

@@ -265,7 +265,7 @@ class _ArraySplines:
         nearest = tuple(-0.25 * (fall + bend) for fall, bend in zip(model.fall, model.bend, strict=True))
         z = (1.0 + 0.375 * sum(model.bend) + self._count) * r + self._around(r, nearest)
         z = z + self._around(r, tuple(0.0625 * bend for bend in model.bend), distance=2)
-        z = z - self._deflection(r, model.inverse_weights, self._factors, averaged=False)
+        z = z - self._deflection(r, model.inverse_weights, self._factors, ((False, False),) * len(model.merges))
         return free.products(self._library.select(free.inside, model.stiffness * z), r, other)
 
     def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
@@ -282,7 +282,7 @@ class _ArraySplines:
         rows = self._moved(load, 0, 1) + self._moved(load, 0, -1)
         found = point * load + 0.5 * x * rows + 0.5 * y * (self._moved(load, 1, 1) + self._moved(load, 1, -1))
         found = found + 0.25 * diagonal * (self._moved(rows, 1, 1) + self._moved(rows, 1, -1))
-        return found + self._deflection(load, model.weights, [1.0] * len(model.merges), averaged=True)
+        return found + self._deflection(load, model.weights, [1.0] * len(model.merges), model.averages)
 
     def _around(self, values: Any, factors: tuple[float, ...], distance: int = 1) -> Any:
         """Values at this distance along x and y, times the ``factors``."""
@@ -299,17 +299,20 @@ class _ArraySplines:
             return xp.concat([none, _part(values, axis, 0, kept)], axis=axis)
         return xp.concat([_part(values, axis, n - kept, n), none], axis=axis)
 
-    def _deflection(self, load: Any, weights: tuple[float, ...], factors: list[Any], *, averaged: bool) -> Any:
-        """Deflection of all points by the cells, of these ``weights`` and factors g, under the ``load``; ``averaged`` over neighbouring cells or not."""
-        passed, shapes, levels = load, [], list(zip(self._model.merges, weights, factors, strict=True))
+    def _deflection(
+        self, load: Any, weights: tuple[float, ...], factors: list[Any], averages: tuple[tuple[bool, bool], ...]
+    ) -> Any:
+        """Deflection of all points by the cells, of these ``weights`` and factors g, under the ``load``, averaged over neighbouring cells along the axes of ``averages``."""
+        passed, shapes, levels = load, [], list(zip(self._model.merges, weights, factors, averages, strict=True))
         sums = []
-        for merge, _, g in levels:
+        for merge, _, g, _ in levels:
             shapes.append(passed.shape)
             passed = g * self._summed(passed, merge)
             sums.append(passed)
         deflection = self._library.xp.zeros_like(passed)
-        for (merge, weight, g), total, shape in zip(reversed(levels), reversed(sums), reversed(shapes), strict=True):
-            for axis in (axis for axis in (0, 1) if averaged and merge[axis]):
+        for level, total, shape in zip(reversed(levels), reversed(sums), reversed(shapes), strict=True):
+            merge, weight, g, average = level
+            for axis in (axis for axis in (0, 1) if average[axis]):
                 total = 0.5 * total + 0.25 * (self._moved(total, axis, 1) + self._moved(total, axis, -1))
             deflection = self._spread(weight * total + g * deflection, merge, shape)
         return deflection

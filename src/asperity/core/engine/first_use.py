@@ -25,6 +25,7 @@ def passes() -> list[Callable[[], Any]]:
     vector = free.zeros()
     model = SplineModel(
         merges=((True, True),) * 3,
+        averages=((True, True),) * 3,
         wraps=(True, True),
         weights=(1.0,) * 3,
         own=(1.0,) * 4,

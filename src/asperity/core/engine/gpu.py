@@ -207,11 +207,11 @@ class _GpuSplines:
         self._passes = passes
         self._wraps = tuple(int(wrap) for wrap in model.wraps)
         levels, parts, begin = [], -1, 0
-        for merge in model.merges:
+        for merge, average in zip(model.merges, model.averages, strict=True):
             cells = [
                 cells_of(n, wrap) if merged else n for n, wrap, merged in zip(shape, model.wraps, merge, strict=True)
             ]
-            levels.append([*shape, *cells, *merge, parts, begin])
+            levels.append([*shape, *cells, *merge, parts, begin, *average])
             parts, begin, shape = begin, begin + cells[0] * cells[1], (cells[0], cells[1])
         self._cells = [level[2] * level[3] for level in levels]
         self._points = levels[0][0] * levels[0][1]

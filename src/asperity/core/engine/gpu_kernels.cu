@@ -358,6 +358,7 @@ struct Level {
     int cells_x, cells_y;  // cells that they form
     int merges_x, merges_y;
     int parts, cells;      // where parts and cells lie in ``sums``; parts of the first level are the points
+    int averages_x, averages_y;
 };
 
 // Index of the part ``i`` along an axis of ``n``, which wraps after ``period``; -1 where there is none.
@@ -414,19 +415,19 @@ __device__ void rise_to(
     sums[level->cells + cell] = way == DEFLECT ? sum : *factor * sum;
 }
 
-// Average over cell (i, j) of a level and those beside it: half of its own and a quarter on either side, along the axes that merge.
+// Average over cell (i, j) of a level and those beside it: half of its own and a quarter on either side, along the axes of which it is asked.
 __device__ scalar averaged(const scalar *sums, const Level *level, int wraps_x, int wraps_y, int i, int j) {
     const scalar share[3] = {(scalar)0.25, (scalar)0.5, (scalar)0.25};
     scalar sum = (scalar)0;
-    for (int a = level->merges_x ? 0 : 1; a < (level->merges_x ? 3 : 2); a++) {
+    for (int a = level->averages_x ? 0 : 1; a < (level->averages_x ? 3 : 2); a++) {
         int x = part_at(i + a - 1, level->cells_x, level->cells_x, wraps_x);
         if (x < 0) continue;
         scalar line = (scalar)0;
-        for (int b = level->merges_y ? 0 : 1; b < (level->merges_y ? 3 : 2); b++) {
+        for (int b = level->averages_y ? 0 : 1; b < (level->averages_y ? 3 : 2); b++) {
             int y = part_at(j + b - 1, level->cells_y, level->cells_y, wraps_y);
-            if (y >= 0) line += (level->merges_y ? share[b] : (scalar)1) * sums[(place)x * level->cells_y + y];
+            if (y >= 0) line += (level->averages_y ? share[b] : (scalar)1) * sums[(place)x * level->cells_y + y];
         }
-        sum += (level->merges_x ? share[a] : (scalar)1) * line;
+        sum += (level->averages_x ? share[a] : (scalar)1) * line;
     }
     return sum;
 }

@@ -92,7 +92,7 @@ class SplineModel:
 
     The compliance is B = own + sum over levels of w P C P^T, P being the B-splines of the cells of a level at the points: a part takes three quarters
     of the deflection of the cell that it lies in and a quarter of that of the nearest other one, along each axis, from level to level. C averages the loads of
-    a cell (half of its own) and those beside it (a quarter on either side, none beyond a rim), along the axes that merge. The inverse on
+    a cell (half of its own) and those beside it (a quarter on either side, none beyond a rim). The inverse on
     a set is approximated, level by level, with diagonal matrices for the products of B-splines (see ``splines``) and a local stiffness.
 
     Parameters
@@ -101,6 +101,8 @@ class SplineModel:
         Whether the grid is periodic along x and y.
     merges
         Axes along which the cells of each level merge in pairs, until one cell is left.
+    averages
+        Axes along which C of each level averages.
     weights
         w of each level: deflection by a unit load on a cell and all those beside it.
     own
@@ -115,6 +117,7 @@ class SplineModel:
 
     wraps: tuple[bool, bool]
     merges: tuple[tuple[bool, bool], ...]
+    averages: tuple[tuple[bool, bool], ...]
     weights: tuple[float, ...]
     own: tuple[float, ...]
     inverse_weights: tuple[float, ...]

@@ -4,10 +4,10 @@ A cell of a level merges two of the level below along one axis or both. Its B-sp
 three quarters of its load to the cell that it lies in and a quarter to the nearest other, along each axis, and takes its deflection from both in
 the same shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell at either end, beyond the points.
 The compliance averages the loads of neighbouring cells of a level (half of a cell's own and a quarter of that beside it on either side) before they
-deflect it.
+deflect it, along the axes for which the model says so.
 
-``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, and whether the level below
-merges along x and y to it. Level 0 are the points themselves, in an array with a margin.
+``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, whether the level below
+merges along x and y to it, and whether it averages along them. Level 0 are the points themselves, in an array with a margin.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .protocol import Products, SplineModel, cells_of
 if TYPE_CHECKING:
     from .cpu import Blocks
 
-_START, _ROWS, _COLUMNS, _STRIDE, _MERGE_X, _MERGE_Y = range(6)
+_START, _ROWS, _COLUMNS, _STRIDE, _MERGE_X, _MERGE_Y, _AVERAGE_X, _AVERAGE_Y = range(8)
 
 _MARGIN = 2
 """Points kept beyond the rim of the array of points, for their neighbours."""
@@ -171,7 +171,7 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g, cells):  # type: ig
             start = level[_START] + cell * level[_STRIDE]
             out, own = cells[start : start + wide], g[start : start + wide] if way[2] != _DEFLECT else unit
             row_b, mixed = sums[start : start + wide], line[1 : wide + 1]
-            if way[2] == _DEFLECT and level[_MERGE_X]:
+            if way[2] == _DEFLECT and level[_AVERAGE_X]:
                 before, after = cell - 1, cell + 1
                 if wraps[0]:
                     before, after = before if cell > 0 else rows - 1, after if after < rows else 0
@@ -181,7 +181,7 @@ def _fall(span, levels, way, wraps, weights, lines, sums, g, cells):  # type: ig
                 for j in range(wide):
                     mixed[j] = half * row_b[j] + far * (row_a[j] + row_c[j])
                 row_b = mixed
-            if way[2] == _DEFLECT and level[_MERGE_Y]:
+            if way[2] == _DEFLECT and level[_AVERAGE_Y]:
                 for j in range(wide):
                     mixed[j] = row_b[j]
                 line[0], line[wide + 1] = (line[wide], line[1]) if wraps[1] else (nothing[0], nothing[0])
@@ -326,7 +326,7 @@ class CpuSplines:
 
     def __init__(self, blocks: Blocks, shape: tuple[int, int], model: SplineModel, dtype: str) -> None:
         self._blocks = blocks
-        self._layout = _layout(shape, model.merges, model.wraps)
+        self._layout = _layout(shape, model.merges, model.averages, model.wraps)
         self._points, cells = np.zeros(self._layout.points, dtype), self._layout.cells
         self._sums, self._g, self._cells = (np.zeros(cells, dtype) for _ in range(3))
         # for each thread: a line of sums or deflections, zeros and ones; what is found at the points of a row
@@ -459,14 +459,19 @@ class _Layout(NamedTuple):
 
 
 @lru_cache(maxsize=32)
-def _layout(shape: tuple[int, int], merges: tuple[tuple[bool, bool], ...], wraps: tuple[bool, bool]) -> _Layout:
+def _layout(
+    shape: tuple[int, int],
+    merges: tuple[tuple[bool, bool], ...],
+    averages: tuple[tuple[bool, bool], ...],
+    wraps: tuple[bool, bool],
+) -> _Layout:
     """Layout of nested splines on a grid of ``shape``."""
     (nx, ny), size, large = shape, 0, 0
     stride = ny + _GAP
-    levels = [(2 * stride + 2, nx, ny, stride, 0, 0)]
-    for x, y in merges:
+    levels = [(2 * stride + 2, nx, ny, stride, 0, 0, 0, 0)]
+    for (x, y), average in zip(merges, averages, strict=True):
         nx, ny = (cells_of(n, wrap) if merge else n for n, merge, wrap in zip((nx, ny), (x, y), wraps, strict=True))
-        levels.append((size, nx, ny, ny, int(x), int(y)))
+        levels.append((size, nx, ny, ny, int(x), int(y), int(average[0]), int(average[1])))
         size += nx * ny
         large += int(nx * ny >= _SHARED)
     return _Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, size)
