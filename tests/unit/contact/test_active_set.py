@@ -314,6 +314,7 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
         f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
         f"{solver_module._MARGIN} tol/ε ≥ {solver_module._SINGLE}",
         f"For a steepness up to {spline_model._STEEP:g} ",
+        f"pixels of {spline_model._SLENDER:g} to 1 and more slender have no averages",
         f"{linear_system._MODEL_STEPS} steps of conjugate gradients for $B$",
         f"{linear_system._LAST_LENGTH} of the length of the first",
         f"θ ≥ {bounds.LEAST_SHARE}:",

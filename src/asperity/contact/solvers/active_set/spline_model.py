@@ -64,13 +64,13 @@ def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
 
 
 _SLENDER = 3.5
-"""Ratio of the sides of a pixel from which on levels do not average. Eigenvalues of B^-1 K in full contact: 0.61 to 1.31 with averages at 3, 0.13 to 1.29 at 5; without, 0.58 to 1.49 and 0.27 to 1.40."""
+"""Ratio of the sides of a pixel from which on levels do not average. Eigenvalues of B^-1 K in full contact: 0.61 to 1.31 with averages at 3, 0.13 to 1.29 at 5; without, 0.60 to 1.48 and 0.27 to 1.40."""
 
 
-def slender(grid: Grid) -> bool:
-    """Whether the pixels of ``grid`` are too slender for levels of the model that average."""
-    sides = grid.pixels
-    return max(sides) >= _SLENDER * min(sides)
+def averages_of(grid: Grid) -> tuple[tuple[bool, bool], ...]:
+    """Axes along which each level of the model averages on ``grid``: those that merge, none where pixels are slender."""
+    merges, sides = octaves(grid).merges, grid.pixels
+    return merges if max(sides) < _SLENDER * min(sides) else ((False, False),) * len(merges)
 
 
 class OctavesOfCells(NamedTuple):
@@ -173,13 +173,14 @@ def _samples(grid: Grid) -> _Samples:
     cosines = np.cos(phases) * np.array([[float(axis in lines)] for axis in (0, 1)])
     parts = [np.ones(which.size), *cosines, cosines.prod(axis=0)]
     spline, waves = np.ones(which.size), list(phases)
-    for merge in merges:
+    for merge, averages in zip(merges, averages_of(grid), strict=True):
         average = np.ones(which.size)
         for axis in (axis for axis in (0, 1) if merge[axis]):
             spline = spline * (0.75 * np.cos(0.5 * waves[axis]) + 0.25 * np.cos(1.5 * waves[axis])) ** 2
             waves[axis] = 2.0 * waves[axis]
-            average = average * np.cos(0.5 * waves[axis]) ** 2
-        parts.append(spline if slender(grid) else spline * average)
+            if averages[axis]:
+                average = average * np.cos(0.5 * waves[axis]) ** 2
+        parts.append(spline * average)
     axis = next(axis for axis in lines if merges[0][axis] or not any(merges[0]))
     along = np.zeros((2, len(sides)))
     along[axis] = grid.spacing[axis] * np.pi / sides
@@ -261,7 +262,7 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
     model = SplineModel(
         wraps=(wraps[0], wraps[1]),
         merges=merges,
-        averages=((False, False),) * len(merges) if slender(grid) else merges,
+        averages=averages_of(grid),
         weights=tuple((parts[_LOCAL:] / (points[1:] * scale)).tolist()),
         own=tuple((parts[:_LOCAL] / scale).tolist()),
         inverse_weights=tuple(rises.tolist()),
