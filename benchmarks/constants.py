@@ -33,6 +33,9 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_MARGIN"): [0.3, 0.5, 1.0],
     (bounds, "LEAST_SHARE"): [0.01, 0.03, 0.3],
     (solver, "_MOST_UNSUCCESSFUL"): [0, 1, 4],
+    (solver, "_MOST_REFINEMENTS"): [0, 1, 2, 4],
+    (solver, "_CLOSER"): [0.03, 0.3],
+    (solver, "_CLOSER_DOUBLINGS"): [1, 3],
     (solver, "_REFRESH"): [1e-3, 1e-4, 1e-7],
     (first_guess, "COARSEST"): [32, 128],
     (first_guess, "COARSE_ITERATIONS"): [3, 10, 100],
@@ -67,6 +70,9 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (position, "_TOWARDS"): [0.0, 0.25, 1.0],
 }
 
+
+FOR_VERY_STIFF_FILMS = ("_MOST_UNSUCCESSFUL", "_MOST_REFINEMENTS", "_CLOSER", "_CLOSER_DOUBLINGS")
+"""Constants that bear on them alone."""
 
 Case = tuple[str, asp.ContactProblem, Any, asp.solvers.ActiveSet]
 
@@ -104,12 +110,24 @@ def loads() -> Iterator[Case]:
             yield "monotone", asp.ContactProblem(small, BODY), asp.MeanPressure(load), monotone
 
 
-def pairs(module: Any) -> str:
-    """Mean pairs of each kind of case on which the constants of ``module`` bear, as one line; those without a solution do not count."""
+def very_stiff_films() -> Iterator[Case]:
+    """Kind, problem, mean pressure and solver, for films on which unclipped steps fail."""
+    for seed in (1, 2):
+        for n in (128, 256):
+            for ratio, thickness in ((300.0, 1.0), (1000.0, 1.0), (1000.0, 2.0)):
+                film = asp.Layered([asp.Layer(asp.Elastic(ratio, 0.3), thickness)], base=asp.Elastic(1.0, 0.3))
+                problem = asp.ContactProblem(self_affine(n, seed=seed), film)
+                for load in (0.3, 0.75):
+                    yield "stiff", problem, asp.MeanPressure(load), asp.solvers.ActiveSet(tolerance=1e-6)
+
+
+def pairs(module: Any, name: str = "") -> str:
+    """Mean pairs of each kind of case on which the constant ``name`` of ``module`` bears, as one line; those without a solution do not count."""
+    cases = very_stiff_films if name in FOR_VERY_STIFF_FILMS else positions if module is position else loads
     for models in (spline_model._fit, spline_model._levels):  # fitted with other constants
         models.cache_clear()
     found, failed = defaultdict(list), Counter[str]()
-    for kind, problem, control, method in positions() if module is position else loads():
+    for kind, problem, control, method in cases():
         keep = asp.Keep(stiffness=False)
         try:
             result = asp.solve(problem, control, solver=method, keep=keep, engine=asp.CpuEngine(1))
@@ -127,13 +145,14 @@ def main() -> None:
     names = parser.parse_args().names
     print("loads, as it is:", pairs(solver))
     print("positions, as it is:", pairs(position))
+    print("very stiff films, as it is:", pairs(solver, FOR_VERY_STIFF_FILMS[0]))
     for (module, name), values in VALUES.items():
         if names and name not in names:
             continue
         usual = getattr(module, name)
         for value in values:
             setattr(module, name, value)
-            print(f"{name} {usual} -> {value}:", pairs(module), flush=True)
+            print(f"{name} {usual} -> {value}:", pairs(module, name), flush=True)
         setattr(module, name, usual)
 
 

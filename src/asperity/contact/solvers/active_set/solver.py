@@ -6,7 +6,8 @@ The constants are not delicate. Behind each stand FFT pairs for other values, by
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
 elastic, 256², every iterate within its bounds. The constants as they are take 5.9, 6.7, 20.6, 6.0, 12.5 and 8.0 pairs; cases that
-are not named differ from these by 0.3 at most (*free*: 0.8).
+are not named differ from these by 0.3 at most (*free*: 0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that bear on
+them alone; 58.9 pairs.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ _REDUCTION = 0.3
 0.1, 0.2 and 0.5: none differs."""
 
 _UNSETTLED_STEPS = 3
-"""Most steps while the set changes, doubled with every fallback. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
+"""Most steps while the set changes, doubled with every fallback, and twice with every failure of unclipped ones. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
 
 _UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
 """Effort on a correction that is clipped afterwards, and on the last one: a single direction of the model of the compliance, whose deflection the product with what is
@@ -83,6 +84,9 @@ _SINGLE = 0.02
 
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
+
+_CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 58.7, 63.6; for 1 and 3 doublings: the same."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
 """Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.4; for 0.2 and 0.3: tight 13.2; for 3, 5, 12 steps the same."""
@@ -132,8 +136,11 @@ take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a 
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: the same; harder surfaces
-with films need them."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 60.6, 56.4, 60.4."""
+
+_MOST_REFINEMENTS = 3
+"""How often they may fail before steps are clipped. A set that follows the errors of loosely solved systems goes in circles on films so stiff that pressures change sign within
+a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 304, 115, 58.9, 58.9."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
@@ -148,7 +155,7 @@ class _Memory:
     number of points that the last step took beyond their bounds; ``fallbacks`` how many steps had to be replaced so far, one at least where
     a direction of the model alone had to be shortened.
     ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
-    are clipped; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
+    are clipped; ``refinements`` how often there were too many, after which systems are solved more closely; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
     ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
     just been computed so; ``guessed``: the iterate is a start that is (``Start``).
     ``superseded``: a later step has changed the arrays. The work so far is that of ``SolverState``.
@@ -160,6 +167,7 @@ class _Memory:
     clipped: int
     fallbacks: int = 0
     unsuccessful: int | None = None
+    refinements: int = 0
     lowest: float = np.inf
     tensile: FreeSet | None = None
     tension: float = 0.0
@@ -178,6 +186,19 @@ class _Memory:
     def settled(self, free: FreeSet) -> bool:
         """Whether few points change."""
         return self.changed(free) <= _SETTLED * free.size
+
+    def judge(self, error: float) -> None:
+        """Whether unclipped steps succeed, by the ``error`` after one of them."""
+        if self.unsuccessful is None:
+            return
+        if error < self.lowest:
+            self.lowest, self.unsuccessful = error, 0
+        elif self.unsuccessful < _MOST_UNSUCCESSFUL:
+            self.unsuccessful += 1
+        elif self.refinements < _MOST_REFINEMENTS:
+            self.refinements, self.lowest, self.unsuccessful = self.refinements + 1, error, 0
+        else:
+            self.unsuccessful = None
 
     def copied(self, state: SolverState) -> SolverState:
         """``state``, whose memory this is, with arrays of its own."""
@@ -207,8 +228,8 @@ class ActiveSet:
     has double precision at nearly the cost of single.
 
     Without a cap steps are *unclipped*: tensile points stay until the next step, whose first product with the compliance
-    serves both, which saves a product a step. Three unclipped steps in a row that do not lower the error end this. From
-    then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a direction found by the
+    serves both, which saves a product a step. Three unclipped steps in a row that do not lower the error make the following ones more accurate; the fourth
+    such failure ends them. From then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a direction found by the
     model is clipped and then multiplied, and a step that would raise the energy is shortened to the minimum on its way, or replaced by one along the projected gradient. The product that computes the
     final deflection from scratch serves the last step too, whose length is estimated unless ``monotone``.
 
@@ -424,11 +445,7 @@ class ActiveSet:
         if memory.tension:
             load = memory.survey.totals.pressure
             error = error + memory.tension / load if load > 0.0 else math.inf
-        failed = memory.unsuccessful
-        if failed is not None and error < memory.lowest:
-            memory.lowest, memory.unsuccessful = error, 0
-        elif failed is not None:  # after some in a row steps are clipped
-            memory.unsuccessful = failed + 1 if failed < _MOST_UNSUCCESSFUL else None
+        memory.judge(error)
         ends = error <= self.tolerance or memory.iterations >= self.max_iterations
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
@@ -467,7 +484,10 @@ class ActiveSet:
         if alone:
             return _UNMEASURED
         if not settled:
-            return Stopping(_REDUCTION, _UNSETTLED_STEPS << min(memory.fallbacks, _MOST_DOUBLINGS))
+            doublings = memory.fallbacks + _CLOSER_DOUBLINGS * memory.refinements
+            return Stopping(
+                _REDUCTION * _CLOSER**memory.refinements, _UNSETTLED_STEPS << min(doublings, _MOST_DOUBLINGS)
+            )
         most = _NEARLY_SETTLED if changed else _SETTLED_SET
         if ends and wanted >= (_LAST_REDUCTION if changed else _SETTLED_SET.reduction):
             return Stopping(0.0, most.max_steps, wanted / _LAST_STEP)
