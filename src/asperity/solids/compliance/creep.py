@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -259,6 +259,14 @@ def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> Any
     first = materials[0]
     if alike(materials) and isinstance(first, Viscoelastic):
         return SharedCreep(first.shear.creep.times(first.shear_modulus))
+    return _layered_creep(body, counter_body, shear)
+
+
+@lru_cache(maxsize=16)
+def _layered_creep(body: Body, counter_body: Body, shear: bool) -> LayeredCreep:
+    """Series of layers that relax differently; kept, as every solve of a history that is continued needs it and a fit takes seconds."""
+    pairs = deformable(body, counter_body)
+    materials = tuple(material for solid, _ in pairs for material in materials_of(solid))
     stacks = tuple((_stacked(solid), sign) for solid, sign in pairs)
     instantaneous = contact_compliance(body, counter_body)
     for per_decade in _PER_DECADE:
