@@ -27,12 +27,14 @@ LOAD, APPROACH = np.pi**3 * R**2 / (6 * E_STAR**2) * PEAK**3, R * (np.pi * PEAK 
 RADIUS = np.pi * PEAK * R / (2 * E_STAR)
 PERFECT = LinearHardening(Y, 1e-4 * E)
 ROUGH = fem.Resolution(across=16)
+FAR = {"growth": 1.2, "distance": 20.0}
+"""Mesh beyond the contact: half the unknowns of the default, and loads within 0.2 % of it, a fifth of the least that is allowed below."""
 
 
 @cache
 def sphere(steps: tuple[float, ...], across: int = 24, modulus: float = 1e-4 * E) -> fem.IndentationHistory:
     """Rigid paraboloid on steel along approaches in units of that at first yield."""
-    law, resolution = LinearHardening(Y, modulus), fem.Resolution(across=across)
+    law, resolution = LinearHardening(Y, modulus), fem.Resolution(across=across, **FAR)
     return fem.indentation(STEEL, fem.Paraboloid(R), APPROACH * np.array(steps), plasticity=law, resolution=resolution)
 
 
@@ -95,12 +97,12 @@ def test_unloading_and_reloading() -> None:
 def test_energy_balance() -> None:
     """Work is elastic energy and plastic work, and this is ∫ Y dq, up to the trapezoids of the steps; smaller steps are fourfold better."""
     errors = []
-    for parts in (4, 8, 16):
+    for parts in (8, 16):
         last = sphere(tuple(np.linspace(0.0, 6.0, parts + 1)[1:]), across=16).steps[-1]
         errors.append([last.work - last.elastic_energy - last.plastic_work, last.hardening_work - last.plastic_work])
     relative = np.abs(errors) / last.work
     assert (relative[-1] < 0.01).all()
-    assert (relative[2] < 0.6 * relative[1]).all()
+    assert (relative[1] < 0.6 * relative[0]).all()
 
 
 def test_equal_states_in_other_units() -> None:
@@ -117,7 +119,7 @@ def layered(ratio: float, steps: RealArray, across: int = 40) -> fem.Indentation
     body = asp.Layered([asp.Layer(asp.Elastic(ratio * E, NU), RADIUS)], STEEL)
     laws = [LinearHardening(ratio * Y), LinearHardening(Y)]
     return fem.indentation(
-        body, fem.Paraboloid(R), steps * APPROACH, plasticity=laws, resolution=fem.Resolution(across=across)
+        body, fem.Paraboloid(R), steps * APPROACH, plasticity=laws, resolution=fem.Resolution(across=across, **FAR)
     )
 
 
