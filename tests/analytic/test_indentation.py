@@ -28,7 +28,7 @@ RADIUS = np.pi * PEAK * R / (2 * E_STAR)
 PERFECT = LinearHardening(Y, 1e-4 * E)
 ROUGH = fem.Resolution(across=16)
 FAR = {"growth": 1.2, "distance": 20.0}
-"""Mesh beyond the contact: half the unknowns of the default, and loads within 0.2 % of it, a fifth of the least that is allowed below."""
+"""Mesh beyond the contact: a layer of ratio 4 takes half the time of the default one, and loads are 0.12 to 0.16 % higher; the least that is allowed below is 1 %."""
 
 
 @cache
