@@ -139,7 +139,8 @@ class LogTable:
         """
         e = math.tanh(0.5 * self.panels.width)
         weights = e * (-e) ** np.arange(TERMS)
-        product = np.array([weights[k::-1] @ self.coefficients[: k + 1] for k in range(TERMS)])
+        product = np.array([[weights[k - j] if j <= k else 0.0 for j in range(TERMS)] for k in range(TERMS)])
+        product = product @ self.coefficients
         orders = np.arange(1, TERMS + 1)
         rises = product / orders[:, None]
         before, after = np.vander([-1.0, 1.0], TERMS + 1, increasing=True)[:, 1:] @ rises
@@ -162,9 +163,7 @@ def log_table(start: float, values: RealArray) -> LogTable:
     """Table through ``values`` at the nodes ``log_grid(start, len(values))``, at least ten."""
     values = np.asarray(values, dtype=float)
     count = values.size - TERMS + 1
-    coefficients = np.zeros((TERMS, count))
-    for k, weights in enumerate(_FROM_NODES.T):
-        coefficients += weights[:, None] * values[k : k + count]
+    coefficients = _FROM_NODES @ np.array([values[k : k + count] for k in range(TERMS)])
     return LogTable(Panels(float(start * np.exp(STEP * _BEFORE)), STEP, count), coefficients)
 
 

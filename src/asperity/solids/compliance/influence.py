@@ -128,6 +128,7 @@ FAR = 25.0
 _GAUSS = 6
 _PANEL = 1.5  # length in asinh(tan theta) on which 16 Gauss points of a function analytic in a strip of 1 give 1e-15
 _PANEL_GAUSS = 16
+_NODES, _PANEL_NODES = (np.polynomial.legendre.leggauss(count) for count in (_GAUSS, _PANEL_GAUSS))
 _AVERAGE = np.array([-17.0, 308.0, 5178.0, 308.0, -17.0]) / 5760.0  # mean over a cell: 1 + d²/24 - 17 d⁴/5760
 
 
@@ -194,7 +195,7 @@ def _averages(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray:
 
 def _gauss(kernel: PointKernel, x: RealArray, y: RealArray, grid: Grid, angular: Angular) -> RealArray:
     """Integral over the pixels around (x, y), 1-D arrays, by Gauss points."""
-    node, weight = np.polynomial.legendre.leggauss(_GAUSS)
+    node, weight = _NODES
     dx, dy = grid.spacing
     points = _values(kernel, x[:, None, None] + 0.5 * dx * node[:, None], y[:, None, None] + 0.5 * dy * node, angular)
     return np.asarray(np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area)
@@ -222,7 +223,7 @@ def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular
     def triangle(length: RealArray, width: RealArray, *, exchanged: bool) -> RealArray:
         last = np.arcsinh(width / length)
         panels = int(np.ceil(last.max() / _PANEL))
-        node, weight = np.polynomial.legendre.leggauss(_PANEL_GAUSS)
+        node, weight = _PANEL_NODES
         share = (np.arange(panels)[:, None] + 0.5 * (node + 1.0)).ravel() / panels
         v = last[..., None] * share
         along, across = 1.0 / np.cosh(v), np.tanh(v)

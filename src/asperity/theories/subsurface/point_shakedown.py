@@ -103,10 +103,16 @@ def _best_normal_stresses(states: RealArray) -> tuple[RealArray, RealArray, Real
         return _best_centres(states[0], rest + (states[1] - centre[:, None, None]) ** 2)
 
     low, high = states[1].min(axis=(1, 2)), states[1].max(axis=(1, 2))
+    first, second = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_first, at_second = (radii(centre)[1].max(axis=1) for centre in (first, second))
     for _ in range(_ROUNDS):
-        first, second = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        left = radii(first)[1].max(axis=1) < radii(second)[1].max(axis=1)
+        left = at_first < at_second
         low, high = np.where(left, low, first), np.where(left, second, high)
+        # one of the two is a point of the round before
+        fresh = np.where(left, high - GOLDEN * (high - low), low + GOLDEN * (high - low))
+        found = radii(fresh)[1].max(axis=1)
+        first, second = np.where(left, fresh, second), np.where(left, first, fresh)
+        at_first, at_second = np.where(left, found, at_second), np.where(left, at_first, found)
     centre = 0.5 * (low + high)
     along, squared = radii(centre)
     across = -2.0 * centre  # a shift ρ_yy moves the second component by ρ_yy/2 and the first by -ρ_yy/√12
@@ -118,33 +124,32 @@ def _best_centres(at: RealArray, height: RealArray) -> tuple[RealArray, RealArra
 
     All have one curvature, so that each pair meets once: the least lies at the vertex of one or where two meet.
     """
-    offset = at**2 + height
-
-    def highest(c: RealArray) -> Index:
-        return np.asarray(np.argmax(offset - 2.0 * at * c[..., None], axis=-1)[..., None])
+    offset, twice = at**2 + height, 2.0 * at
+    begin = at.shape[-1] * np.arange(at[..., 0].size).reshape(at.shape[:-1])
 
     def of(values: RealArray, index: Index) -> RealArray:
-        return np.asarray(np.take_along_axis(values, index, axis=-1)[..., 0])
+        return np.asarray(values.take(begin + index))
 
-    left, right = np.argmin(at, axis=-1)[..., None], np.argmax(at, axis=-1)[..., None]
+    def highest(c: RealArray) -> tuple[Index, RealArray]:
+        values = offset - twice * c[..., None]
+        index = np.argmax(values, axis=-1)
+        return index, of(values, index)
+
+    left, right = np.argmin(at, axis=-1), np.argmax(at, axis=-1)
     centre = of(at, left)
     for _ in range(40):
         a, b, over_a, over_b = of(at, left), of(at, right), of(offset, left), of(offset, right)
         apart = np.where(b > a, b - a, 1.0)
         meet = np.where(b > a, 0.5 * (over_b - over_a) / apart, a)
         trial = np.clip(meet, np.minimum(a, b), np.maximum(a, b))
-        top = highest(trial)
-        value, known = (
-            of(offset - 2.0 * at * trial[..., None], top),
-            np.maximum(over_a - 2.0 * a * trial, over_b - 2.0 * b * trial),
-        )
+        top, value = highest(trial)
+        known = np.maximum(over_a - 2.0 * a * trial, over_b - 2.0 * b * trial)
         centre = trial
         if np.all(value <= known + 1e-14 * np.abs(known)):
             break
-        beyond = (of(at, top) > trial)[..., None]
-        better = (value > known)[..., None]
+        beyond, better = of(at, top) > trial, value > known
         right, left = np.where(better & beyond, top, right), np.where(better & ~beyond, top, left)
-    return centre, centre**2 + of(offset - 2.0 * at * centre[..., None], highest(centre))
+    return centre, centre**2 + highest(centre)[1]
 
 
 _EXCHANGES = 150
