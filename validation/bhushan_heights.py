@@ -56,12 +56,16 @@ class Menisci:
     def __init__(self, count: int, pixels: int) -> None:
         self._count, self._pixels = count, pixels
         self._surfaces: dict[tuple[float, float], list[Interface]] = {}
+        self._found: dict[tuple[tuple[float, float], float, float], tuple[np.ndarray, np.ndarray]] = {}
 
     def of(self, shape: tuple[float, float], load: float, ratio: float) -> tuple[np.ndarray, np.ndarray]:
         """Area fraction and steady force over load, by surface, of ``shape`` at ``load`` in Pa and h/σ = ``ratio``."""
-        liquid = film(ratio * RMS, TENSION, ANGLE)
-        found = [face.menisci(liquid, load) for face in self.interfaces(shape)]
-        return column(found, "area"), column(found, "steady")
+        case = shape, load, ratio
+        if case not in self._found:
+            liquid = film(ratio * RMS, TENSION, ANGLE)
+            found = [face.menisci(liquid, load) for face in self.interfaces(shape)]
+            self._found[case] = column(found, "area"), column(found, "steady")
+        return self._found[case]
 
     def interfaces(self, shape: tuple[float, float]) -> list[Interface]:
         """Contacts of the surfaces with that skewness and kurtosis."""

@@ -25,6 +25,9 @@ SPEEDS = np.geomspace(3e-4, 3e-2, 9)
 FRICTIONS = np.linspace(0.24, 0.5, 14)
 """Along which steady sliding loses its stability."""
 
+SLIDES, WINDOW, GROWS = 0.25, 0.1, 0.15
+"""Seconds that the block slides, the last of them that are averaged, and those in which a vibration grows."""
+
 
 def traces(figure: Figure) -> None:
     """Spring force in time from rest: steady sliding, flutter on the plateau, stick-slip at low speed; below normal force and penetration of the flutter."""
@@ -67,7 +70,7 @@ def friction(figure: Figure) -> None:
     left, right = figure.subplots(1, 2)
     for damping, colour in ((4e19, BLUE), (8e19, VERMILLION)):
         block = replace(sliding_block.BLOCK, law=sliding_block.law(0.5, damping))
-        found = dyn.sweep_block(block, "speed", list(SPEEDS), duration=0.25, window=0.1)
+        found = dyn.sweep_block(block, "speed", list(SPEEDS), duration=SLIDES, window=WINDOW)
         label = f"$b_n$ = {damping / 1e19:g}e19 Pa s/m³"
         left.semilogx(1e3 * SPEEDS, found.numbers["friction_reduction"], "o-", color=colour, markersize=4, label=label)
     left.axhline(1.0, color=BLACK, linestyle="--", linewidth=0.8)
@@ -75,7 +78,7 @@ def friction(figure: Figure) -> None:
     left.legend(frameon=False)
     block = replace(sliding_block.BLOCK, law=sliding_block.law(0.4, 4e19))
     plot_branches(
-        dyn.bifurcation(block, "friction", list(FRICTIONS), duration=0.15), right, label="friction coefficient"
+        dyn.bifurcation(block, "friction", list(FRICTIONS), duration=GROWS), right, label="friction coefficient"
     )
     right.axvline(block.critical_friction(), color=BLACK, linestyle="--", linewidth=0.8)
     right.annotate("boundary by eigenvalues", (block.critical_friction(), 0.1), (6, 0), textcoords="offset points")

@@ -79,13 +79,11 @@ class Curves:
 
     def mean(self, quantity: str, ratio: float) -> np.ndarray:
         """Mean over the surfaces against the thickness; NaN where one of them has no answer."""
-        rows = self.data[quantity].isel(modulus=self._at(ratio)).transpose("surface", "thickness")
-        return np.asarray(rows.mean("surface", skipna=False), dtype=float)
+        return np.asarray(self._rows(quantity, ratio).mean(axis=0))
 
     def critical(self, quantity: str, ratio: float) -> CriticalThickness:
         """Floor and ceiling of the mean."""
-        values = self.mean(quantity, ratio)
-        return critical_thickness(self.thickness[1:-1], values[1:-1], float(values[0]), float(values[-1]))
+        return self._critical(self.mean(quantity, ratio))
 
     @property
     def pixels(self) -> tuple[float, float]:
@@ -99,10 +97,10 @@ class Curves:
         And how much it scatters: the deviation over samples of as many surfaces, drawn from them with replacement.
         """
         count, draw = self.data["surface"].size, np.random.default_rng(0)
+        rows = [self._rows(quantity, ratio) for quantity in quantities for ratio in (0.75, 1.75)]
 
         def middle(surfaces: np.ndarray) -> float:
-            drawn = Curves(self.data.isel(surface=surfaces), self.base, self.points)
-            return 1e9 * _middle([getattr(drawn.critical(one, r), name) for one in quantities for r in (0.75, 1.75)])
+            return 1e9 * _middle([getattr(self._critical(row[surfaces].mean(axis=0)), name) for row in rows])
 
         samples = [middle(draw.integers(count, size=count)) for _ in range(draws)]
         return middle(np.arange(count)), float(np.nanstd(samples, ddof=1))
@@ -124,6 +122,15 @@ class Curves:
     def answered(self, ratio: float) -> int:
         """Number of cases with an answer."""
         return int(np.isfinite(self.data["max_pressure"].isel(modulus=self._at(ratio))).sum())
+
+    def _rows(self, quantity: str, ratio: float) -> np.ndarray:
+        """Values (surface, thickness)."""
+        rows = self.data[quantity].isel(modulus=self._at(ratio)).transpose("surface", "thickness")
+        return np.asarray(rows, dtype=float)
+
+    def _critical(self, values: np.ndarray) -> CriticalThickness:
+        """Floor and ceiling of ``values`` against the thickness."""
+        return critical_thickness(self.thickness[1:-1], values[1:-1], float(values[0]), float(values[-1]))
 
     def _at(self, ratio: float) -> int:
         return int(np.argmin(np.abs(np.array(self.ratios) - ratio)))

@@ -32,6 +32,15 @@ DECADES = 3.0
 LOADS = (2e-5, 5e-5, *peng_scaling.VALUES)
 """X of the curves."""
 
+SURFACES = 12
+"""Of which the curves are means."""
+
+POINTS = 384
+"""Along a side of the rough sphere."""
+
+PER_REGION = 16
+"""Depths of the stresses in each layer and in the base."""
+
 COLOURS = {0.5: BLUE, 1.0: BLACK, 2.0: VERMILLION}
 """By E1/E2."""
 
@@ -64,7 +73,7 @@ def cylinder(figure: Figure) -> None:
 def sphere(figure: Figure) -> None:
     """Profile, pressure and displacement of the rough sphere, and √J2 below it without and with the layer (figs 3.3, 3.4)."""
     left, right = np.asarray(figure.subfigures(1, 2), dtype=object)
-    roughness = rough_sphere.ALIKE * rough_sphere.unit_roughness(0, 384)
+    roughness = rough_sphere.ALIKE * rough_sphere.unit_roughness(0, POINTS)
     results = {name: rough_sphere.contact(name, roughness) for name in rough_sphere.BODIES}
     smooth = rough_sphere.contact("layered", np.zeros_like(roughness))
     result = results["layered"]
@@ -79,7 +88,7 @@ def sphere(figure: Figure) -> None:
         ax.set_ylabel(label)
     axes[2].invert_yaxis()
     axes[2].set_xlabel("x/a₀ (blue: rough, black: smooth)")
-    depths = asp.depths_through(rough_sphere.BODIES["layered"], rough_sphere.CONTACT_RADIUS, per_region=16)
+    depths = asp.depths_through(rough_sphere.BODIES["layered"], rough_sphere.CONTACT_RADIUS, per_region=PER_REGION)
     for ax, (name, one) in zip(right.subplots(2, 1), results.items(), strict=True):
         field = asp.stress(one, depths, on=asp.Section(y=float(one.problem.grid.coordinates()[1][0, row])))
         plot_stress_section(field, ax, log=True)
@@ -92,7 +101,7 @@ def scaling(figure: Figure) -> None:
     """Area and largest pressure against X, published rows among ours (fig. 3.18)."""
     axes = figure.subplots(1, 2)
     for ratio in peng_scaling.RATIOS:
-        ours, theirs = peng_scaling.curve(ratio, 12, 1, LOADS), peng_scaling.published(ratio, fewest=1)
+        ours, theirs = peng_scaling.curve(ratio, SURFACES, 1, LOADS), peng_scaling.published(ratio, fewest=1)
         for ax, name in zip(axes, ("area", "peak"), strict=True):
             values = np.log(getattr(ours, name))
             middle, spread = values.mean(axis=0), 2.0 * values.std(axis=0, ddof=1)
@@ -143,7 +152,7 @@ def stresses(figure: Figure, ratio: float) -> None:
     for row, (thickness, friction) in zip(figure.subplots(len(cases), 4), cases, strict=True):
         result = results[thickness]
         top = asp.stress(result, [0.0], friction=friction)
-        depths = asp.depths_through(result.problem.body, 1.5e-6, per_region=16)
+        depths = asp.depths_through(result.problem.body, 1.5e-6, per_region=PER_REGION)
         field = asp.stress(result, depths, on=asp.Section(y="max"), friction=friction)
         x, y = (1e6 * at for at in _middle(result))
         _stress(row[0], 1e6 * top.x, 1e6 * top.y, top.sqrt_J2[0].T)
