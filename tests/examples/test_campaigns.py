@@ -56,6 +56,7 @@ def test_studies_of_the_gold_film_have_the_cases_of_the_chapter(name, tmp_path):
     assert first[0].key != second[0].key
 
 
+@pytest.mark.slow
 def test_a_hard_film_protects_the_steel(tmp_path):
     """The thicker film leaves less plastic strain in the steel; the harder it is the less it flows itself, and it bears tension at its bottom."""
     data = finished("plastic_coating", tmp_path).dataset()
@@ -80,6 +81,7 @@ def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
     assert np.all(found["max_pressure_ceiling"] < found["mean_gap_ceiling"])
 
 
+@pytest.mark.slow
 def test_warm_rubber_has_the_friction_of_cold_rubber_at_higher_speed(tmp_path):
     """All curves are one against speed times the shift of the times; Persson's theory follows, and area falls with speed."""
     found = finished("rubber_friction", tmp_path).dataset()

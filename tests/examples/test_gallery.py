@@ -169,6 +169,7 @@ def test_menisci_and_humidity():
         assert balanced(result)
 
 
+@pytest.mark.slow
 def test_fretting_loop():
     """Masing's rule, exact for equal bodies at constant load; heat between the cube and the first power of the amplitude."""
     left = run("intermediate/plot_6_fretting_loop")
@@ -190,6 +191,7 @@ def test_pull_off_of_a_rough_surface():
     assert all(history.last.adhesion.resolved for history in left.histories.values())
 
 
+@pytest.mark.slow
 def test_rough_wheel():
     """Carter's curve; the soft layer bends the curve of the plain rollers down; roughness hardly changes the force."""
     left = run("intermediate/plot_8_rough_wheel")
@@ -354,6 +356,7 @@ def test_shakedown_of_a_roller():
         assert np.all(stress[protected][:, :2] < 0.0)
 
 
+@pytest.mark.slow
 def test_shakedown_map():
     """Bare steel in closed form within the pixels; the coating that is twice as strong helps at the surface, where friction sets the limit."""
     left = run("expert/plot_7_shakedown_map")
@@ -374,6 +377,7 @@ def test_ensemble_with_error_bars():
     assert np.all(apart < 2.0 * np.hypot(left.half_width["random"], left.half_width["fixed"]))
 
 
+@pytest.mark.slow
 def test_why_a_brake_squeals():
     """Below the critical friction nothing grows; vibration lowers the friction that is felt, but not at ten times the speed."""
     left = run("advanced/plot_6_why_a_brake_squeals")
@@ -411,6 +415,7 @@ def test_law_of_an_interface():
     assert left.frequencies["plastic, unloading"] > 1.2 * left.frequencies["plastic, loading"]
 
 
+@pytest.mark.slow
 def test_a_coating_that_bends():
     """The coating carries more and leaves a shallower imprint; it is pulled beneath the tip from below and beside the contact from above."""
     left = run("advanced/plot_10_a_coating_that_bends")

@@ -20,7 +20,7 @@ RUNS = {
     "peng_load": lambda: peng_load.compare(
         seeds=2, points=256, loads=("10 kPa", "1 MPa", "10 MPa", "100 MPa"), dry_seeds=16
     ),
-    "peng_menisci": lambda: peng_menisci.compare(seeds=2, points=192, count=6),
+    "peng_menisci": lambda: peng_menisci.compare(seeds=2, points=128, count=4),
 }
 
 

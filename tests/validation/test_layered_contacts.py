@@ -50,6 +50,7 @@ STRESSES = {
 }
 
 
+@pytest.mark.slow  # about 10 s each
 @pytest.mark.parametrize("name", STRESSES)
 def test_stresses_agree_and_the_page_belongs_to_the_script(name):
     """On a coarser grid the cusp at the edge is rounded off more: the numbers of sliding contacts are not asked of it."""

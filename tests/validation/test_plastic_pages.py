@@ -8,6 +8,7 @@ import pytest
 from validation_pages import CLAIMS, assert_claims_hold, assert_written_by_script, written_page, written_rows
 
 
+@pytest.mark.slow  # balls on meshes of ten elements across, and the volume method beside them, 20 s
 def test_balls_on_plastic_solids():
     page = plastic_indentation.compare(across=10)
     assert_claims_hold(page)

@@ -3,8 +3,12 @@
 import contextlib
 from functools import cache
 
+import block_pictures
 import layered_sliding_runs
+import numpy as np
+import peng
 import peng_layer_effect
+import peng_pictures
 import peng_scaling
 import peng_stress
 import peng_table_3_1
@@ -26,7 +30,10 @@ RUNS = {
 }
 
 
-EACH = [name if name == "rough_sphere" else pytest.param(name, marks=pytest.mark.slow) for name in RUNS]
+QUICK = ("peng_cylinder", "peng_layers", "peng_scaling", "peng_sphere")
+"""Pictures that take two or three seconds."""
+
+EACH = [pytest.param(name, marks=[pytest.mark.slow] * (name != "peng_layer_effect")) for name in RUNS]
 
 
 @cache
@@ -46,21 +53,36 @@ def test_page_belongs_to_the_script(name):
 
 @cache
 def slid_lightly():
-    """A fifth of the load of the figure, on its mesh with longer elements, in longer steps: a quarter of the time."""
-    return layered_sliding_runs.run(
-        layered_sliding_runs.Case(2.0, 0.1, load=20.0, radius=6.7, across=4, passes=1, step=4.0)
-    )
+    """A fifth of the load of the figure, pressed and lifted at once, on its mesh with longer elements, in few steps."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(layered_sliding_runs, "PUSHED", (0.3, 1.0))
+        patch.setattr(layered_sliding_runs, "LIFTED", (0.3,))
+        return layered_sliding_runs.run(
+            layered_sliding_runs.Case(2.0, 0.1, load=20.0, radius=10.0, across=4, passes=1, step=12.0)
+        )
+
+
+GRID = peng.grid
+
+
+@pytest.fixture
+def cheap_cases(monkeypatch):
+    """The pictures are those of few points, steps and surfaces: how they are drawn is the same, and what they show is on the pages."""
+    monkeypatch.setattr(sliding_pictures, "sliding", slid_lightly)
+    monkeypatch.setattr(peng, "grid", lambda: GRID(96))
+    for name, value in {"SURFACES": 3, "POINTS": 192, "PER_REGION": 4}.items():
+        monkeypatch.setattr(peng_pictures, name, value)
+    few = {"SPEEDS": np.geomspace(3e-4, 3e-2, 3), "FRICTIONS": np.linspace(0.24, 0.5, 4)}
+    short = {"SLIDES": 0.05, "WINDOW": 0.02, "GROWS": 0.03}
+    for name, value in (few | short).items():
+        monkeypatch.setattr(block_pictures, name, value)
 
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "peng_layers",
-        *(pytest.param(name, marks=pytest.mark.slow) for name in pictures.FIGURES if name != "peng_layers"),
-    ],
+    [pytest.param(name, marks=[pytest.mark.slow] * (name not in QUICK)) for name in pictures.FIGURES],
 )
-def test_picture_is_drawn(name, tmp_path, monkeypatch):
-    monkeypatch.setattr(sliding_pictures, "sliding", slid_lightly)
+def test_picture_is_drawn(name, tmp_path, cheap_cases):
     written = pictures.draw(name, tmp_path)
     assert written.read_bytes().startswith(b"\x89PNG")
     assert written.stat().st_size > 20_000
