@@ -101,6 +101,7 @@ CACHES: dict[str, str] = {
     "asperity.core.engine.vectors._layout": "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids",
     "asperity.core.engine.cpu._keep_freed_memory": "the allocator of a process is told once",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times",
+    "asperity.theories.subsurface.shakedown._cylinder": "follows from the friction alone; it takes a second, and every case of a study of passes asks for it",
     "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",
 }
 """Reason by dotted name of the cached function."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -113,7 +114,12 @@ def cylinder_shakedown(friction: float = 0.0) -> CylinderShakedown:
     InputError
         If the friction is negative.
     """
-    mu = require.not_negative(friction, "friction coefficient")
+    return _cylinder(float(require.not_negative(friction, "friction coefficient")))
+
+
+@functools.cache
+def _cylinder(mu: float) -> CylinderShakedown:
+    """The limit at one friction; it takes seconds, and studies of loads and thicknesses ask for it again and again."""
     low, high = 0.0, 1.2
     for _ in range(6):
         depths = np.linspace(low, high, 41)
