@@ -138,7 +138,7 @@ def test_the_friction_of_the_contact_is_that_of_the_passes() -> None:
 def test_given_pressure_below_and_above_the_limit() -> None:
     """Rolling at 0.92 of 4 k: flow ceases. At 1.15 it goes on in closed cycles by Prager's law."""
     body = "E=200GPa,nu=0.3,Y=400MPa,kinematic=20GPa"
-    table = {"pressure": "hertz", "friction": 0, "elements": 6, "steps": 24, "track": "600 um"}
+    table = {"pressure": "hertz", "friction": 0, "elements": 5, "steps": 16, "track": "600 um"}
     below = passed(0.92 * 4.0, body, count=4, **table)
     assert below.values["pass_growth_ratio"] < 0.01
     assert "shakedown" in said(below).sentence

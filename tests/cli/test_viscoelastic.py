@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -78,6 +79,12 @@ def in_python() -> asp.HistoryResult:
     high, low = asp.Force(2e-3), asp.Force(1e-3)
     course = [high, asp.Step(high, duration=10.0), asp.Step(low, duration=0.5), asp.Step(low, duration=10.0)]
     return asp.solve(problem, asp.History(course), time_steps=asp.TimeSteps(0.01))
+
+
+@functools.cache
+def of_start() -> asp.Outcome:
+    """Outcome of the document ``START``, which several tests compare with others."""
+    return asp.run(START)
 
 
 def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> None:
@@ -249,7 +256,7 @@ START: dict[str, Any] = GROUND | {
 
 def test_start_of_sliding_and_its_files(tmp_path: Path) -> None:
     """Friction and area along the way are those of Python, in the outcome and its file, with figures and words."""
-    outcome = asp.run(START)
+    outcome = of_start()
     found = asp.slide_in_time(build(checked(START)).problem, asp.MeanPressure(0.2e6), 0.01, 1e-3, steps_per_pixel=1)
     values = outcome.found["sliding_start"].values
     for item in WAY:
@@ -285,7 +292,7 @@ ATTRACTED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 def test_sliding_of_surfaces_that_attract_each_other(kind: str, tmp_path: Path) -> None:
     """Adhesion and menisci stand beside sliding in documents with the numbers of Python, at rest, on the way and steadily; Persson's theory is left out."""
     table, physics = ATTRACTED[kind]
-    dry, outcome = asp.run(START), asp.run(START | table)
+    dry, outcome = of_start(), asp.run(START | table)
     problem = replace(build(checked(START)).problem, **physics)
     load = asp.MeanPressure(0.2e6)
     steady, start = asp.slide(problem, load, 0.01), asp.slide_in_time(problem, load, 0.01, 1e-3, steps_per_pixel=1)

@@ -556,6 +556,7 @@ def averages_of(shape: tuple[int, int], model: SplineModel) -> list[RealArray]:
     return found
 
 
+@functools.cache
 def compliance_matrix(shape: tuple[int, int], model: SplineModel) -> RealArray:
     """own + sum of w P A P^T."""
     point, x, y, diagonal = model.own
@@ -593,6 +594,15 @@ def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray
             found += model.bend[axis] / 16.0 * (3.0 * np.eye(member.size) - 4.0 * near + far)
     chosen = np.flatnonzero(member)
     inverse: RealArray = model.stiffness * found[np.ix_(chosen, chosen)]
+    return inverse
+
+
+@functools.cache
+def inverse_on(shape: tuple[int, int], model: SplineModel, inside: bytes) -> RealArray:
+    """The same for a set given by its bytes, made and checked once for all engines and types: symmetric and positive definite."""
+    inverse = inverse_matrix(shape, model, np.frombuffer(inside, bool).reshape(shape))
+    np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
+    assert inverse.size == 0 or np.linalg.eigvalsh(inverse)[0] > 0.0
     return inverse
 
 
@@ -647,9 +657,7 @@ def test_nested_splines_are_those_of_dense_matrices(
             load, given = on_points(free, r), on_points(loaded, change)
             tolerance = 200.0 * EPS[dtype] * (1.0 + np.abs(load).sum() + np.abs(given).sum())
             prepared.factorise(free)
-            inverse = inverse_matrix(shape, model, inside)
-            np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
-            assert inverse.size == 0 or np.linalg.eigvalsh(inverse)[0] > 0.0
+            inverse = inverse_on(shape, model, inside.tobytes())
             picked = load[inside.ravel()]
             for found, wanted in (
                 (prepared.solve(free, r, r, free.zeros()), inverse @ picked),
