@@ -93,6 +93,7 @@ CACHES: dict[str, str] = {
     "asperity.solids.library.kinds": "the annotations of a class never change; reading them takes 0.2 ms, and each of 44 records needs them, a quarter of the time of `asperity materials`",
     "asperity.io.description._version": "installed packages do not change; reading a version takes 0.7 ms, and every case of a study and every file needs four",
     "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document needs its parts",
+    "asperity.solids.compliance.creep._layered_creep": "follows from the bodies; a fit takes up to a second, and every solve of a history that is continued needs it",
     "asperity.contact.operators.convolution.octaves_of": "follow from the body; 3 to 10 ms for 32 sublayers, and every solve of such a body needs them",
     "asperity.contact.solvers.active_set.spline_model._fit": "follows from body, boundary and grid; 1 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
     "asperity.contact.solvers.active_set.spline_model._levels": "follow from body, boundary and grid; 0.3 ms, and every grid of a solve, of 10 ms at 256², asks twice",

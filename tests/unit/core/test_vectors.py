@@ -6,7 +6,7 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.contact.operators.tangential import TangentialOperator
-from asperity.contact.solvers.active_set.nested_cells import hierarchies
+from asperity.contact.solvers.active_set.nested_cells import PIXEL_SHARE, hierarchies
 from asperity.core.engine.vectors import VectorCells
 
 
@@ -19,6 +19,14 @@ def model(shape, hierarchy):
         y = (y + merge.offset_y) // 2 if merge.y else y
         matrix += merge.weight * ((x[:, None] == x) & (y[:, None] == y))
     return matrix
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (4, 4), (8, 8), (16, 16), (8, 2), (32, 8)], ids=str)
+def test_the_model_has_an_inverse_in_full_contact(shape):
+    """Also where a uniform load deflects by nothing, and half the grid is hardly larger than a point."""
+    operator = TangentialOperator(asp.Grid(shape, (1.0, 1.0)), (asp.Elastic(1.0, 0.3), asp.Rigid()))
+    for hierarchy in hierarchies(operator.octaves, operator.grid, periodic=True, share=PIXEL_SHARE, mean=0.0):
+        assert np.linalg.eigvalsh(model(shape, hierarchy))[0] > 0.1
 
 
 @pytest.mark.parametrize("periodic", [True, False])

@@ -29,7 +29,8 @@ and 0.34 instead of 0.43 and 0.40. Pairs (cases: see ``solver``) for 0.4, 0.5, 0
 """
 
 _LEAST_MEAN = 0.1
-"""Share of the compliance of half the grid that a uniform load is given at least: with none the model has no inverse in full contact."""
+"""Share of the compliance of half the grid that a uniform load is given at least, and no less than that of a point: with none, or with what a point is not given of its
+own (on 8 x 8 points a tenth of half the grid), the model has no inverse in full contact."""
 
 
 def hierarchies(
@@ -43,7 +44,7 @@ def hierarchies(
     merges, sides, points = octaves(grid)
     detail = np.asarray(compliance.spectral(np.pi / sides), dtype=float)
     if mean is not None:
-        detail[-1] = max(mean, _LEAST_MEAN * detail[-2])
+        detail[-1] = max(mean, _LEAST_MEAN * detail[-2], detail[0])
     weights = np.diff(detail) / points[1:] / (share * detail[0])
     if periodic:
         cells = tuple(Merge(x, y, 0, 0, float(weight)) for (x, y), weight in zip(merges, weights, strict=True))
