@@ -33,7 +33,8 @@ SOURCES := $(wildcard src tests benchmarks examples validation docs)
 
 # One thread per test process: two processes on two cores must not become four threads.
 ONE_THREAD := ASPERITY_THREADS=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
-PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS)
+# Each process has a half of the tests in their order, so that what a module solves for its tests is solved once, and takes from the other's at the end.
+PYTEST     := $(ONE_THREAD) $(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
 SELECTION  := $(if $(filter true 1,$(CI)),,-m "not slow")
 
 .DEFAULT_GOAL := help
