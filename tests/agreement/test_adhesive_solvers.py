@@ -120,6 +120,7 @@ def test_a_smooth_branch_loses_nothing_and_its_work_is_known_whatever_the_step()
     assert errors[0] >= missed[0] * (1.0 - 1e-5)
 
 
+@pytest.mark.slow
 def test_compliant_sphere_jumps_and_loses_what_the_cycle_takes():
     problem = sphere(96, 5.0, ExponentialAdhesion(WORK, WORK / strength_of(2.0)))
     solved = asp.solve(problem, asp.History(adhesion_cycle(-1.2 * APPROACH, 0.0, steps=12)))

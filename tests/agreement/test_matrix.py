@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
+import pytest
 from agreement.fields_and_films import FIELDS_AND_FILMS
 from agreement.matrix import MATRIX as ROUGH_SURFACES
 from agreement.matrix import Agreement
@@ -17,6 +18,7 @@ MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 
+@pytest.mark.slow
 @every_row(MATRIX, label=lambda row: f"{row.theory}|{row.other}|{row.limit}")
 def test_theories_meet(row: Agreement):
     differences = [row.difference(value) for value in row.towards or (0.0,)]

@@ -76,6 +76,7 @@ def test_a_branch_that_single_points_cut_names_the_pixel_it_needs():
         asp.adhesive_branch(deep[0], farthest=-1.2 * APPROACH)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tabor", [1.0, 2.0])
 def test_folds_of_lennard_jones_spheres(tabor):
     """Jump-off and jump-in of the reference, from one branch, which leads from the contact to surfaces that lie apart."""
@@ -96,6 +97,7 @@ def test_folds_of_lennard_jones_spheres(tabor):
     assert (branch.stable == (branch.turn > 0.0)).all()
 
 
+@pytest.mark.slow
 def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
     problem = sphere(64, 4.0, ExponentialAdhesion(WORK, WORK / strength_of(2.0)))
     deep = asp.solve(problem, asp.FixedGrips(0.0))

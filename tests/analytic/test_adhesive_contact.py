@@ -29,6 +29,7 @@ def test_pull_off_of_maugis_transition(row):
     assert pull_off == pytest.approx(row["minus_P_pulloff_norm"], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("tabor", "points", "size", "smoothing"),
     [(0.1, 64, 16.0, 0.2), (1.0, 96, 4.0, 0.5), (2.0, 128, 3.2, 1.0), (3.0, 96, 3.2, 1.0), (3.0, 128, 3.2, 1.0)],

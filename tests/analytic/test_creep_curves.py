@@ -147,6 +147,7 @@ def test_ridges_along_the_rolling_direction_are_steady():
     assert found.last.force_y == pytest.approx(steady.force_y, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_roughness_comes_again_after_its_length_and_rolls_on_from_where_it_was():
     problem, load = roller(40)
     creepage = asp.Creepage(0.5 * UNIT)

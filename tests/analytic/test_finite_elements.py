@@ -149,6 +149,7 @@ def pressed(
     return contact.Pressed(solid.Solid(parts, (law,)), surface), grid.points[near, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by_force", [False, True])
 def test_hertz(by_force: bool) -> None:
     """Load within 0.3 % of Hertz, the contact radius within half an element, by approach and by force alike."""

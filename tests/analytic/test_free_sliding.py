@@ -86,6 +86,7 @@ def ball(points: int = 48, body: asp.Elastic | asp.Layered = RUBBER) -> asp.Cont
 LOAD = asp.Force(0.004)
 
 
+@pytest.mark.slow
 def test_sphere_between_rest_and_high_speed() -> None:
     """Pressure and approach are those of the relaxed and the instantaneous elastic body at the ends; friction has one maximum between."""
     speeds = np.array([0.0, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.2, 1.0, 1e3])

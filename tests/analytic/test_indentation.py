@@ -44,6 +44,7 @@ UP = (0.5, 0.95, 1.05, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 DOWN = (9.5, 9.0, 8.5, 8.0, 7.5, 7.0, 7.25, 8.0, 9.0, 10.0)
 
 
+@pytest.mark.slow
 def test_the_curve_of_a_sphere() -> None:
     """Loads within 2 % of an independent computation, contact radii within half an element and the scatter of the table, 1.5 %."""
     found = sphere((*UP, *DOWN))
@@ -94,6 +95,7 @@ def test_unloading_and_reloading() -> None:
     assert found.steps[-1].plastic_work == pytest.approx(found.steps[len(UP) - 1].plastic_work, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_energy_balance() -> None:
     """Work is elastic energy and plastic work, and this is ∫ Y dq, up to the trapezoids of the steps; smaller steps are fourfold better."""
     errors = []
@@ -222,6 +224,7 @@ def test_restart() -> None:
         fem.indentation(STEEL, fem.Paraboloid(R), x, plasticity=PERFECT, resolution=ROUGH, start=first.state)
 
 
+@pytest.mark.slow
 def test_force_and_approach_agree() -> None:
     """A step to the load of an approach gives this approach."""
     by_approach = fem.indentation(STEEL, fem.Cone(0.02), np.array([1e-7, 3e-7]), plasticity=PERFECT, resolution=ROUGH)
@@ -264,6 +267,7 @@ def test_an_elastic_punch(friction: float) -> None:
     assert found[0] > found[1] > exact
 
 
+@pytest.mark.slow
 def test_friction_slips_and_sticks() -> None:
     """Shear is at most μ p everywhere and equal to it where the surface slips; much friction is full stick, and a little lies between."""
     x = APPROACH * np.array([0.4, 0.8, 1.2])
@@ -305,6 +309,7 @@ def strip(across: int, steps: RealArray) -> float:
     return now.force / k
 
 
+@pytest.mark.slow
 def test_collapse_of_a_strip() -> None:
     """(2 + π) k within 1 % from two meshes, from above; the pressure over the width with half an element lies below it."""
     coarse, fine = (strip(across, np.linspace(0.004, 0.036, 8)) for across in (6, 12))
@@ -376,6 +381,7 @@ def test_a_punch_beyond_collapse() -> None:
         )
 
 
+@pytest.mark.slow
 def test_repeated_indentation_with_a_back_stress() -> None:
     """Bauschinger's effect at 300 times the load at first yield: a back stress (Prager) flows back more as the load is taken off and flows again in every cycle, which all but
     close; the yield stress that grows by the same slope soon bears the load, and flow falls more than tenfold from cycle to cycle, as it does with either at a tenth of the load."""

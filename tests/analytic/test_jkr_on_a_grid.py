@@ -27,6 +27,7 @@ def parted(problem: asp.ContactProblem, approaches: object) -> asp.HistoryResult
     return asp.solve(problem, asp.History([asp.FixedGrips(float(d) * APPROACH) for d in approaches]))
 
 
+@pytest.mark.slow
 def test_pull_off_of_a_sphere_converges_with_the_first_order():
     """Pixels in the radius times relative error is 1.6 to 1.7 from 7 to 52 pixels on; what the order leaves is below 1 %."""
     found = {}

@@ -37,6 +37,7 @@ def test_disc_and_hertz_loads_on_layered_bodies(row):
     np.testing.assert_allclose([u.x, u.z, s.xx, s.yy, s.zz, s.xz], wanted, atol=1e-12, rtol=0)
 
 
+@pytest.mark.slow
 @every_row(SPHERES, label=label)
 def test_stress_under_a_sphere_on_a_layer(row):
     """The table is accurate to 1e-10 over p0. Worst difference found: 5e-12."""

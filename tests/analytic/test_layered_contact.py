@@ -80,6 +80,7 @@ def test_sphere_converges_with_second_order():
         assert -np.polyfit(np.log(pixels), np.log(errors), 1)[0] > 1.5
 
 
+@pytest.mark.slow
 @every_row(LINE, label=name)
 def test_cylinder(row):
     result = cylinder(row, row["a_over_a0"], CYLINDER_PIXELS)

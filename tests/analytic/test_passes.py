@@ -70,6 +70,7 @@ def test_elastic_cylinder() -> None:
         np.testing.assert_allclose(stress[near, number] / peak, getattr(field, name)[near], atol=0.012)
 
 
+@pytest.mark.slow
 def test_elastic_sphere_that_slides() -> None:
     """Hertz and Hamilton below the middle; half the body bears half the load. Six elements to the radius: 3 % of the peak below half a radius."""
     radius, load = 100.0, 4.0 / 3.0 * E_STAR / 100.0
@@ -93,6 +94,7 @@ def test_elastic_sphere_that_slides() -> None:
         np.testing.assert_allclose(stress[inside, number] / peak, getattr(field, name)[inside], atol=0.03)
 
 
+@pytest.mark.slow
 def test_pressure_of_hertz_on_a_sphere_track() -> None:
     """Given forces: their sum and first moment are exact or of second order, stresses below the middle are Hertz's within 3 % of the peak, and no more is left once they are taken off."""
     fine = Resolution(across=6, growth=1.7, depth=0.8, distance=12.0)

@@ -99,6 +99,7 @@ def test_layered_bodies(ratio: float, approach: float) -> None:
                 assert (zone.largest_strain > 0.0) == (strain > 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [2.0, 4.0, 0.5])
 def test_zones_of_layered_bodies(ratio: float) -> None:
     """The zones in layer and base by finite elements and by the volume method end within one cell of each other."""

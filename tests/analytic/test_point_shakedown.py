@@ -146,6 +146,7 @@ def solved(body: object) -> asp.ContactResult:
     return asp.solve(asp.ContactProblem(sphere, body, boundary=asp.Free()), asp.Approach(1.5e-7))
 
 
+@pytest.mark.slow
 def test_limits_of_a_solved_contact() -> None:
     """The sphere within the error of its pixels, 15 to the radius; a coating of the body's own material changes nothing; a weaker one lowers the limit."""
     k, friction, results = 1e9 / math.sqrt(3.0), [0.0, 0.2, 0.6], []

@@ -46,6 +46,7 @@ def beyond(law: asp.contact.laws.Adhesion, half: float, approach: float) -> floa
     return 2.0 * float(energy.mean()) / law.work
 
 
+@pytest.mark.slow
 @every_row(ROWS, label=lambda row: f"tabor {row['tabor_mu']:g}")
 def test_pull_off_of_lennard_jones_spheres(row):
     tabor = row["tabor_mu"]

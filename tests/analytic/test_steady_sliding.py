@@ -47,6 +47,7 @@ def test_wave_in_full_contact(row: Row) -> None:
     assert found.slope_friction == pytest.approx(found.friction, rel=1e-4, abs=1e-10)
 
 
+@pytest.mark.slow
 @every_row(reference("viscoelasticity/sliding_wave_partial_contact"))
 def test_wave_in_partial_contact(row: Row) -> None:
     """Friction, largest pressure, fraction and shift of the contact at 256 points: error of the reference at 1024, and a pixel at the edge."""
@@ -181,6 +182,7 @@ def sticky(
     return asp.ContactProblem(wave(points, 0.01, 1.0), asp.Rigid(), counter_body=body, adhesion=adhesion, film=film)
 
 
+@pytest.mark.slow
 def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
     """Friction to the error of the steps of time (5e-3 at two steps a pixel); the two ways to it, work of pressure and attraction, by a pixel at the edges."""
     steady, dry = asp.slide(sticky(64), LIGHT, 0.1), asp.slide(sticky(64, None), LIGHT, 0.1)
@@ -233,6 +235,7 @@ def test_adhesive_sliding_stays_on_its_branch() -> None:
         asp.slide(steep, asp.Pull(1.0), 1e-3, after=held)
 
 
+@pytest.mark.slow
 def test_machine_that_gives_way_while_it_slides() -> None:
     """The approach of the bodies is that of the grips less the force over the stiffness, and the contact is that at this approach, to the tolerance of the attraction."""
     grips = asp.FixedGrips(4e-3, 5.0)
@@ -277,6 +280,7 @@ def error_of_bands(surface: asp.Surface) -> float:
     return max(abs(ratio - 1.0) for ratio in found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [1e-4, 3e-3, 3e-2, 1.0])
 def test_persson_beside_a_sliding_surface(speed: float) -> None:
     """In full contact the mean over directions, to the bands of the spectrum; in partial contact too little area and, with S = 1, too much friction."""

@@ -49,6 +49,7 @@ def parabola(points: int, reach: float, start: float) -> asp.Surface:
     return asp.Surface(-0.5 * ((x - start)[:, None] ** 2 + np.zeros(1)), 2 * reach / points, 1.0)
 
 
+@pytest.mark.slow
 def test_cylinder_on_a_free_line_comes_to_its_steady_state() -> None:
     """It starts at the left and has forgotten that after a few lengths of memory."""
     load, speed = asp.Force(0.02), 0.03
@@ -104,6 +105,7 @@ def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float,
     assert abs(found.friction[-1]) < 5e-4
 
 
+@pytest.mark.slow
 def test_adhesion_adds_to_hysteretic_friction() -> None:
     """Work along the motion of pressure and attraction is the heat of the solid, and more than without adhesion."""
     found = asp.slide_in_time(wave(32, adhesion=STICKY), LIGHT, 0.1, 1.5)

@@ -52,6 +52,7 @@ def test_slow_retraction_is_that_of_the_relaxed_body() -> None:
     assert slow.energies.relative_error < 0.02
 
 
+@pytest.mark.slow
 def test_machine_that_gives_way_while_the_body_relaxes() -> None:
     """At once and after a long hold forces are those of the elastic contacts of the first and the relaxed modulus in the same machine, to the error of the steps."""
     grips = asp.FixedGrips(float(PLACES[0]), 20.0)
@@ -64,6 +65,7 @@ def test_machine_that_gives_way_while_the_body_relaxes() -> None:
         )
 
 
+@pytest.mark.slow
 def test_retraction_at_once_is_elastic_about_what_has_crept() -> None:
     """After the dwell the retarded displacement stays: an elastic contact of the first modulus of surfaces lowered by it."""
     found = retracted(RUBBER, np.inf)
@@ -82,6 +84,7 @@ def test_retraction_at_once_is_elastic_about_what_has_crept() -> None:
     np.testing.assert_allclose(pulls(found)[1:], pulls(expected), atol=2e-3 * np.abs(pulls(expected)).max())
 
 
+@pytest.mark.slow
 def test_virgin_contact_at_once_is_the_first_elastic_one() -> None:
     body = asp.Elastic(FIRST, 0.5)
     course = asp.History([asp.FixedGrips(float(place)) for place in PLACES])
@@ -105,6 +108,7 @@ def test_pull_off_grows_with_the_speed_and_work_is_stored_or_heat() -> None:
     assert found[1].energies.viscous_work[-1] > 0.05 * found[1].energies.external_work.max()
 
 
+@pytest.mark.slow
 def test_adhesive_history_goes_on_to_the_bit(tmp_path: Path) -> None:
     course = [asp.FixedGrips(float(PLACES[0])), *retraction(1e-6)[:3]]
     whole = asp.solve(sphere(RUBBER), asp.History(course), time_steps=COARSE)

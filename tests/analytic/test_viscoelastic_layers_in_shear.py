@@ -64,6 +64,7 @@ def of_waves(pair: tuple[Body, Body], q: RealArray, omega: float) -> PlaneCompli
 # The series.
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pair", PAIRS)
 def test_series_of_all_directions_is_passive_and_near_the_complex_compliance(pair: tuple[Body, Body]) -> None:
     """At all wavelengths and frequencies within the error that it states; each term is positive semi-definite."""
@@ -198,6 +199,7 @@ def test_stuck_wave_relaxes_as_the_inverse_of_the_complex_compliance(name: str) 
         np.testing.assert_allclose(one, other, atol=(2.0 * creep.error + 5e-4) * np.abs(other).max())
 
 
+@pytest.mark.slow
 def test_steps_of_time_are_of_second_order_in_a_stuck_wave() -> None:
     times = np.array([1.0])
     fine, *coarse = (
@@ -229,6 +231,7 @@ def forces(found: asp.HistoryResult) -> RealArray:
     return np.array([step.require_stick_slip().force_x for step in found.steps])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM])
 def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.Boundary) -> None:
@@ -274,6 +277,7 @@ def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boun
     assert left[1] < 0.2 * left[0]
 
 
+@pytest.mark.slow
 def test_sheared_layers_go_on_to_the_bit(tmp_path: Path) -> None:
     """From a file too, and from a step in the middle."""
     problem, steps, divided_into = sphere(COATED, 16), sheared(0.005, 0.5), asp.TimeSteps(number=3)

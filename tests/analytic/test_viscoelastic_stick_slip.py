@@ -141,6 +141,7 @@ def _elastic(solid: asp.Elastic, relaxed: float) -> asp.Elastic:
     return asp.Elastic(2.0 * G * (1.0 + nu), nu)
 
 
+@pytest.mark.slow
 def test_sheared_history_goes_on_to_the_bit(tmp_path: Path) -> None:
     """From a file too, and from a step in the middle; slip and heat of a step are those of all its steps of time."""
     problem, steps = sphere(SOLID, 16), sheared(0.01, 0.5)

@@ -35,6 +35,7 @@ ROUGH = {
 }
 
 
+@pytest.mark.slow
 def test_the_loop_of_a_command_is_that_of_python(run: Runner, tmp_path: Path) -> None:
     document, out = tmp_path / "case.toml", tmp_path / "out"
     document.write_text(dumps(checked(PROBLEM)), encoding="utf-8")
@@ -68,6 +69,7 @@ def test_options_make_the_same_document(run: Runner, tmp_path: Path) -> None:
     assert math.isnan(outcome.values["pull_off_force"])
 
 
+@pytest.mark.slow
 def test_branch_and_jumps_on_request(run: Runner, tmp_path: Path) -> None:
     document, out = tmp_path / "case.toml", tmp_path / "out"
     table = {"work": "50 mJ/m**2", "strength": "130 kPa", "retract": "1.4 um", "steps": 16}

@@ -111,6 +111,7 @@ def test_static_friction_of_a_wet_contact() -> None:
     assert values["peak_friction"] == pytest.approx(values["static_friction"], rel=0.05)
 
 
+@pytest.mark.slow
 def test_speed_and_spring_are_axes_of_studies(run: Runner, tmp_path: Path) -> None:
     """Each case of a study is the document of its values; the stiffness is a quantity with a unit of its own."""
     motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}

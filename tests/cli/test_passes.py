@@ -57,6 +57,7 @@ def test_an_elastic_cylinder_is_hertz() -> None:
     assert 0.0 < values["pass_surface_tension"] < 0.2 * 2.5 * K
 
 
+@pytest.mark.slow
 def test_an_elastic_sphere_is_hertz() -> None:
     """The force is that on the whole sphere, of which half is meshed."""
     peak = 4.0 * K
@@ -77,6 +78,7 @@ def test_an_elastic_sphere_is_hertz() -> None:
     assert math.isnan(found["pass_resistance"])
 
 
+@pytest.mark.slow
 def test_pressed_in_place_again_and_again() -> None:
     """A cylinder yields first at 1.79 Y; pressed once more to the same load a hardening solid stays elastic."""
     for peak, flows in ((1.70, False), (1.95, True)):
@@ -95,6 +97,7 @@ def coated() -> asp.Outcome:
     return passed(4.2, body, count=2, friction=0.2, motion="to and fro")
 
 
+@pytest.mark.slow
 def test_to_and_fro_over_a_film(coated: asp.Outcome) -> None:
     """The surface follows the friction and comes back; the film is in tension and does not flow; the work lost is less than that of the friction."""
     values, each = coated.values, coated.found["passes"].values
@@ -126,6 +129,7 @@ def test_files_give_the_same_words_and_pictures(coated: asp.Outcome, tmp_path: P
     assert all(after >= before for before, after in itertools.pairwise(grown))
 
 
+@pytest.mark.slow
 def test_the_friction_of_the_contact_is_that_of_the_passes() -> None:
     found = asp.run(
         PROBLEM | {"friction": {"coefficient": 0.15}, "passes": COARSE | {"peak_pressure": "100 MPa", "track": "50 um"}}
@@ -149,6 +153,7 @@ def test_given_pressure_below_and_above_the_limit() -> None:
     assert said(above).headline[0][1] == "flow goes on in closed cycles"
 
 
+@pytest.mark.slow
 def test_a_command_with_passes(run: Runner, matrix: Path, tmp_path: Path, rendered: None) -> None:
     out, film = tmp_path / "out", tmp_path / "passes.gif"
     passes = ("--passes", "2", "--pass-motion", "in place", "--pass-line-load", "200kN/m", "--pass-radius", "10mm")

@@ -43,6 +43,7 @@ def outcome(**tables: Any) -> asp.Outcome:
 # Plastic flow in the volume.
 
 
+@pytest.mark.slow
 def test_a_command_with_plastic_flow_and_its_files(run: Runner, matrix: Path, tmp_path: Path, rendered: None) -> None:
     """The command solves and writes; files give the same words and pictures again; the animation has a frame for each step."""
     out, film = tmp_path / "out", tmp_path / "zones.gif"
@@ -141,6 +142,7 @@ def test_light_loads_and_switched_off_flow_are_elastic() -> None:
     assert light.figures["plastic_flow"]
 
 
+@pytest.mark.slow
 def test_a_study_of_thickness_and_yield_stress(tmp_path: Path) -> None:
     """A harder film protects the steel; the case without enough strength to be known is a record, not a crash."""
     study = {
@@ -237,6 +239,7 @@ def indented(depth: float, body: Any = STEEL, **more: Any) -> asp.Outcome:
     return outcome(body=body, control={"mean_pressure": "1 MPa"}, indentation=table)
 
 
+@pytest.mark.slow
 def test_indentation_of_a_half_space() -> None:
     """Force of the table (own error 0.5 %; 12 elements 1 %), slope 2 E* a of the unloading, and the balance of work."""
     found = indented(6.0)
@@ -257,6 +260,7 @@ def test_indentation_of_a_half_space() -> None:
     assert math.isnan(values["indent_layer_tension"])
 
 
+@pytest.mark.slow
 def test_equal_layers_are_the_half_space_and_scales_do_not_matter() -> None:
     """Small strains: force over that at yield depends on the depth over that at yield alone; an interface of equal materials on nothing."""
     plain = indented(3.0, elements=8).values["indent_force"]
@@ -275,6 +279,7 @@ def test_elastic_indentation_is_hertz() -> None:
     assert "indentation" in {finding.criterion for finding in found.findings}
 
 
+@pytest.mark.slow
 def test_an_elastic_indenter_and_friction() -> None:
     """An indenter of the same elastic constants halves the contact modulus: Hertz's force at one approach, and Oliver and Pharr's modulus; friction does not lower the force."""
     body, table = "E=200GPa,nu=0.3,Y=40GPa", {"depth": f"{DEPTH_Y!r} m", "radius": "10 um", "elements": 12, "steps": 4}
@@ -294,6 +299,7 @@ def test_an_elastic_indenter_and_friction() -> None:
     assert most < 1.05
 
 
+@pytest.mark.slow
 def test_a_hard_film_takes_more_and_is_in_tension(tmp_path: Path) -> None:
     """Stiffer and harder: more force, less flow in the base; tension at surface and bottom of the film; files hold the same words and pictures."""
     body = f"E=800GPa,nu=0.3,Y=1.6GPa,name=film:40nm/{STEEL},name=base"

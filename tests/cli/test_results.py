@@ -20,6 +20,7 @@ def result_file(run: Runner, matrix: Path, tmp_path: Path) -> Path:
     return tmp_path / "run" / "result.nc"
 
 
+@pytest.mark.slow
 def test_plot_all_and_one(run: Runner, result_file: Path, tmp_path: Path) -> None:
     result = run("plot", result_file, "--out", tmp_path / "all")
     assert result.exit_code == 0, result.stderr

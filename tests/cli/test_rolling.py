@@ -51,6 +51,7 @@ def wheel(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_wheel_and_its_files(run: Runner, wheel: Path, tmp_path: Path) -> None:
     """Options give the numbers of Python; the files hold them, and give the same words and pictures again."""
     out = tmp_path / "out"

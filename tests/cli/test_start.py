@@ -65,6 +65,7 @@ def test_commands_without_output_import_only_what_they_need(tmp_path: Path, comm
 MOST_FILES = 60
 
 
+@pytest.mark.slow
 def test_a_contact_runs_through_few_files(tmp_path: Path) -> None:
     """Of this package, imports left out: a reader who follows the command opens them."""
     scan = tmp_path / "scan.bcr"

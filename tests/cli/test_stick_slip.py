@@ -40,6 +40,7 @@ def course(**tables: Any) -> list[asp.Step]:
     return [item if isinstance(item, asp.Step) else asp.Step(item) for item in build(checked(PROBLEM | tables)).path]
 
 
+@pytest.mark.slow
 def test_a_fretting_loop_and_its_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
     """The loop from options is that of Python; the files hold it, and give the same words and pictures again."""
     out = tmp_path / "out"

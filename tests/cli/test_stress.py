@@ -20,6 +20,7 @@ pytestmark = pytest.mark.usefixtures("undrawn")
 COATED = ("--body", "E=200GPa,nu=0.25,H=20GPa,name=film:100nm/E=100GPa,nu=0.3,Y=1GPa,name=base")
 
 
+@pytest.mark.slow
 def test_a_run_with_stresses(run: Runner, matrix: Path, tmp_path: Path) -> None:
     out = tmp_path / "run"
     wanted = ("--friction", 0.3, "--direction", "90deg", "--depths", "0nm, 100nm", "--section", "y=max")

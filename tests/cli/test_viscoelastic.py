@@ -87,6 +87,7 @@ def of_start() -> asp.Outcome:
     return asp.run(START)
 
 
+@pytest.mark.slow
 def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> None:
     """Options give the numbers of Python; the file holds them, gives words and pictures again, and a restart from every step."""
     asp.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
@@ -205,6 +206,7 @@ def test_temperature_moves_all_times() -> None:
     assert warm.values["viscoelastic_heat"] == pytest.approx(longer.values["viscoelastic_heat"], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> None:
     """Friction of Python with Persson's theory beside it, a curve against speed, and all of it again from the file."""
     document = tmp_path / "ground.toml"
@@ -288,6 +290,7 @@ ATTRACTED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ATTRACTED)
 def test_sliding_of_surfaces_that_attract_each_other(kind: str, tmp_path: Path) -> None:
     """Adhesion and menisci stand beside sliding in documents with the numbers of Python, at rest, on the way and steadily; Persson's theory is left out."""
@@ -473,6 +476,7 @@ def test_a_study_over_the_time_of_a_hold(tmp_path: Path) -> None:
     assert float(data["approach"][0]) < float(data["approach"][1])
 
 
+@pytest.mark.slow
 def test_motion_that_comes_to_another_steady_contact_is_a_finding() -> None:
     """An adhesive wave that is pressed and slides jumps into full contact on the way, where the steady state found at once touches in part."""
     wave = {"kind": "sinusoid", "points": [64, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}

@@ -212,6 +212,7 @@ def test_polymer_coating():
         assert result.last.approach < 0.05 * result.steps[2].approach
 
 
+@pytest.mark.slow
 def test_rubber_on_rough_ground():
     """Friction rises and falls with speed, the area falls, and theory and solution peak within a decade of each other."""
     left = run("advanced/plot_8_rubber_on_rough_ground")

@@ -30,6 +30,7 @@ def posed(law: str = "constant", boundary: asp.Periodic | asp.Free = asp.Periodi
     return asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.LayeredHardness(body))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("boundary", "law"),
     [

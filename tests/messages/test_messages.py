@@ -118,6 +118,7 @@ def entry(what: str, message: str) -> str:
     return f"{what}\n    {message}\n"
 
 
+@pytest.mark.slow
 def test_messages_are_those_of_the_file(folder: Path) -> None:
     parts = [entry(" ".join(("asperity", *command)), printed(command)) for command in commands()]
     parts += [entry(name, raised(name)) for name in CALLS]

@@ -136,6 +136,7 @@ def test_the_examples_of_stresses(scan, tmp_path, monkeypatch, capsys):
     assert "DLC" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_examples_of_generation(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     names = {}
@@ -244,6 +245,7 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     assert asp.liquid("our lubricant", library=tmp_path / "own.toml").viscosity == 0.08
 
 
+@pytest.mark.slow
 def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     """On a small smooth scan: Python and the second command give the same heat; the steps of the document are solved."""
     monkeypatch.chdir(tmp_path)
@@ -291,6 +293,7 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
     )
 
 
+@pytest.mark.slow
 def test_the_examples_of_viscoelastic_bodies():
     page, names = ROOT / "docs/how-to/viscoelastic.md", {}
     for code in blocks(page, "python"):
@@ -300,6 +303,7 @@ def test_the_examples_of_viscoelastic_bodies():
     assert names["found"].slope_friction == pytest.approx(names["found"].friction, rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_commands_and_documents_of_viscoelastic_bodies(tmp_path, monkeypatch):
     """Commands on coarser grids; each table is read as a part of a document."""
     monkeypatch.chdir(tmp_path)
@@ -375,6 +379,7 @@ def test_the_commands_on_a_scan(scan, tmp_path, monkeypatch, page):
         assert ("Largest stresses inside" in result.stdout) == ("--friction" in line)
 
 
+@pytest.mark.slow
 def test_the_document_of_the_coated_contact(tmp_path):
     (text,) = blocks(ROOT / "docs/how-to/coated-contact.md", "toml")
     (tmp_path / "p.toml").write_text(text, encoding="utf-8")

@@ -78,6 +78,7 @@ def cheap_cases(monkeypatch):
         monkeypatch.setattr(block_pictures, name, value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [pytest.param(name, marks=[pytest.mark.slow] * (name not in QUICK)) for name in pictures.FIGURES],

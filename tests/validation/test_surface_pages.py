@@ -35,6 +35,7 @@ RUNS = {
 SLOW = ("figure_10", "gold_film")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in RUNS])
 def test_what_is_claimed_holds(name):
     page = RUNS[name]()

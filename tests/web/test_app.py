@@ -274,6 +274,7 @@ def test_a_file_over_the_cap_is_refused_in_words(
     watched.errors.clear()
 
 
+@pytest.mark.slow
 def test_a_phone_shows_every_page_without_scrolling_sideways(demo: AppServer, open_page: Callable[..., Any]) -> None:
     page = open_page(demo.address, viewport={"width": 390, "height": 800}).page
     base_of(page)
@@ -283,6 +284,7 @@ def test_a_phone_shows_every_page_without_scrolling_sideways(demo: AppServer, op
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, step
 
 
+@pytest.mark.slow
 def test_keys_reach_the_steps_and_the_drop_area(demo: AppServer, open_page: Callable[..., Any]) -> None:
     page = open_page(demo.address).page
     base_of(page)

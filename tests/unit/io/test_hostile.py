@@ -139,6 +139,7 @@ def test_results_are_not_followed_elsewhere(tmp_path: Path) -> None:
                 read(tmp_path / "r.nc")
 
 
+@pytest.mark.slow
 def test_results_with_anything_in_them(stored: Path, tmp_path: Path) -> None:
     """Wrong types in every attribute and variable: an answer or one sentence."""
     bad: tuple[Any, ...] = (
@@ -178,6 +179,7 @@ def test_results_with_anything_in_them(stored: Path, tmp_path: Path) -> None:
     assert refused > 2
 
 
+@pytest.mark.slow
 def test_damaged_results_leave_no_tail(stored: Path, tmp_path: Path) -> None:
     """Neither 'Exception ignored' nor a crash follows the sentence when the process ends."""
     content = stored.read_bytes()

@@ -68,6 +68,7 @@ def test_a_step(name: str, tmp_path: Path) -> None:
         assert group[f"{item.name}_y"].dims == ("x", "y")
 
 
+@pytest.mark.slow
 def test_a_history_and_the_same_bits_after_a_break(tmp_path: Path) -> None:
     """Two steps, saved and loaded, and the other two from there, against all four in one go."""
     case = problem(asp.Coulomb(0.3))

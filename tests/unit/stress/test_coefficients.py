@@ -61,6 +61,7 @@ def homogeneous_constants(plane):
     return {"shear": plane.region.material.shear_modulus, "nu": plane.region.material.poisson_ratio}
 
 
+@pytest.mark.slow
 @every_row(POINTS, label=label)
 def test_point_forces_on_layered_bodies(row):
     """The table is accurate to 1e-13 absolute per unit force. Worst difference found: 6e-14, 4e-13 of the field."""

@@ -34,6 +34,7 @@ def by_key(path: Path) -> dict:
     return {record["key"]: record["values"] for record in records(path)}
 
 
+@pytest.mark.slow
 @linux
 def test_a_worker_that_is_killed_loses_nothing(tmp_path):
     made = plan(axes=[LONG])
