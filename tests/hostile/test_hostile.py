@@ -46,7 +46,6 @@ def _toml(data: bytes, _: object) -> bytes:
     return tomli_w.dumps(json.loads(data)).encode()
 
 
-@pytest.mark.slow
 def test_some_mutants_of_every_kind(everything: dict[str, Target], tmp_path: Path) -> None:
     wrong = [
         f"{name}, seed {end.seed}, {end.word}: {end.failure}"

@@ -13,7 +13,8 @@ from .arrays import RealArray
 
 
 @functools.cache
-def _rule(nodes: int) -> tuple[RealArray, RealArray]:
+def rule(nodes: int) -> tuple[RealArray, RealArray]:
+    """Gauss-Legendre nodes and weights, (nodes,) each, on [-1, 1]. Shared: not to be written to."""
     return np.polynomial.legendre.leggauss(nodes)
 
 
@@ -22,7 +23,7 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
 
     ``breaks`` (…, n + 1) do not fall along the last axis; a panel of no width contributes nothing.
     """
-    x, w = _rule(nodes)
+    x, w = rule(nodes)
     low, high = breaks[..., :-1, None], breaks[..., 1:, None]
     half = 0.5 * (high - low)
     shape = (*breaks.shape[:-1], (breaks.shape[-1] - 1) * nodes)

@@ -264,7 +264,7 @@ def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> Any
 
 @lru_cache(maxsize=16)
 def _layered_creep(body: Body, counter_body: Body, shear: bool) -> LayeredCreep:
-    """Series of layers that relax differently; kept, as every solve of a history that is continued needs it and a fit takes seconds."""
+    """Series of layers that relax differently; kept, as every solve of a history that is continued needs it and a fit may take a second."""
     pairs = deformable(body, counter_body)
     materials = tuple(material for solid, _ in pairs for material in materials_of(solid))
     stacks = tuple((_stacked(solid), sign) for solid, sign in pairs)

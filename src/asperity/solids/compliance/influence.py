@@ -10,6 +10,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.interpolation import STEP, LogTable, log_grid, log_hankel, log_table
+from ...core.quadrature import rule
 
 # Displacement of a half-space under uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
 
@@ -128,7 +129,6 @@ FAR = 25.0
 _GAUSS = 6
 _PANEL = 1.5  # length in asinh(tan theta) on which 16 Gauss points of a function analytic in a strip of 1 give 1e-15
 _PANEL_GAUSS = 16
-_NODES, _PANEL_NODES = (np.polynomial.legendre.leggauss(count) for count in (_GAUSS, _PANEL_GAUSS))
 _AVERAGE = np.array([-17.0, 308.0, 5178.0, 308.0, -17.0]) / 5760.0  # mean over a cell: 1 + d²/24 - 17 d⁴/5760
 
 
@@ -195,7 +195,7 @@ def _averages(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray:
 
 def _gauss(kernel: PointKernel, x: RealArray, y: RealArray, grid: Grid, angular: Angular) -> RealArray:
     """Integral over the pixels around (x, y), 1-D arrays, by Gauss points."""
-    node, weight = _NODES
+    node, weight = rule(_GAUSS)
     dx, dy = grid.spacing
     points = _values(kernel, x[:, None, None] + 0.5 * dx * node[:, None], y[:, None, None] + 0.5 * dy * node, angular)
     return np.asarray(np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area)
@@ -223,7 +223,7 @@ def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular
     def triangle(length: RealArray, width: RealArray, *, exchanged: bool) -> RealArray:
         last = np.arcsinh(width / length)
         panels = int(np.ceil(last.max() / _PANEL))
-        node, weight = _PANEL_NODES
+        node, weight = rule(_PANEL_GAUSS)
         share = (np.arange(panels)[:, None] + 0.5 * (node + 1.0)).ravel() / panels
         v = last[..., None] * share
         along, across = 1.0 / np.cosh(v), np.tanh(v)

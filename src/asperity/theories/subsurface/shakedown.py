@@ -119,7 +119,7 @@ def cylinder_shakedown(friction: float = 0.0) -> CylinderShakedown:
 
 @functools.cache
 def _cylinder(mu: float) -> CylinderShakedown:
-    """The limit at one friction; it takes seconds, and studies of loads and thicknesses ask for it again and again."""
+    """The limit at one friction; it takes a second, and studies of loads and thicknesses ask for it again and again."""
     low, high = 0.0, 1.2
     for _ in range(6):
         depths = np.linspace(low, high, 41)

@@ -187,8 +187,8 @@ class _Memory:
         """Whether few points change."""
         return self.changed(free) <= _SETTLED * free.size
 
-    def judge(self, error: float) -> None:
-        """Whether unclipped steps succeed, by the ``error`` after one of them."""
+    def record(self, error: float) -> None:
+        """Count unclipped steps that do not lower the ``error``; after some in a row they are made more accurate, and at last end."""
         if self.unsuccessful is None:
             return
         if error < self.lowest:
@@ -445,7 +445,7 @@ class ActiveSet:
         if memory.tension:
             load = memory.survey.totals.pressure
             error = error + memory.tension / load if load > 0.0 else math.inf
-        memory.judge(error)
+        memory.record(error)
         ends = error <= self.tolerance or memory.iterations >= self.max_iterations
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
