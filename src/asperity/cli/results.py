@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,7 +21,7 @@ from ..io.results import contact_of, document_in, load
 from ..io.schemas.problem import SolverTable
 from ..parts.stress import Stress, stress_request
 from ..plots.contact import figures_of
-from ..plots.picture import save_pictures
+from ..plots.together import save_pictures
 from ..report import write_report
 from ..report.folder import STRESSES, write_parts
 from ..report.write import write_tractions_report
@@ -64,13 +63,11 @@ def plot(
 ) -> None:
     """Draw the figures of a result as PNG files."""
     outcome = load_outcome(file)
-    found = figures_of(outcome.path or outcome.result)
+    found = {figure.name: figure for figure in figures_of(outcome.path or outcome.result)}
     if kind not in found:
-        figures = (figure for figures in outcome.figures.values() for figure in figures)
-        found = {**{figure.name: partial(bytes, figure.picture) for figure in figures}, **found}
+        found = {figure.name: figure for figure in itertools.chain(*outcome.figures.values())} | found
     require.one_of(kind, ("all", *found), "--kind")
-    wanted = found if kind == "all" else {kind: found[kind]}
-    print_files(save_pictures(wanted, out, overwrite=force))
+    print_files(save_pictures(found.values() if kind == "all" else [found[kind]], out, overwrite=force))
 
 
 def report(
@@ -191,9 +188,8 @@ def _under_tractions(file: Path, given: Given, out: Path | None, files: Mapping[
             text = dumps(relocated(document, file.parent, out))
             (folder / "problem.toml").write_text(text, encoding="utf-8", newline="\n")
             save_tractions(outcome, text, folder / "result.nc")
-            (folder / "plots").mkdir()
-            for figure in itertools.chain(*outcome.figures.values()):
-                (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+            figures = itertools.chain(*outcome.figures.values())
+            save_pictures(figures, folder / "plots", processes=document.solver.threads)
             write_tractions_report(outcome, folder / "report.html", document=document, text=text)
             export_csv(outcome.found["stress"].detail, folder / STRESSES)
     write_volume(outcome, files, force=force)

@@ -274,13 +274,13 @@ class Adhesion(Part):
         """Loop of force and approach; zone and tractions, of a loop those at the pull-off."""
         from ..contact.adhesive_cycles import adhesion_loop
         from ..plots.adhesion import ADHESION_LOOP, ADHESION_PLOTS
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
 
         if solved.path is None:
-            return drawn(ADHESION_PLOTS, solved.result)
+            return figures_by(ADHESION_PLOTS, solved.result)
         branch = branch_figures(found.values)
         at = solved.path.steps[adhesion_loop(solved.path.steps).pull_off]
-        return (*drawn((ADHESION_LOOP,), solved.path), *branch, *drawn(ADHESION_PLOTS, at))
+        return (*figures_by((ADHESION_LOOP,), solved.path), *branch, *figures_by(ADHESION_PLOTS, at))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Law, attraction, resolution, stability; pull-off and hysteresis of a path."""

@@ -108,9 +108,9 @@ def branch_rows(values: Mapping[str, Any]) -> Rows:
 def branch_figures(values: Mapping[str, Any]) -> tuple[Figure, ...]:
     """Force against approach along the branch, the parts that grips cannot hold dashed."""
     from ..plots.adhesion import BRANCH_PLOT
-    from ..plots.picture import drawn
+    from ..plots.picture import figures_by
 
-    return drawn((BRANCH_PLOT,), values) if "branch_approach" in values else ()
+    return figures_by((BRANCH_PLOT,), values) if "branch_approach" in values else ()
 
 
 def jumps_table(jumps: tuple[Jump, ...]) -> Table:

@@ -105,9 +105,9 @@ class LoadPath(Part):
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Loops of load and area, and the energies."""
         from ..plots.contact import PATH_PLOTS
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
 
-        return () if found.detail is None else drawn(PATH_PLOTS, found.detail)
+        return () if found.detail is None else figures_by(PATH_PLOTS, found.detail)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Where the load turns, and where its work goes."""
@@ -202,9 +202,9 @@ class Plasticity(Part):
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Plastic zone and residual surface."""
         from ..plots.contact import PLASTIC_PLOTS
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
 
-        return drawn(PLASTIC_PLOTS, solved.result) if solved.result.indented.any() else ()
+        return figures_by(PLASTIC_PLOTS, solved.result) if solved.result.indented.any() else ()
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Areas, volumes and work."""

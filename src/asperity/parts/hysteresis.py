@@ -178,11 +178,11 @@ class Hysteresis(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Pressure while sliding; friction and area against speed."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.viscoelastic import SLIDING_PLOT, SPEED_PLOTS
 
         shown = picture_of(found, solved)
-        return drawn((SLIDING_PLOT, *(SPEED_PLOTS if shown.curve else ())), shown)
+        return figures_by((SLIDING_PLOT, *(SPEED_PLOTS if shown.curve else ())), shown)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Friction, area and heat, the theory beside them, and the curve."""

@@ -148,12 +148,12 @@ class Indentation(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, curve, imprint, hardness."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.plastic import plots_of
         from .plastic_values import picture_of
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
-        return drawn(plots_of(shown, "indentation"), shown)
+        return figures_by(plots_of(shown, "indentation"), shown)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Hardness by both ways, what stays, zones by layer, tensions."""

@@ -217,14 +217,14 @@ class Passes(Part):
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
         from ..plots.passes import pass_plots
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.plastic import plots_of
         from .passing import pass_picture
         from .plastic_values import picture_of
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
         passes = pass_picture(found)
-        return (*drawn(plots_of(shown, "passes"), shown), *drawn(pass_plots(passes), passes))
+        return (*figures_by(plots_of(shown, "passes"), shown), *figures_by(pass_plots(passes), passes))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Whether flow ceases, zones by layer, tensions, and what each pass adds."""

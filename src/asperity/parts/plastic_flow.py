@@ -147,13 +147,13 @@ class PlasticFlow(Part):
         """Map of the imprint; on the cut through the largest strain zones, residual stress, stress under load; curve."""
         import numpy as np
 
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.plastic import IMPRINT_MAP, ImprintMap, plots_of
         from .plastic_values import picture_of
 
         shown = picture_of(PREFIX, found.values, found.detail)
         surface = ImprintMap(solved.problem, np.asarray(found.values[IMPRINT.name]))
-        return (*drawn(plots_of(shown, "flow"), shown), *drawn((IMPRINT_MAP,), surface))
+        return (*figures_by(plots_of(shown, "flow"), shown), *figures_by((IMPRINT_MAP,), surface))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What flows, what stays, zones by layer, tensions."""

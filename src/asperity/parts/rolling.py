@@ -192,12 +192,12 @@ class Rolling(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of stick and slip, section, creep-force curve, forces of a rough wheel."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.rolling import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS
 
         shown = picture_of(found, solved)
         plots = (*ROLLING_PLOTS, *((CURVE_PLOT,) if shown.curve else ()), *((PATH_PLOT,) if shown.path else ()))
-        return drawn(plots, shown)
+        return figures_by(plots, shown)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What it transmits, what slips, what becomes heat, and the theories beside it."""

@@ -115,10 +115,10 @@ class SlidingStart(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Friction and area against distance, heat against time, pressure after it."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.viscoelastic import START_PLOTS
 
-        return drawn(START_PLOTS, picture_of(found, solved))
+        return figures_by(START_PLOTS, picture_of(found, solved))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """How friction and area came to where they are."""

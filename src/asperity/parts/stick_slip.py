@@ -284,12 +284,12 @@ class StickSlip(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of stick and slip, of the heat, section, and the loop of a history."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.shear import LOOP_PLOTS, SHEAR_PLOTS
 
         if solved.path is None or len(solved.path.steps) < 2:
-            return drawn(SHEAR_PLOTS, solved.result)
-        return (*drawn(SHEAR_PLOTS[:2], solved.result), *drawn(LOOP_PLOTS, solved.path))
+            return figures_by(SHEAR_PLOTS, solved.result)
+        return (*figures_by(SHEAR_PLOTS[:2], solved.result), *figures_by(LOOP_PLOTS, solved.path))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Shares of the area, forces, heat; steps and cycles of a history."""

@@ -232,14 +232,14 @@ class Viscoelasticity(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Area, approach, load and energies against time, and the moduli of the solids."""
-        from ..plots.picture import drawn
+        from ..plots.picture import figures_by
         from ..plots.viscoelastic import SOLID_PLOTS, TIME_PLOTS
 
         if not found.values:
             return ()
         shown = picture_of(found, solved)
         lasts = float(shown.moments["time"][-1]) > float(shown.moments["time"][0])
-        return (*(drawn(TIME_PLOTS, shown) if lasts else ()), *drawn(SOLID_PLOTS, shown))
+        return (*(figures_by(TIME_PLOTS, shown) if lasts else ()), *figures_by(SOLID_PLOTS, shown))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What changed in time, energies, and the response to an oscillation."""

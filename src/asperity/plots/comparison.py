@@ -28,9 +28,9 @@ from .picture import (
     curve_figure,
     literal,
     png,
-    save_pictures,
     scale,
 )
+from .together import save_pictures
 
 if TYPE_CHECKING:
     import xarray
@@ -160,7 +160,7 @@ def comparison_plots(data: xarray.Dataset) -> tuple[Plot, ...]:
 
 
 def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
-    """The figures of a comparison from its dataset, drawn."""
+    """The figures of a comparison from its dataset."""
     return tuple(
         curve_figure(plot.name, plot.title, plot.caption, partial(plot.draw, data), SIZE, wide=True)
         for plot in comparison_plots(data)
@@ -174,12 +174,7 @@ def save_comparison_plots(
 
     Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    pictures = {figure.name: partial(_picture, figure) for figure in figures}
-    return save_pictures(pictures, folder, overwrite=overwrite)
-
-
-def _picture(figure: Figure) -> bytes:
-    return figure.picture
+    return save_pictures(figures, folder, overwrite=overwrite)
 
 
 def _slopes(data: xarray.Dataset, name: str, label: str, ax: Axes) -> Axes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -50,15 +49,14 @@ from .picture import (
     Figure,
     Plot,
     Scale,
-    drawn,
+    figures_by,
     legend_above,
     map_size,
     png,
-    render,
-    save_pictures,
     say_exaggeration,
     scale,
 )
+from .together import save_pictures
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -223,7 +221,7 @@ MENISCI = Plot(
 
 def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
     """Figures of the menisci of ``result``."""
-    return drawn([MENISCI], result)
+    return figures_by([MENISCI], result)
 
 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
@@ -334,19 +332,15 @@ def plots_of(result: ContactResult) -> tuple[Plot, ...]:
 
 def contact_figures(result: ContactResult) -> tuple[Figure, ...]:
     """Figures of any ``result``."""
-    return drawn(PLOTS, result)
+    return figures_by(PLOTS, result)
 
 
-def figures_of(result: Any) -> dict[str, Callable[[], bytes]]:
-    """Names of all figures of a ``result`` (a contact or load path), each with what draws its PNG."""
-    found: dict[str, Callable[[], bytes]] = {}
+def figures_of(result: Any) -> tuple[Figure, ...]:
+    """All figures of a ``result`` (a contact or load path)."""
     contact = result.last if isinstance(result, HistoryResult) else result
-    found |= {plot.name: partial(render, plot, contact) for plot in plots_of(contact)}
-    if isinstance(result, HistoryResult):
-        found |= {plot.name: partial(render, plot, result) for plot in PATH_PLOTS}
-    if contact.menisci is not None:
-        found[MENISCI.name] = lambda: wet_figures(contact)[0].picture
-    return found
+    path = figures_by(PATH_PLOTS, result) if isinstance(result, HistoryResult) else ()
+    wet = () if contact.menisci is None else wet_figures(contact)
+    return (*figures_by(plots_of(contact), contact), *path, *wet)
 
 
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
@@ -473,5 +467,4 @@ def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool 
 
     Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    pictures = {plot.name: partial(render, plot, path) for plot in PATH_PLOTS}
-    return save_pictures(pictures, folder, overwrite=overwrite)
+    return save_pictures(figures_by(PATH_PLOTS, path), folder, overwrite=overwrite)

@@ -22,7 +22,7 @@ from .picture import (
     VERMILLION,
     Figure,
     Plot,
-    drawn,
+    figures_by,
     legend_above,
     make_room,
     scale,
@@ -208,7 +208,7 @@ PLOTS = (
 
 def figures_of(values: Mapping[str, Any]) -> tuple[Figure, ...]:
     """Figures of the ``values`` of the quantities of a motion, as far as they are there."""
-    return drawn([plot for needed, plot in PLOTS if needed in values], values)
+    return figures_by([plot for needed, plot in PLOTS if needed in values], values)
 
 
 def plot_branches(found: Branches, ax: Axes, *, label: str = "") -> Axes:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import gc
 import io
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,9 +15,7 @@ from numpy.typing import NDArray
 
 from ..core import units
 from ..core.arrays import RealArray
-from ..core.errors import OutputError
 from ..core.grid import Grid
-from ..io.atomic import atomic_file
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -193,22 +190,57 @@ def style() -> Iterator[None]:
 
 
 @dataclass(frozen=True)
+class Drawing:
+    """What drawing gives: the PNG, the points of the curves in it, and whether a part is drawn ``enlarged`` beside."""
+
+    picture: bytes
+    curves: tuple[AxesCurves, ...] = ()
+    enlarged: bool = False
+
+
+@dataclass(frozen=True, eq=False)
 class Figure:
-    """A drawn figure: ``name`` of its file, ``title``, ``caption``, the PNG, and whether a part enlarged makes it ``wide``."""
+    """A figure, drawn when its picture is asked for: ``name`` of its file, ``title``, ``text`` of the caption, what draws it.
+
+    ``draw`` may be a PNG too.
+    """
 
     name: str
     title: str
-    caption: str
-    picture: bytes
-    wide: bool = False
+    text: str
+    draw: Callable[[], Drawing] | bytes
     kind: str = "curve"
     """Kind of the figure, as that of ``Plot``."""
     shows: Callable[[], Any] | None = None
     """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``stress.Cut``), for a page that lets it be explored."""
     of_step: Callable[[Any], Any] | None = None
     """The same map of another step of a load path."""
-    curves: tuple[AxesCurves, ...] = ()
-    """Points of the curves in the picture."""
+    wide: bool = False
+    """Whether it needs the whole width of a page, as one with a part enlarged does anyway."""
+
+    @cached_property
+    def drawing(self) -> Drawing:
+        """The figure, drawn once."""
+        return Drawing(self.draw) if isinstance(self.draw, bytes) else self.draw()
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether nothing is left to draw."""
+        return isinstance(self.draw, bytes) or "drawing" in vars(self)
+
+    def keep(self, drawing: Drawing) -> None:
+        """Take the ``drawing`` that another process has made."""
+        vars(self)["drawing"] = drawing
+
+    @property
+    def picture(self) -> bytes:
+        """The PNG."""
+        return self.drawing.picture
+
+    @property
+    def caption(self) -> str:
+        """What is seen, a part enlarged too."""
+        return self.text + (BESIDE if self.drawing.enlarged else "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,15 +301,21 @@ BESIDE = " Beside it the part within the rectangle, enlarged."
 
 def render(plot: Plot, thing: Any) -> bytes:
     """PNG of ``plot`` for ``thing``: a contact, a load path or a characterised surface."""
-    return drawn([plot], thing)[0].picture
+    return _drawing(plot, thing).picture
 
 
-def drawn(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
+def figures_by(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
     """Figures of ``thing`` by ``plots``."""
     return tuple(_figure(plot, thing) for plot in plots)
 
 
 def _figure(plot: Plot, thing: Any) -> Figure:
+    shows = None if plot.shows is None else partial(plot.shows, thing)
+    made = Figure(plot.name, plot.title, plot.caption, partial(_drawing, plot, thing), plot.kind, shows)
+    return replace(made, of_step=plot.shows if plot.by_step else None)
+
+
+def _drawing(plot: Plot, thing: Any) -> Drawing:
     size = VIEW_SIZE if plot.kind == "view" else CURVE_SIZE
     if plot.kind == "map":
         last = getattr(thing, "last", thing)
@@ -290,26 +328,28 @@ def _figure(plot: Plot, thing: Any) -> Figure:
         return ax
 
     if plot.kind == "curve":
-        return curve_figure(plot.name, plot.title, plot.caption, draw, size)
+        return _curves(draw, size)
     picture = png(draw, size, projection="3d" if plot.kind == "view" else None)
-    shows = None if plot.shows is None else partial(plot.shows, thing)
-    caption = plot.caption + (BESIDE if any(enlarged) else "")
-    made = Figure(plot.name, plot.title, caption, picture, any(enlarged), plot.kind, shows)
-    return replace(made, of_step=plot.shows if plot.by_step else None)
+    return Drawing(picture, enlarged=any(enlarged))
 
 
 def curve_figure(
     name: str,
     title: str,
-    caption: str,
+    text: str,
     draw: Callable[[Axes], Axes],
     size: tuple[float, float] = CURVE_SIZE,
-    **options: Any,
+    *,
+    wide: bool = False,
 ) -> Figure:
-    """Figure of the curves that ``draw`` puts on axes of ``size`` inches, with their points; ``options`` are fields of ``Figure``."""
+    """Figure of the curves that ``draw`` puts on axes of ``size`` inches, with their points; ``wide`` as in ``Figure``."""
+    return Figure(name, title, text, partial(_curves, draw, size), wide=wide)
+
+
+def _curves(draw: Callable[[Axes], Axes], size: tuple[float, float]) -> Drawing:
     curves: list[AxesCurves] = []
     picture = png(draw, size, curves=curves)
-    return Figure(name, title, caption, picture, curves=tuple(curves), **options)
+    return Drawing(picture, tuple(curves))
 
 
 def png(
@@ -449,25 +489,3 @@ def map_size(grid: Grid) -> tuple[float, float]:
     wide, tall = (longer, longer / ratio) if ratio >= 1.0 else (longer * ratio, longer)
     bar = (0.0, BAR_ROOM) if ratio > 2.0 else (BAR * wide + BAR_ROOM, 0.0)
     return (wide + bar[0]) / 0.775, (tall + bar[1]) / 0.77  # shares of the figure that the axes take
-
-
-def save_pictures(
-    pictures: Mapping[str, Callable[[], bytes]], folder: str | Path, *, overwrite: bool = False
-) -> tuple[Path, ...]:
-    """Write ``pictures``, made one after the other, under their names as PNG into ``folder`` (made if missing).
-
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
-    """
-    place = Path(folder)
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"folder of the plots {place} cannot be made: {error.strerror}; choose another.",
-            subject="folder of the plots",
-        ) from error
-    paths = tuple(place / f"{name}.png" for name in pictures)
-    for make, path in zip(pictures.values(), paths, strict=True):
-        with atomic_file(path, overwrite=overwrite) as file:
-            file.write_bytes(make())
-    return paths

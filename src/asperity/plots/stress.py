@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
@@ -26,7 +26,6 @@ from .maps import Depth, Field, Look, enlarge_island, limits, plot_field
 from .picture import (
     BAR,
     BAR_ROOM,
-    BESIDE,
     BLACK,
     BLUE,
     GREEN,
@@ -34,6 +33,7 @@ from .picture import (
     PURPLE,
     SKY,
     VERMILLION,
+    Drawing,
     Figure,
     apart,
     curve_figure,
@@ -359,22 +359,23 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     section = plane.planes[0]
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
-    grid, stress = Grid((plane.x.size, plane.y.size), plane.spacing), plane.von_mises[0]
+    shown = plane_field(plane)  # all planes wait for their figures: without the other components
+    stress, grid = shown.values, shown.grid
     i, j = np.unravel_index(int(stress.argmax()), stress.shape)
-    enlarged: list[bool] = []
 
-    def draw(ax: Axes) -> Axes:
-        plot_stress_map(plane, ax)
-        high = stress >= PEAK * stress.max()
-        enlarged.append(enlarge_island(high, grid, boundary.wraps, "about the maximum", ax, (int(i), int(j))))
-        return ax
+    def draw() -> Drawing:
+        enlarged: list[bool] = []
 
-    picture = png(draw, map_size(grid))
-    caption = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
-    caption += BESIDE if any(enlarged) else ""
-    title = f"Von Mises stress at {depth}{side}"
-    shown = plane_field(plane)
-    return Figure(f"stress_plane_{number}", title, caption, picture, any(enlarged), "map", lambda: shown)
+        def map_of(ax: Axes) -> Axes:
+            plot_field(stress, grid, ax, shown.look)
+            high = stress >= PEAK * stress.max()
+            enlarged.append(enlarge_island(high, grid, boundary.wraps, "about the maximum", ax, (int(i), int(j))))
+            return ax
+
+        return Drawing(png(map_of, map_size(grid)), enlarged=any(enlarged))
+
+    text = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
+    return Figure(f"stress_plane_{number}", f"Von Mises stress at {depth}{side}", text, draw, "map", lambda: shown)
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:
@@ -395,12 +396,16 @@ def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[
         log = near is not None and kind.name in MAGNITUDES
         scale = " Steps are equal factors." if log else ""
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
-        picture, shows = png(draw, SECTION_SIZE), partial(_cut, field, quantity)
-        yield Figure(name, title, f"Vertical plane, {caption}{scale}", picture, kind="cut", shows=shows)
+        shows = partial(_cut, field, quantity)
+        yield Figure(name, title, f"Vertical plane, {caption}{scale}", partial(_drawn, draw), "cut", shows)
         if near is not None:
             draw = partial(plot_stress_section, near, quantity=quantity)
-            picture = png(draw, SECTION_SIZE)
-            yield Figure(f"{name}_near", f"{title}, close-up", f"Part of the plane, {caption}", picture, kind="cut")
+            text = f"Part of the plane, {caption}"
+            yield Figure(f"{name}_near", f"{title}, close-up", text, partial(_drawn, draw), "cut")
+
+
+def _drawn(draw: Callable[[Axes], Axes]) -> Drawing:
+    return Drawing(png(draw, SECTION_SIZE))
 
 
 def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> StressField | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,12 +28,12 @@ from .picture import (
     VERMILLION,
     Plot,
     Scale,
+    figures_by,
     legend_above,
-    render,
-    save_pictures,
     scale,
     times_text,
 )
+from .together import save_pictures
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -379,6 +378,4 @@ def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwri
 
     Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    return save_pictures(
-        {plot.name: partial(render, plot, found) for plot in SURFACE_PLOTS}, folder, overwrite=overwrite
-    )
+    return save_pictures(figures_by(SURFACE_PLOTS, found), folder, overwrite=overwrite)

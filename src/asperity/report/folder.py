@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 from pathlib import Path
 
 from ..io.export import export_csv
+from ..plots.together import drawing, save_pictures
 from ..run.document import ProblemDocument, dumps, save_document
 from ..run.execute import Outcome
 from ..run.stored import save_outcome
@@ -37,10 +37,10 @@ def write_parts(outcome: Outcome, folder: Path, document: ProblemDocument | None
     text, title = (None, "") if document is None else (dumps(document), document.title)
     if document is not None:
         save_document(document, folder / "problem.toml")
-    save_outcome(outcome, folder / "result.nc", document=text, title=title)
-    (folder / "plots").mkdir()
-    for figure in itertools.chain(outcome.pictures, *outcome.figures.values()):
-        (folder / "plots" / f"{figure.name}.png").write_bytes(figure.picture)
+    figures, threads = outcome.all_figures, outcome.solved.threads
+    with drawing(figures, threads):
+        save_outcome(outcome, folder / "result.nc", document=text, title=title)
+    save_pictures(figures, folder / "plots")
     write_report(outcome, folder / "report.html", document=text, title=title)
     if "stress" in outcome.found:
         export_csv(outcome.found["stress"].detail, folder / STRESSES)

@@ -17,6 +17,7 @@ from ..core.text import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
 from ..plots.picture import Figure
+from ..plots.together import draw_all
 from .scene import as_json, curves_of
 
 WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
@@ -87,12 +88,15 @@ def prose(text: object) -> Markup:
 
 def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
     """``figures`` for a template: the pictures as base64, the points of their curves as JSON."""
+    figures = tuple(figures)
+    draw_all(figures)
     return [
         {
-            **{key: getattr(figure, key) for key in ("name", "title", "caption", "wide")},
+            **{key: getattr(figure, key) for key in ("name", "title", "caption")},
+            "wide": figure.wide or figure.drawing.enlarged,
             "explored": figure.kind == "map" and figure.shows is not None,
             "picture": base64.b64encode(figure.picture).decode("ascii"),
-            "curves": curves_of(figure),
+            "curves": curves_of(figure.drawing.curves),
         }
         for figure in figures
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..core.errors import InputError
@@ -11,8 +12,9 @@ from ..core.units import percent, show
 from ..io.description import software, surface_provenance
 from ..io.words import surface_rows
 from ..parts.part import Table
-from ..plots.picture import drawn
+from ..plots.picture import Figure, figures_by
 from ..plots.surface import SURFACE_PLOTS
+from ..plots.together import drawing
 from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation, SpectralParameters
 from ..theories.rough.profile_peaks import SampledPeaks
@@ -195,11 +197,17 @@ def _text(theory: NayakSummits | None, name: str, unit: str) -> str:
 
 
 def write_roughness_report(
-    found: Characterisation, path: str | Path, *, title: str = "", overwrite: bool = False
+    found: Characterisation,
+    path: str | Path,
+    *,
+    figures: Sequence[Figure] | None = None,
+    title: str = "",
+    overwrite: bool = False,
 ) -> None:
     """Write a page on a characterised surface to the HTML file ``path``; it needs no network and no other file.
 
-    ``found`` is that of ``characterise``; the ``title`` is made from the source of the surface if empty.
+    ``found`` is that of ``characterise``, with its ``figures`` if they are drawn already; the ``title`` is made from the source of
+    the surface if empty.
 
     Raises
     ------
@@ -208,7 +216,9 @@ def write_roughness_report(
     """
     surface, power, missing = found.surface, found.spectra.power, found.surface.n_missing
     row = [("missing points", f"{missing} ({percent(missing / surface.grid.n_points)})")] if missing else []
-    source, figures = surface.origin.source, drawn(SURFACE_PLOTS, found)
+    source, figures = surface.origin.source, figures_by(SURFACE_PLOTS, found) if figures is None else figures
+    with drawing(figures):
+        shown = scene(figures, surface.grid)
     write_page(
         path,
         "roughness.html",
@@ -217,7 +227,7 @@ def write_roughness_report(
         headline=headline_values(found),
         remarks=found.remarks,
         figures=figures,
-        scene=scene(figures, surface.grid),
+        scene=shown,
         groups=quantity_rows(found),
         summits=summit_comparison(found),
         peaks=peak_comparison(found),

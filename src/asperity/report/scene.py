@@ -43,7 +43,7 @@ from ..core.grid import Grid
 from ..core.units import show
 from ..plots.contact import row_of_section
 from ..plots.maps import DECADES, Field, Kinds, Look, limits
-from ..plots.picture import BESIDE, Figure, colour_table, scale
+from ..plots.picture import AxesCurves, Figure, colour_table, scale
 from ..plots.stress import Cut
 from ..run.execute import Outcome
 
@@ -178,7 +178,7 @@ def scene_of(
     Arrays hold at most ``most_points`` points, and take at most ``budget`` characters together.
     """
     result = outcome.result
-    figures = [*outcome.pictures, *(figure for group in outcome.figures.values() for figure in group), *more]
+    figures = [*outcome.all_figures, *more]
     made = scene(figures, result.problem.grid, path=outcome.path, budget=budget, most_points=most_points)
     if made is None:
         return None
@@ -249,7 +249,7 @@ def _gathered(
         elif isinstance(shown, Field) and shown.depth is not None:
             depths.append(shown)
         elif shown.grid.shape == grid.shape and figure.name not in maps:
-            alt = f"{figure.title}. {figure.caption.replace(BESIDE, '')}"
+            alt = f"{figure.title}. {figure.text}"
             made = _Map(figure.name, figure.title, alt, [lambda shown=shown: shown])  # type: ignore[misc]
             if path is not None and steps and figure.of_step is not None:
                 by_step = figure.of_step
@@ -334,7 +334,7 @@ def _section(figure: Figure, cut: Cut) -> dict[str, Any]:
     line, step = getattr(field, axis), field.spacing["xy".index(axis)]
     places = {"axis": axis, "start": float(line[0]), "array": coded(cut.values.T, (step, 1.0))}
     look = _look(cut.look, cut.range)
-    about = {"name": figure.name, "title": figure.title, "alt": f"{figure.title}. {figure.caption}"}
+    about = {"name": figure.name, "title": figure.title, "alt": f"{figure.title}. {figure.text}"}
     return about | places | look | _layers(cut.layers, [float(depth) for depth in field.depth])
 
 
@@ -399,8 +399,8 @@ def as_json(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def curves_of(figure: Figure) -> list[dict[str, Any]]:
-    """Points of the curves of a ``figure`` with the places of its axes, for the read-out on its picture."""
+def curves_of(curves: Iterable[AxesCurves]) -> list[dict[str, Any]]:
+    """Points of the ``curves`` of a figure with the places of its axes, for the read-out on its picture."""
 
     def floats(values: RealArray) -> str:
         return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
@@ -414,5 +414,5 @@ def curves_of(figure: Figure) -> list[dict[str, Any]]:
             },
             "curves": [{"name": name, "x": floats(x), "y": floats(y)} for name, x, y in axes.curves],
         }
-        for axes in figure.curves
+        for axes in curves
     ]

@@ -27,7 +27,8 @@ from ..plots.campaign import (
     plot_sensitivities,
     plot_transitions,
 )
-from ..plots.picture import CURVE_SIZE, Figure, curve_figure, save_pictures
+from ..plots.picture import CURVE_SIZE, Figure, curve_figure
+from ..plots.together import save_pictures
 from ..studies.campaign import Campaign, CampaignState
 from ..studies.collect import Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
@@ -415,7 +416,7 @@ def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
         _table(derived, folder / FINDINGS)
         written.append(folder / FINDINGS)
     figures = study_figures(campaign, data, derived)
-    save_pictures({figure.name: lambda f=figure: f.picture for figure in figures}, folder / PLOTS, overwrite=True)  # type: ignore[misc]
+    save_pictures(figures, folder / PLOTS, overwrite=True)
     write_study_report(campaign, folder / REPORT, figures=figures, overwrite=True)
     return (*written, folder / PLOTS, folder / REPORT)
 

@@ -23,6 +23,7 @@ from ..io.words import (
     surface_rows,
 )
 from ..parts.registry import versions
+from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
 from ..run.tractions import TractionsDocument, traction_rows
 from .page import shown, software_rows, write_page
@@ -81,7 +82,7 @@ def write_report(
         certificate=certificate_rows(result),
         results=result_rows(result),
         figures=outcome.pictures,
-        scene=scene_of(outcome),
+        scene=_drawn_scene(outcome),
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
         advice=tuple(dict.fromkeys((*doubts(*path_steps, result), *outcome.findings, *advice))),
         provenance=[
@@ -93,6 +94,12 @@ def write_report(
         document_of="Problem",
         overwrite=overwrite,
     )
+
+
+def _drawn_scene(outcome: Outcome) -> dict[str, Any] | None:
+    """Scene of the maps of ``outcome``; meanwhile other processes draw its figures."""
+    with drawing(outcome.all_figures, outcome.solved.threads):
+        return scene_of(outcome)
 
 
 def write_tractions_report(

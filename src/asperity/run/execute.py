@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -110,7 +111,7 @@ class Outcome:
 
     @cached_property
     def figures(self) -> dict[str, tuple[Figure, ...]]:
-        """Figures of each part, by its name; drawn once."""
+        """Figures of each part, by its name."""
         return {
             part.name: part.figures(self.found[part.name], self.solved)
             for part in self.parts
@@ -119,10 +120,15 @@ class Outcome:
 
     @cached_property
     def pictures(self) -> tuple[Figure, ...]:
-        """Figures of the contact itself; drawn once."""
+        """Figures of the contact itself."""
         from ..plots.contact import contact_figures
 
         return contact_figures(self.result)
+
+    @property
+    def all_figures(self) -> tuple[Figure, ...]:
+        """Those of the contact and of all parts."""
+        return (*self.pictures, *chain.from_iterable(self.figures.values()))
 
     @property
     def citation_keys(self) -> tuple[str, ...]:

@@ -26,8 +26,9 @@ from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..parts.stress import Stress, StressSettings, stress_request
-from ..plots.picture import drawn
+from ..plots.picture import figures_by
 from ..plots.surface import SURFACE_PLOTS
+from ..plots.together import save_pictures
 from ..report.folder import write_run
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..run.build import build, build_surface
@@ -141,10 +142,9 @@ def roughness(task: Task) -> dict[str, Any]:
     found = characterise(_built(task))
     out = Path(task["out"])
     out.mkdir(parents=True, exist_ok=True)
-    write_roughness_report(found, out / "roughness.html", overwrite=True)
-    figures = drawn(SURFACE_PLOTS, found)
-    for figure in figures:
-        (out / f"{figure.name}.png").write_bytes(figure.picture)
+    figures = figures_by(SURFACE_PLOTS, found)
+    save_pictures(figures, out, overwrite=True)
+    write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {
         "headline": [[name, text] for name, text in headline_values(found)],
         "groups": [[title, [list(row) for row in rows]] for title, rows in quantity_rows(found)],

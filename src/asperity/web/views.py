@@ -18,7 +18,7 @@ from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, headline_rows, result_rows, summary
 from ..plots.picture import Figure
-from ..plots.stress import plane_field
+from ..plots.stress import map_figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
 from ..run.execute import Outcome
@@ -72,8 +72,7 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
     free = np.array([depth for depth in depths if not np.isclose(depth, asked, rtol=1e-6, atol=0.0).any()])
     chosen = free[np.unique(np.linspace(0, free.size - 1, PLANES).round().astype(int))] if free.size else free
     for number, plane in enumerate(survey.planes(chosen), start=1):
-        field = plane_field(plane)
-        yield Figure(f"stress_of_depth_{number}", "Von Mises stress", "", b"", shows=lambda shown=field: shown)  # type: ignore[misc]
+        yield map_figure(plane, number, outcome.result.problem.boundary)
 
 
 def _in_space(result: ContactResult) -> dict[str, Any]:

@@ -113,7 +113,7 @@ def test_maps_of_planes_show_their_maximum_enlarged(monkeypatch: pytest.MonkeyPa
     for move in (0, -there):  # where it is, and at the border, over which the window wraps
         moved = replace(plane, tensor=plane.tensor.map(lambda part, move=move: np.roll(part, move, axis=1)))
         figure = map_figure(moved, 1, asp.Periodic())
-        assert figure.wide
+        assert figure.drawing.enlarged
         assert figure.caption.endswith("enlarged.")
         (beside,) = [axes for axes in drawn[-1].child_axes if axes.get_title(loc="left") == "about the maximum"]
         values, whole = (np.asarray(axes.images[0].get_array()) for axes in (beside, drawn[-1]))
@@ -123,4 +123,4 @@ def test_maps_of_planes_show_their_maximum_enlarged(monkeypatch: pytest.MonkeyPa
         at = 0.1 * (there + move + 0.5)  # µm
         assert low < at < high or low < at + 6.4 < high
     flat = replace(plane, tensor=plane.tensor.map(np.ones_like))
-    assert not map_figure(flat, 1, asp.Free()).wide
+    assert not map_figure(flat, 1, asp.Free()).drawing.enlarged

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -51,6 +52,7 @@ class Blocks:
     def __init__(self, threads: int) -> None:
         self.threads = threads
         self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
+        self._process = os.getpid()
 
     @cached_property
     def kernels(self) -> Any:
@@ -67,7 +69,7 @@ class Blocks:
 
     def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, serial: bool) -> None:
         """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless ``serial``."""
-        if self._pool is None or serial:
+        if self._pool is None or serial or self._process != os.getpid():  # a copy of the process has no other thread
             kernel((0, parts), *arguments)
             return
         shares = min(self.threads, parts)
