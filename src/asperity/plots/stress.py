@@ -360,14 +360,14 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
     shown = plane_field(plane)  # all planes wait for their figures: without the other components
-    stress, grid = shown.values, shown.grid
+    stress, grid, look = shown.values, shown.grid, _look(QUANTITIES["von_mises"], _place(section))
     i, j = np.unravel_index(int(stress.argmax()), stress.shape)
 
     def draw() -> Drawing:
         enlarged: list[bool] = []
 
         def map_of(ax: Axes) -> Axes:
-            plot_field(stress, grid, ax, shown.look)
+            plot_field(stress, grid, ax, look)
             high = stress >= PEAK * stress.max()
             enlarged.append(enlarge_island(high, grid, boundary.wraps, "about the maximum", ax, (int(i), int(j))))
             return ax

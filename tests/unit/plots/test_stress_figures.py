@@ -116,6 +116,7 @@ def test_maps_of_planes_show_their_maximum_enlarged(monkeypatch: pytest.MonkeyPa
         assert figure.drawing.enlarged
         assert figure.caption.endswith("enlarged.")
         (beside,) = [axes for axes in drawn[-1].child_axes if axes.get_title(loc="left") == "about the maximum"]
+        assert any("depth 100 nm" in axes.get_ylabel().replace("\n", " ") for axes in drawn[-1].child_axes)
         values, whole = (np.asarray(axes.images[0].get_array()) for axes in (beside, drawn[-1]))
         assert values.max() == whole.max()
         assert values.size < whole.size / 4
