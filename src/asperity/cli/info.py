@@ -19,7 +19,8 @@ from ..io.records import roughness_record
 from ..io.words import surface_text
 from ..parts.part import Table
 from ..plots.contact import save_surface_plot
-from ..plots.surface import save_roughness_plots
+from ..plots.surface import roughness_figures
+from ..plots.together import save_pictures
 from ..report.roughness import quantity_rows, write_files_report, write_roughness_report
 from ..surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
 from ..surfaces.characterise.slopes import rms_slope
@@ -159,13 +160,14 @@ def _check(answer: Asked) -> None:
 def _written(answer: Asked, flat: Surface, found: Characterisation | None) -> list[Path]:
     """The files that are asked for, written."""
     written: list[Path] = []
+    figures = () if found is None else roughness_figures(found)
     if answer.plot is not None:
         save_surface_plot(flat, answer.plot, overwrite=answer.force)
         written.append(answer.plot)
     if found is not None and answer.plots is not None:
-        written += save_roughness_plots(found, answer.plots, overwrite=answer.force)
+        written += save_pictures(figures, answer.plots, overwrite=answer.force)
     if found is not None and answer.report is not None:
-        write_roughness_report(found, answer.report, overwrite=answer.force)
+        write_roughness_report(found, answer.report, figures=figures, overwrite=answer.force)
         written.append(answer.report)
     return written
 

@@ -20,6 +20,7 @@ from ..core.arrays import ComplexArray, RealArray
 from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.quadrature import rule
 from ..core.spectral import RealTransform
 from ..solids.compliance.creep import AnyCreep, SharedCreep, contact_creep
 from ..solids.compliance.halfspace import Compliance
@@ -198,7 +199,7 @@ def _weights(r: float) -> RealArray:
     nodes = np.arange(_PARTS + 1) / _PARTS
     moments = np.empty(nodes.size)
     if r < 2.0:
-        t, w = np.polynomial.legendre.leggauss(24)
+        t, w = rule(24)
         t, w = 0.5 * (t + 1.0), 0.5 * w
         moments[:] = [(w * t**n * r * np.exp(-r * t)).sum() for n in range(nodes.size)]
     else:
@@ -212,7 +213,7 @@ def _tail(K: RealArray, dx: float, nx: int, dy: float, length: float, *, line: b
     """∫ K(X + s) exp(-s/L) ds/L at the last pixel X of ``K``, beyond which it falls like 1/r, or in a line like -ln x."""
     pixels = (len(K) - 1) // _PARTS
     X, last = (pixels - nx + 1) * dx, K[pixels * _PARTS]
-    z, w = np.polynomial.legendre.leggauss(200)
+    z, w = rule(200)
     end = math.log1p(40.0 * length / X)
     z, w = 0.5 * end * (z + 1.0), 0.5 * end * w
     s = X * np.expm1(z)

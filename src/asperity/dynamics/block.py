@@ -13,6 +13,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
 from ..core.parameters import Declared
+from ..core.quadrature import rule
 from ..core.values import NonNegative, Number
 from .belt import BeltSpeed, SpringStiffness
 from .interface import NormalCompliance
@@ -114,7 +115,7 @@ class SlidingBlock(Declared):
     @cached_property
     def base(self) -> tuple[RealArray, RealArray]:
         """Coordinates ξ along the base in m, and the areas in m² that the points of the rule stand for."""
-        nodes, weights = np.polynomial.legendre.leggauss(NODES)
+        nodes, weights = rule(NODES)
         return 0.5 * self.length * nodes, 0.5 * self.length * self.width * weights
 
     def forces(self, penetration: float, tilt: float) -> tuple[float, float, float]:

@@ -13,6 +13,7 @@ from scipy import sparse
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.quadrature import rule
 from ..solids.elastic import Elastic, Rigid
 from ..solids.flow import OF_STRENGTH, Plasticity, flow_of, regions_of
 from ..solids.layers import Layered, RigidBase
@@ -375,7 +376,7 @@ def _stored(law: J2, accumulated: RealArray, back_stress: RealArray) -> RealArra
 
 def _hardened(law: J2, accumulated: RealArray, back_stress: RealArray) -> RealArray:
     """∫ Y dq in J/m³, by Gauss' rule of 8 points."""
-    places, weights = np.polynomial.legendre.leggauss(8)
+    places, weights = rule(8)
     q = 0.5 * accumulated[..., None] * (1.0 + places)
     found: RealArray = 0.5 * accumulated * (law.hardening.yield_stress(q) @ weights)
     return found

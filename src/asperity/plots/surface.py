@@ -26,6 +26,7 @@ from .picture import (
     ORANGE,
     SKY,
     VERMILLION,
+    Figure,
     Plot,
     Scale,
     figures_by,
@@ -373,9 +374,14 @@ SURFACE_PLOTS = (
 """The standard figures of a surface in the order of a report."""
 
 
+def roughness_figures(found: Characterisation) -> tuple[Figure, ...]:
+    """The standard figures of a characterised surface."""
+    return figures_by(SURFACE_PLOTS, found)
+
+
 def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
     """Write the standard figures of a characterised surface as PNG into ``folder`` (made if missing).
 
     Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
     """
-    return save_pictures(figures_by(SURFACE_PLOTS, found), folder, overwrite=overwrite)
+    return save_pictures(roughness_figures(found), folder, overwrite=overwrite)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -132,7 +133,7 @@ class _Process:
             )  # of copies of processes with threads: these draw with one only
             try:
                 number = os.fork()
-            except OSError:
+            except (OSError, RuntimeError):  # no memory for it, or an interpreter within another
                 receiver.close()
                 return None
             if number == 0:
@@ -158,6 +159,7 @@ class _Process:
 
 def _draw_and_leave(figures: Sequence[Figure], numbers: _Numbers, answer: Connection) -> None:
     """All that a copy does: what it was in the middle of is the business of the process that it is a copy of."""
+    gc.freeze()  # what the process has left to be cleaned up is not of the copy
     try:
         answer.send({number: figures[number].drawing for number in numbers})
     finally:

@@ -12,8 +12,8 @@ from ..core.units import percent, show
 from ..io.description import software, surface_provenance
 from ..io.words import surface_rows
 from ..parts.part import Table
-from ..plots.picture import Figure, figures_by
-from ..plots.surface import SURFACE_PLOTS
+from ..plots.picture import Figure
+from ..plots.surface import roughness_figures
 from ..plots.together import drawing
 from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation, SpectralParameters
@@ -216,7 +216,7 @@ def write_roughness_report(
     """
     surface, power, missing = found.surface, found.spectra.power, found.surface.n_missing
     row = [("missing points", f"{missing} ({percent(missing / surface.grid.n_points)})")] if missing else []
-    source, figures = surface.origin.source, figures_by(SURFACE_PLOTS, found) if figures is None else figures
+    source, figures = surface.origin.source, roughness_figures(found) if figures is None else figures
     with drawing(figures):
         shown = scene(figures, surface.grid)
     write_page(

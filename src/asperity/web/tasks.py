@@ -26,8 +26,7 @@ from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..parts.stress import Stress, StressSettings, stress_request
-from ..plots.picture import figures_by
-from ..plots.surface import SURFACE_PLOTS
+from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
 from ..report.folder import write_run
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
@@ -142,7 +141,7 @@ def roughness(task: Task) -> dict[str, Any]:
     found = characterise(_built(task))
     out = Path(task["out"])
     out.mkdir(parents=True, exist_ok=True)
-    figures = figures_by(SURFACE_PLOTS, found)
+    figures = roughness_figures(found)
     save_pictures(figures, out, overwrite=True)
     write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from ...core.quadrature import rule
 from ..protocol import bisected
 
 
@@ -61,7 +62,7 @@ def _fall_time(m: RealArray, low: RealArray, top: RealArray, *, open_end: BoolAr
     """Time from ``low`` to ``top``. Y = middle + half sin θ takes away the roots at turning points, and the kinetic energy is taken from the
     nearer of them, without cancellation.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    nodes, weights = rule(NODES)
     start = np.where(open_end, 0.0, -0.5 * math.pi)  # without a turning point below, Y = top sin θ from θ = 0
     half = (0.25 * math.pi - 0.5 * start)[..., None]
     angle = start[..., None] + half * (nodes + 1.0)

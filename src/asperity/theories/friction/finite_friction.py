@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.quadrature import rule
 from ...core.quantity import Quantity
 from ...core.values import Length
 from ..protocol import Bound, ContactAnswer, Modulus, Theory, checked
@@ -57,7 +58,7 @@ class _Mesh:
         self.sticking = (inner.size - 1) * _NODES
         self.anchor = np.repeat([c, c, 1.0], [part.size for part in lows])
         self.middle, self.half = 0.5 * (low + high), 0.5 * (high - low)
-        self.local, self.rule = legendre.leggauss(_NODES)
+        self.local, self.rule = rule(_NODES)
         self.offset = self.middle[:, None] + self.half[:, None] * self.local
         self.x: RealArray = (self.anchor[:, None] + self.offset).ravel()
         self.weight: RealArray = (self.half[:, None] * self.rule).ravel()
@@ -85,7 +86,7 @@ class _Mesh:
         between = ~(near | far)
         found[near] = -2.0 * _second_kind(z[near]).T @ self._coefficients
         found[far] = self.rule / (self.local - z[far][:, None])
-        fine, weight = legendre.leggauss(_FINE)
+        fine, weight = rule(_FINE)
         found[between] = (weight / (fine - z[between][:, None])) @ self.values_at(fine)
         return found.reshape(self.x.size, -1)
 
