@@ -14,7 +14,8 @@ from ..core.parameters import Parameter
 from ..core.settings import COMMAND_LINE
 from ..core.values import Number, Text, Whole
 from ..io.schemas.problem import ControlTable
-from ..plots.comparison import comparison_figures, save_comparison_plots
+from ..plots.comparison import comparison_figures
+from ..plots.together import save_pictures
 from ..report.comparison import (
     comparison_sentence,
     left_out_rows,
@@ -155,7 +156,7 @@ def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> N
     save_comparison(comparison, folder / "comparison.nc")
     export_comparison_csv(comparison, folder / "comparison.csv")
     figures = comparison_figures(comparison.dataset)
-    save_comparison_plots(figures, folder / "plots")
+    save_pictures(figures, folder / "plots")
     write_comparison_report(comparison, folder / "report.html", title=document.title, figures=figures)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -30,7 +29,6 @@ from .picture import (
     png,
     scale,
 )
-from .together import save_pictures
 
 if TYPE_CHECKING:
     import xarray
@@ -165,16 +163,6 @@ def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
         curve_figure(plot.name, plot.title, plot.caption, partial(plot.draw, data), SIZE, wide=True)
         for plot in comparison_plots(data)
     )
-
-
-def save_comparison_plots(
-    figures: Iterable[Figure], folder: str | Path, *, overwrite: bool = False
-) -> tuple[Path, ...]:
-    """Write ``figures`` of a comparison as PNG into ``folder`` (made if missing) and return their paths.
-
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
-    """
-    return save_pictures(figures, folder, overwrite=overwrite)
 
 
 def _slopes(data: xarray.Dataset, name: str, label: str, ax: Axes) -> Axes:

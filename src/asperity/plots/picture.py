@@ -202,7 +202,7 @@ class Drawing:
 class Figure:
     """A figure, drawn when its picture is asked for: ``name`` of its file, ``title``, ``text`` of the caption, what draws it.
 
-    ``draw`` may be a PNG too.
+    ``draw`` may be the PNG itself.
     """
 
     name: str

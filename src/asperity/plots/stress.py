@@ -361,10 +361,10 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
     shown = plane_field(plane)  # all planes wait for their figures: without the other components
     stress, grid, look = shown.values, shown.grid, _look(QUANTITIES["von_mises"], _place(section))
-    i, j = np.unravel_index(int(stress.argmax()), stress.shape)
 
     def draw() -> Drawing:
         enlarged: list[bool] = []
+        i, j = np.unravel_index(int(stress.argmax()), stress.shape)
 
         def map_of(ax: Axes) -> Axes:
             plot_field(stress, grid, ax, look)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import gc
 import os
+import pickle
+import selectors
 import signal
 import sys
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
+from typing import BinaryIO
 
 from ..core.errors import OutputError
 from ..core.spectral import thread_count
@@ -121,16 +123,16 @@ class _Process:
     """Another process that draws."""
 
     number: int
-    answer: Connection
+    answer: BinaryIO
 
     @classmethod
     def started(cls, figures: Sequence[Figure], numbers: _Numbers) -> _Process | None:
         """A copy of this process that draws those of ``figures`` whose ``numbers`` it gets; None if the system makes none."""
-        receiver, sender = Pipe(duplex=False)
+        out, into = os.pipe()
+        receiver, sender = os.fdopen(out, "rb"), os.fdopen(into, "wb")
         with warnings.catch_warnings(), sender:
-            warnings.simplefilter(
-                "ignore", DeprecationWarning
-            )  # of copies of processes with threads: these draw with one only
+            # it warns of copies of processes with threads: these draw with one only
+            warnings.simplefilter("ignore", DeprecationWarning)
             try:
                 number = os.fork()
             except (OSError, RuntimeError):  # no memory for it, or an interpreter within another
@@ -142,9 +144,10 @@ class _Process:
 
     def delivered(self) -> dict[int, Drawing]:
         """What it has drawn, by number; nothing if it has failed or takes too long."""
-        with suppress(EOFError, OSError):
-            if self.answer.poll(PATIENCE):
-                made: dict[int, Drawing] = self.answer.recv()
+        with suppress(EOFError, OSError, pickle.UnpicklingError), selectors.DefaultSelector() as waiting:
+            waiting.register(self.answer, selectors.EVENT_READ)
+            if waiting.select(PATIENCE):
+                made: dict[int, Drawing] = pickle.load(self.answer)
                 return made
         return {}
 
@@ -157,10 +160,11 @@ class _Process:
                 os.waitpid(self.number, 0)
 
 
-def _draw_and_leave(figures: Sequence[Figure], numbers: _Numbers, answer: Connection) -> None:
+def _draw_and_leave(figures: Sequence[Figure], numbers: _Numbers, answer: BinaryIO) -> None:
     """All that a copy does: what it was in the middle of is the business of the process that it is a copy of."""
     gc.freeze()  # what the process has left to be cleaned up is not of the copy
     try:
-        answer.send({number: figures[number].drawing for number in numbers})
+        pickle.dump({number: figures[number].drawing for number in numbers}, answer)
+        answer.flush()
     finally:
         os._exit(0)

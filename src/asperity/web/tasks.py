@@ -140,7 +140,6 @@ def roughness(task: Task) -> dict[str, Any]:
     """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in the folder ``out``."""
     found = characterise(_built(task))
     out = Path(task["out"])
-    out.mkdir(parents=True, exist_ok=True)
     figures = roughness_figures(found)
     save_pictures(figures, out, overwrite=True)
     write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
