@@ -39,20 +39,23 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (solver, "_REFRESH"): [1e-3, 1e-4, 1e-7],
     (first_guess, "COARSEST"): [32, 128],
     (first_guess, "COARSE_ITERATIONS"): [3, 10, 100],
-    (first_guess, "_HIDDEN_SHARE"): [0.05, 0.1, 0.2, 1.0],
+    (first_guess, "_HIDDEN_SHARE"): [0.2, 0.5, 2.0],
     (first_guess, "_LOOSEST"): [0.01, 0.03, 0.3],
     (first_guess, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
     (first_guess, "_AREA_PER_LOAD"): [1.4, 2.4, 100.0],
     (linear_system, "_STEP_LENGTH"): [0.8, 0.9, 1.1, 1.2],
-    (spline_model, "_STEEP"): [1.0, 3.0, 1e9],
+    (spline_model, "_STEEP"): [2.0, 1e9],
     (linear_system, "_MODEL_STEPS"): [1, 3, 4],
     (linear_system, "_FIRST_STEPS"): [0, 2],
     (linear_system, "_LAST_LENGTH"): [0.7, 1.0],
     (spline_model, "_FALL"): [0.0, 0.2, 0.5],
     (spline_model, "_BEND"): [0.0, 0.12, 0.4],
-    (spline_model, "_STEEPER"): [0.0, 0.5, 0.9],
-    (spline_model, "_AHEAD"): [0, 1, 3],
-    (spline_model, "_NEAR"): [2, 4, 5],
+    (spline_model, "_STIFF"): [1.1, 3.0, 1e9],
+    (spline_model, "_STIFF_MIDDLE"): [2.0, 2.8],
+    (spline_model, "_STIFF_FALL"): [-0.3, 0.1],
+    (spline_model, "_STIFF_BEND"): [0.4, 1.0],
+    (spline_model, "_CORRECTION"): [0.0, 0.5, 1.0],
+    (spline_model, "_AHEAD"): [1, 2, 9],
     (spline_model, "_TRUST"): [1e-4, 0.01, 0.05],
     (cpu, "SQUARE_SIDE"): [8, 32, 64],
     (position, "TARGET_ERROR"): [1e-11, 1e-7],
@@ -71,7 +74,14 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
 }
 
 
-FOR_VERY_STIFF_FILMS = ("_MOST_UNSUCCESSFUL", "_MOST_REFINEMENTS", "_CLOSER", "_CLOSER_DOUBLINGS")
+FOR_VERY_STIFF_FILMS = (
+    "_STEEP",
+    "_MODEL_STEPS",
+    "_MOST_UNSUCCESSFUL",
+    "_MOST_REFINEMENTS",
+    "_CLOSER",
+    "_CLOSER_DOUBLINGS",
+)
 """Constants that bear on them alone."""
 
 Case = tuple[str, asp.ContactProblem, Any, asp.solvers.ActiveSet]

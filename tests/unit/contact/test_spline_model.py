@@ -99,17 +99,18 @@ def test_the_model_is_near_the_compliance_on_any_set(
     case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.Boundary], share: float
 ) -> None:
     """Deflections are within a factor 1.2 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
-    of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The
-    inverse is symmetric and positive definite, and within a factor 2.6 of one multiple of the true one, 4.2 with the film of E 10."""
+    of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The inverse is positive definite, symmetric but for a tenth where
+    row sums are corrected, and within a factor 2.6 of one multiple of the true one."""
     compliance, shape, spacing, boundary = case
     points = np.random.default_rng(3).permutation(shape[0] * shape[1])[: max(int(share * shape[0] * shape[1]), 4)]
     inside = np.zeros(shape)
     inside.reshape(-1)[points] = 1.0
     scaled, free = on_set(inside, compliance, boundary, spacing=spacing)
     found = dense(scaled, free, inside)
-    np.testing.assert_allclose(found["M"], found["M"].T, atol=1e-12 * np.abs(found["M"]).max())
+    crooked = np.linalg.norm(found["M"] - found["M"].T, 2) / np.linalg.norm(found["M"], 2)
+    assert crooked <= (0.1 if scaled.modelled.model.corrections else 1e-12)
     np.testing.assert_allclose(found["B"], found["B"].T, atol=1e-12 * np.abs(found["B"]).max())
-    assert np.linalg.eigvalsh(found["M"])[0] > 0.0
+    assert np.linalg.eigvalsh(found["M"] + found["M"].T)[0] > 0.0
     ratios = eigh(found["K"], found["B"], eigvals_only=True)
     plain = max(spacing) == 1.0 < min(shape) and (boundary == asp.Free() or not any(n % 2 for n in shape))
     gentle = scaled.modelled.steepness <= 1.5
@@ -118,7 +119,7 @@ def test_the_model_is_near_the_compliance_on_any_set(
     assert ratios[-1] <= wide
     whole = np.linalg.eigvals(found["M"] @ found["K"]).real
     assert whole.min() > 0.0
-    assert whole.max() / whole.min() < (2.6 if gentle else 4.2)
+    assert whole.max() / whole.min() < 2.6
 
 
 @pytest.mark.parametrize("compliance", [BODY, film(10.0, 2.0), film(10.0, 40.0), film(0.1, 2.0)])
@@ -209,13 +210,22 @@ def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.B
     assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, film(ratio, thickness), boundary) <= 9.0
 
 
-def test_steps_on_the_model_spare_products_on_stiff_films(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The inverse of the model as it is, and the same refined by conjugate gradients on the model: 11 products for 8 (E 10), 14 for 10 (E 30)."""
+@pytest.mark.parametrize(
+    ("constant", "films"),
+    [("_STIFF", [(10.0, 4.0), (30.0, 4.0), (10.0, 20.0)]), ("_STEEP", [(100.0, 2.0), (100.0, 1.0)])],
+    ids=["corrected row sums", "steps on the model"],
+)
+def test_products_are_spared_on_stiff_films(
+    constant: str, films: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By an inverse whose row sums are corrected: 7, 10 and 7 products for 14, 21 and 10. On very stiff films by conjugate gradients on the model besides: 7 and 10 for 16 and 22."""
     inside = rough_set((128, 128), 0.2, 7)
-    refined = [steps_to(inside, 1e-6, film(ratio)) for ratio in (10.0, 30.0)]
-    monkeypatch.setattr("asperity.contact.solvers.active_set.spline_model._STEEP", np.inf)
-    plain = [steps_to(inside, 1e-6, film(ratio)) for ratio in (10.0, 30.0)]
-    assert all(fewer <= 0.75 * more for fewer, more in zip(refined, plain, strict=True))
+    better = [steps_to(inside, 1e-6, film(*of)) for of in films]
+    monkeypatch.setattr(spline_model, constant, np.inf)
+    spline_model._fit.cache_clear()
+    plain = [steps_to(inside, 1e-6, film(*of)) for of in films]
+    spline_model._fit.cache_clear()
+    assert all(fewer <= 0.75 * more for fewer, more in zip(better, plain, strict=True))
 
 
 def test_products_with_the_model_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:

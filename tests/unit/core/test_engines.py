@@ -488,8 +488,8 @@ def splines(shape: tuple[int, int], wraps: tuple[bool, bool], merges: tuple[tupl
         (1.0, 0.3 * x, 0.2 * y, 0.1 * x * y),
         rises,
         1.7,
-        (0.3 * x, 0.2 * y),
-        (0.25 * x, 0.15 * y),
+        (0.3 * x, -0.2 * y),
+        (0.25 * x, 0.9 * y),
     )
 
 
@@ -570,12 +570,53 @@ def compliance_matrix(shape: tuple[int, int], model: SplineModel) -> RealArray:
     return found
 
 
+def overlap_matrix(sizes: tuple[int, ...], wraps: tuple[bool, bool], passed: RealArray) -> RealArray:
+    """Row sums of the products of B-splines less the products, of parts that pass up the same between the middles of neighbouring cells: their mean there."""
+    cells = [parts_matrix(n, wrap).shape[1] for n, wrap in zip(sizes, wraps, strict=True)]
+    found, values = np.zeros((math.prod(cells), math.prod(cells))), passed.reshape(sizes)
+    products = np.array([[0.625, 0.375], [0.375, 0.625]])
+    missing = np.eye(4) - np.kron(products, products)
+    for block in np.ndindex(*cells):
+        corners, parts = [], []
+        for first, number, n, wrap in zip(block, cells, sizes, wraps, strict=True):
+            second = (first + 1) % number if wrap else first + 1
+            corners.append((first, second) if second < number else ())
+            after = 2 * second if wrap else 2 * first
+            parts.append([part for part in (2 * first + (1 if wrap else -1), after) if 0 <= part < n])
+        if all(corners):
+            mean = 0.25 * values[np.ix_(*parts)].sum()
+            at = [i * cells[1] + j for i in corners[0] for j in corners[1]]
+            for i, row in zip(at, missing, strict=True):
+                np.add.at(found[i], at, mean * row)
+    return found
+
+
 def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray) -> RealArray:
-    """The recursion with row sums, level by level as dense matrices, and the local stiffness; on the points of the set."""
+    """The recursion with row sums, level by level as dense matrices, between local stiffnesses; on the points of the set."""
     member = inside.ravel().astype(float)
+    local = np.eye(member.size)
+    for axis, (x, y) in enumerate(((1, 0), (0, 1))):
+        for sign in (1, -1):
+            near, far = (moved(shape, model, step * sign * x, step * sign * y) for step in (1, 2))
+            neighbours = member[:, None] * near * member
+            local += 0.25 * model.fall[axis] * (np.diag(neighbours.sum(axis=1)) - neighbours)
+            local += model.bend[axis] / 16.0 * (3.0 * np.eye(member.size) - 4.0 * near + far)
+    alone = np.diag(local)
+    together = alone + (local - np.diag(alone)) @ member if model.corrections else np.ones(member.size)
     levels, unit, g = levels_of(shape, model), member, []
-    for weight, parts in zip(model.inverse_weights, levels, strict=True):
+    sizes, corrections = shape, []
+    shares = model.corrections or (0.0,) * len(levels)
+    for weight, parts, merge, share in zip(model.inverse_weights, levels, model.merges, shares, strict=True):
         sums = parts.T @ unit
+        correction = np.eye(sums.size)
+        if all(merge) and share:
+            per = np.divide(1.0, sums, out=np.zeros_like(sums), where=sums > 0.0)
+            correction += share * per[:, None] * overlap_matrix(sizes, model.wraps, unit)
+        corrections.append(correction)
+        sizes = tuple(
+            parts_matrix(n, wrap).shape[1] if pairs else n
+            for n, wrap, pairs in zip(sizes, model.wraps, merge, strict=True)
+        )
         g.append(1.0 / (1.0 + weight * sums))
         unit = g[-1] * sums
     above: RealArray = np.zeros(())
@@ -583,15 +624,8 @@ def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray
         own = np.diag(g[depth] * model.inverse_weights[depth])
         if depth + 1 < len(levels):
             own += np.diag(g[depth]) @ levels[depth + 1] @ above @ levels[depth + 1].T @ np.diag(g[depth])
-        above = own
-    found = np.eye(member.size) - levels[0] @ above @ levels[0].T
-    for axis, (x, y) in enumerate(((1, 0), (0, 1))):
-        for sign in (1, -1):
-            neighbours = member[:, None] * moved(shape, model, sign * x, sign * y) * member
-            found += 0.25 * model.fall[axis] * (np.diag(neighbours.sum(axis=1)) - neighbours)
-            far = moved(shape, model, 2 * sign * x, 2 * sign * y)
-            near = moved(shape, model, sign * x, sign * y)
-            found += model.bend[axis] / 16.0 * (3.0 * np.eye(member.size) - 4.0 * near + far)
+        above = corrections[depth] @ own
+    found = local - together[:, None] * (levels[0] @ above @ levels[0].T)
     chosen = np.flatnonzero(member)
     inverse: RealArray = model.stiffness * found[np.ix_(chosen, chosen)]
     return inverse
@@ -599,10 +633,11 @@ def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray
 
 @functools.cache
 def inverse_on(shape: tuple[int, int], model: SplineModel, inside: bytes) -> RealArray:
-    """The same for a set given by its bytes, made and checked once for all engines and types: symmetric and positive definite."""
+    """The same for a set given by its bytes, made and checked once for all engines and types: positive definite, and symmetric but for the correction."""
     inverse = inverse_matrix(shape, model, np.frombuffer(inside, bool).reshape(shape))
-    np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
-    assert inverse.size == 0 or np.linalg.eigvalsh(inverse)[0] > 0.0
+    if not model.corrections:
+        np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
+    assert inverse.size == 0 or np.linalg.eigvalsh(inverse + inverse.T)[0] > 0.0
     return inverse
 
 
@@ -633,15 +668,20 @@ SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 30)]
     ],
 )
 @pytest.mark.parametrize("wraps", WRAPS, ids=["round", "free", "strip"])
+@pytest.mark.parametrize(
+    "corrections",
+    [(), (0.65, 0.5, 0.6, 0.4), (0.0, 0.65, 0.5, 0.6)],
+    ids=["plain", "corrected", "from the second level"],
+)
 @every_type
 def test_nested_splines_are_those_of_dense_matrices(
-    engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool], dtype: str
+    engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool], corrections: tuple[float, ...], dtype: str
 ) -> None:
-    """Products, prediction and inverse, which is symmetric and positive definite; the same buffers for one set after the other."""
+    """Products, prediction and inverse, which is positive definite; the same buffers for one set after the other."""
     rng, clear = np.random.default_rng(shape), engine.zeros(shape, dtype)
     for merges in (BOTH, FIRST_Y):
         merges = tuple((x and shape[0] > 1, y and shape[1] > 1) for x, y in merges)
-        model = splines(shape, wraps, merges)
+        model = replace(splines(shape, wraps, merges), corrections=corrections)
         prepared, dense = engine.splines(shape, model, dtype), compliance_matrix(shape, model)
 
         def on_points(free: Any, vector: Any) -> RealArray:
@@ -802,7 +842,8 @@ def test_large_levels_of_a_gpu_have_kernels_of_their_own(
     """One block goes up and down the small levels; with fewer of them the answer is the same."""
     monkeypatch.setattr(gpu_engine, "_TURNING", 4)
     for wraps in WRAPS:
-        test_nested_splines_are_those_of_dense_matrices(EmulatedGpu(), shape, wraps, dtype)
+        for corrections in ((), (0.65, 0.5, 0.6, 0.4)):
+            test_nested_splines_are_those_of_dense_matrices(EmulatedGpu(), shape, wraps, corrections, dtype)
 
 
 @functools.cache

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..errors import InputError
+from .array_splines import ArraySplines, part_of, spread_over
 from .protocol import (
     NEAR_CAP,
     SQUARE_SIDE,
@@ -26,7 +27,6 @@ from .protocol import (
     Totals,
     Unclipped,
     Violation,
-    cells_of,
 )
 
 # An array-API library with the few operations that depend on the device.
@@ -236,139 +236,6 @@ class _ArrayFreeSet:
         return self.library.xp.sum(values, dtype=self.library.xp.float64)
 
 
-# Nested splines of the array-API engine: whole arrays per level (see ``splines`` for the algorithm).
-
-
-class _ArraySplines:
-    """Compliance of nested splines and its inverse on a free set."""
-
-    def __init__(self, library: Library, model: SplineModel, dtype: str) -> None:
-        self._library, self._model = library, model
-        self._dtype = dtype
-        self._factors: list[Any] = []
-        self._count: Any = None
-
-    def factorise(self, free: FreeSet) -> None:
-        """g of all cells, and the local stiffness of every point of ``free`` by its neighbours."""
-        assert isinstance(free, _ArrayFreeSet)
-        passed = unit = self._library.xp.astype(free.inside, getattr(self._library.xp, self._dtype))
-        self._factors = []
-        for merge, weight in zip(self._model.merges, self._model.inverse_weights, strict=True):
-            sums = self._summed(passed, merge)
-            self._factors.append(1.0 / (1.0 + weight * sums))
-            passed = self._factors[-1] * sums
-        self._count = self._around(unit, tuple(0.25 * fall for fall in self._model.fall))
-
-    def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
-        assert isinstance(free, _ArrayFreeSet)
-        model = self._model
-        nearest = tuple(-0.25 * (fall + bend) for fall, bend in zip(model.fall, model.bend, strict=True))
-        z = (1.0 + 0.375 * sum(model.bend) + self._count) * r + self._around(r, nearest)
-        z = z + self._around(r, tuple(0.0625 * bend for bend in model.bend), distance=2)
-        z = z - self._deflection(r, model.inverse_weights, self._factors, ((False, False),) * len(model.merges))
-        return free.products(self._library.select(free.inside, model.stiffness * z), r, other)
-
-    def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
-        assert isinstance(free, _ArrayFreeSet)
-        return free.products(self._library.select(free.inside, self._deflected(t)), t, other)
-
-    def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any) -> Any:
-        assert isinstance(free, _ArrayFreeSet)
-        return r - self._library.select(free.inside, self._deflected(change))
-
-    def _deflected(self, load: Any) -> Any:
-        """Deflection of all points under the ``load``."""
-        (point, x, y, diagonal), model = self._model.own, self._model
-        rows = self._moved(load, 0, 1) + self._moved(load, 0, -1)
-        found = point * load + 0.5 * x * rows + 0.5 * y * (self._moved(load, 1, 1) + self._moved(load, 1, -1))
-        found = found + 0.25 * diagonal * (self._moved(rows, 1, 1) + self._moved(rows, 1, -1))
-        return found + self._deflection(load, model.weights, [1.0] * len(model.merges), model.averages)
-
-    def _around(self, values: Any, factors: tuple[float, ...], distance: int = 1) -> Any:
-        """Values at this distance along x and y, times the ``factors``."""
-        x, y = (self._moved(values, axis, distance) + self._moved(values, axis, -distance) for axis in (0, 1))
-        return factors[0] * x + factors[1] * y
-
-    def _moved(self, values: Any, axis: int, places: int) -> Any:
-        """``values`` moved along the axis; zero comes from beyond the rim where it does not wrap."""
-        xp, n = self._library.xp, values.shape[axis]
-        if self._model.wraps[axis]:
-            return xp.roll(values, places, axis=axis)
-        kept, none = max(n - abs(places), 0), self._zeros(values, axis, min(abs(places), n))
-        if places > 0:
-            return xp.concat([none, _part(values, axis, 0, kept)], axis=axis)
-        return xp.concat([_part(values, axis, n - kept, n), none], axis=axis)
-
-    def _deflection(
-        self, load: Any, weights: tuple[float, ...], factors: list[Any], averages: tuple[tuple[bool, bool], ...]
-    ) -> Any:
-        """Deflection of all points by the cells, of these ``weights`` and factors g, under the ``load``, averaged over neighbouring cells along the axes of ``averages``."""
-        passed, shapes, levels = load, [], list(zip(self._model.merges, weights, factors, averages, strict=True))
-        sums = []
-        for merge, _, g, _ in levels:
-            shapes.append(passed.shape)
-            passed = g * self._summed(passed, merge)
-            sums.append(passed)
-        deflection = self._library.xp.zeros_like(passed)
-        for level, total, shape in zip(reversed(levels), reversed(sums), reversed(shapes), strict=True):
-            merge, weight, g, average = level
-            for axis in (axis for axis in (0, 1) if average[axis]):
-                total = 0.5 * total + 0.25 * (self._moved(total, axis, 1) + self._moved(total, axis, -1))
-            deflection = self._spread(weight * total + g * deflection, merge, shape)
-        return deflection
-
-    def _summed(self, values: Any, merge: tuple[bool, bool]) -> Any:
-        """Sums over the parts of every cell."""
-        xp = self._library.xp
-        for axis in (axis for axis in (0, 1) if merge[axis]):
-            n = values.shape[axis]
-            values = xp.concat([values, self._zeros(values, axis, n % 2)], axis=axis)
-            even, odd = _halves(values, axis)
-            if self._model.wraps[axis]:
-                next_, before = xp.roll(even, -1, axis=axis), xp.roll(odd, 1, axis=axis)
-            else:  # one more cell at either end, of which an odd number of parts does not reach the last
-                rim, cells = self._zeros(values, axis, 1), cells_of(n, wraps=False)
-                shifted = ([rim, even, rim], [rim, odd, rim], [even, rim, rim], [rim, rim, odd])
-                even, odd, next_, before = (_part(xp.concat(part, axis=axis), axis, 0, cells) for part in shifted)
-            values = 0.75 * (even + odd) + 0.25 * (next_ + before)
-        return values
-
-    def _spread(self, values: Any, merge: tuple[bool, bool], shape: tuple[int, int]) -> Any:
-        """Values of the cells at their parts, which are of ``shape``."""
-        xp = self._library.xp
-        for axis in (axis for axis in (0, 1) if merge[axis]):
-            n = (shape[axis] + 1) // 2
-            if self._model.wraps[axis]:
-                own, before, next_ = values, xp.roll(values, 1, axis=axis), xp.roll(values, -1, axis=axis)
-            else:
-                values = xp.concat([values, self._zeros(values, axis, 1)], axis=axis)
-                own, before, next_ = (_part(values, axis, k, k + n) for k in (1, 0, 2))
-            values = _parts(xp, axis, own, before, next_, shape[axis])
-        return values
-
-    def _zeros(self, values: Any, axis: int, width: int) -> Any:
-        shape = (width, values.shape[1]) if axis == 0 else (values.shape[0], width)
-        return self._library.zeros(shape, self._dtype)
-
-
-def _part(values: Any, axis: int, first: int, end: int) -> Any:
-    """Part of ``values`` along the axis."""
-    return values[first:end, :] if axis == 0 else values[:, first:end]
-
-
-def _parts(xp: Any, axis: int, own: Any, before: Any, after: Any, length: int) -> Any:
-    """Values at the two parts of every cell along the axis, up to this ``length``: three quarters of the cell's and a quarter of those of the nearer neighbour."""
-    pairs = xp.stack([0.75 * own + 0.25 * before, 0.75 * own + 0.25 * after], axis=axis + 1)
-    wide = [*own.shape]
-    wide[axis] *= 2
-    return _part(xp.reshape(pairs, tuple(wide)), axis, 0, length)
-
-
-def _halves(values: Any, axis: int) -> tuple[Any, Any]:
-    """Every other one of ``values`` along the axis, and the others."""
-    return (values[::2, :], values[1::2, :]) if axis == 0 else (values[:, ::2], values[:, 1::2])
-
-
 # Survey of an iterate of the array-API engine.
 
 
@@ -508,7 +375,7 @@ class ArrayEngine:
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines."""
-        return _ArraySplines(self._library, model, dtype)
+        return ArraySplines(self._library, model, dtype)
 
     def prolonged(self, coarse: Any, coarse_heights: RealArray, heights: RealArray, stiffness: float) -> Any:
         """Pressure on the points of ``heights`` from a coarser one."""
@@ -526,11 +393,11 @@ class ArrayEngine:
         xp, values = self._library.xp, self.array(coarse, "float64")
         for axis in (0, 1):
             n = values.shape[axis]
-            first, last = _part(values, axis, 0, 1), _part(values, axis, n - 1, n)
+            first, last = part_of(values, axis, 0, 1), part_of(values, axis, n - 1, n)
             before, after = (last, first) if wraps[axis] else (first, last)
-            before = xp.concat([before, _part(values, axis, 0, n - 1)], axis=axis)
-            after = xp.concat([_part(values, axis, 1, n), after], axis=axis)
-            values = _parts(xp, axis, values, before, after, shape[axis])
+            before = xp.concat([before, part_of(values, axis, 0, n - 1)], axis=axis)
+            after = xp.concat([part_of(values, axis, 1, n), after], axis=axis)
+            values = spread_over(xp, axis, values, before, after, shape[axis])
         return self.numpy(values)
 
     def survey(self, p: Any, u: Any, h: Any, cap: Any) -> Survey:

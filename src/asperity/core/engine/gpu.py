@@ -225,17 +225,45 @@ class _GpuSplines:
             for weights in (cupy.asarray(np.array(given)) for given in (model.weights, model.inverse_weights))
         )
         self._sums, self._factors, self._deflections = (cupy.empty(begin, dtype) for _ in range(3))
+        self._corrections = [
+            share if merges_x and merges_y else 0.0
+            for share, (merges_x, merges_y) in zip(model.corrections, model.merges, strict=False)
+        ]
+        self._together = cupy.empty(levels[0][:2] if model.corrections else (1, 1), dtype)
+        self._mean, self._per, self._raw = (cupy.empty(begin if model.corrections else 1, dtype) for _ in range(3))
         self._dtype = dtype
 
     def factorise(self, free: FreeSet) -> None:
-        """g of all cells for the points of ``free``."""
+        """g of all cells for the points of ``free``, and what the correction takes."""
         assert isinstance(free, _GpuFreeSet)
-        self._sweep(_FACTORISE, self._inverse, free.inside.astype(self._dtype))
+        points = free.inside.astype(self._dtype)
+        self._sweep(_FACTORISE, self._inverse, points)
+        if not self._corrections:
+            return
+        arguments = (self._levels[0], *self._wraps, self._local, free.inside, self._together)
+        self._passes.run("local_stiffness", self._points, *arguments)
+        for level, share in enumerate(self._corrections):
+            if share:
+                fields = (share, points, self._sums, self._factors, self._mean, self._per)
+                self._passes.run("overlap", self._cells[level], self._levels[level], *self._wraps, *fields)
 
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _GpuFreeSet)
-        self._sweep(_INVERT, self._inverse, r)
-        arguments = (self._levels[0], *self._wraps, self._local, self._deflections, free.inside, r, other, out)
+        if self._corrections:
+            self._sweep_corrected(r)
+        else:
+            self._sweep(_INVERT, self._inverse, r)
+        fields = (
+            int(bool(self._corrections)),
+            self._local,
+            self._deflections,
+            free.inside,
+            self._together,
+            r,
+            other,
+            out,
+        )
+        arguments = (self._levels[0], *self._wraps, *fields)
         return Products(out, *self._passes.totals("invert_points", self._points, 3, *arguments))
 
     def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
@@ -263,7 +291,20 @@ class _GpuSplines:
         if way == _FACTORISE:
             return
         for level in reversed(range(turn)):
-            run("fall", self._cells[level], self._levels[level], way, *self._wraps, weights[level], *memory)
+            arguments = (0, way, *self._wraps, weights[level], *memory, self._deflections)
+            run("fall", self._cells[level], self._levels[level], *arguments)
+
+    def _sweep_corrected(self, points: Any) -> None:
+        """Up all levels from the ``points``, and down again with the correction for row sums."""
+        run, weights, memory = self._passes.run, self._inverse, (self._sums, self._factors)
+        for level, cells in enumerate(self._cells):
+            run("rise", cells, self._levels[level], _INVERT, *self._wraps, weights[level], points, *memory)
+        for level in reversed(range(len(self._cells))):
+            cells, at, share = self._cells[level], self._levels[level], self._corrections[level]
+            last, target = int(level + 1 == len(self._cells)), self._raw if share else self._deflections
+            run("fall", cells, at, last, _INVERT, *self._wraps, weights[level], *memory, self._deflections, target)
+            if share:
+                run("corrected", cells, at, *self._wraps, self._mean, self._per, self._raw, self._deflections)
 
 
 _INVERT, _DEFLECT, _FACTORISE = range(3)

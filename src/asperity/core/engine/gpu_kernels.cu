@@ -435,7 +435,7 @@ __device__ scalar averaged(const scalar *sums, const Level *level, int wraps_x, 
 // Deflection w S + g d of a cell by the sums S of its level, or w times their average + d; d is the deflection by the levels above (none above the last).
 __device__ void fall_to(
     const Level *level, int last, int way, int wraps_x, int wraps_y, double weight, const scalar *sums,
-    const scalar *factors, scalar *cells, place cell) {
+    const scalar *factors, const scalar *cells, scalar *target, place cell) {
     int i = cell / (place)level->cells_y, j = cell % (place)level->cells_y;
     scalar above = (scalar)0;
     if (!last) {
@@ -444,7 +444,7 @@ __device__ void fall_to(
         if (way == INVERT) above *= factors[level->cells + cell];
     }
     scalar own = way == INVERT ? sums[level->cells + cell] : averaged(sums + level->cells, level, wraps_x, wraps_y, i, j);
-    cells[level->cells + cell] = (scalar)weight * own + above;
+    target[level->cells + cell] = (scalar)weight * own + above;
 }
 
 extern "C" __global__ void rise(
@@ -454,11 +454,55 @@ extern "C" __global__ void rise(
         rise_to(level, way, wraps_x, wraps_y, *weight, points, sums, factors, cell);
 }
 
+// Deflections of the cells of a level, left in ``target``, by those of the level above in ``cells``; of the ``last`` level there are none above.
 extern "C" __global__ void fall(
-    const Level *level, whole way, whole wraps_x, whole wraps_y, const double *weight, const scalar *sums,
-    const scalar *factors, scalar *cells) {
+    const Level *level, whole last, whole way, whole wraps_x, whole wraps_y, const double *weight, const scalar *sums,
+    const scalar *factors, const scalar *cells, scalar *target) {
     EACH(cell, (place)level->cells_x * level->cells_y)
-        fall_to(level, 0, way, wraps_x, wraps_y, *weight, sums, factors, cells, cell);
+        fall_to(level, last, way, wraps_x, wraps_y, *weight, sums, factors, cells, target, cell);
+}
+
+// What the correction for row sums takes of a level: the mean of what the four parts between the middles of each cell and those after it pass up, and ``share`` over its sum.
+extern "C" __global__ void overlap(
+    const Level *level, whole wraps_x, whole wraps_y, double share, const scalar *points, const scalar *sums,
+    const scalar *factors, scalar *mean, scalar *per) {
+    const scalar *parts = level->parts < 0 ? points : sums + level->parts;
+    EACH(cell, (place)level->cells_x * level->cells_y) {
+        int first_x = 2 * (int)(cell / (place)level->cells_y) + (wraps_x ? 1 : -1);
+        int first_y = 2 * (int)(cell % (place)level->cells_y) + (wraps_y ? 1 : -1);
+        scalar sum = (scalar)0;
+        for (int a = 0; a < 2; a++)
+            for (int b = 0; b < 2; b++) {
+                int x = part_at(first_x + a, level->nx, 2 * level->cells_x, wraps_x);
+                int y = part_at(first_y + b, level->ny, 2 * level->cells_y, wraps_y);
+                if (x >= 0 && y >= 0) sum += parts[(place)x * level->ny + y];
+            }
+        place k = level->cells + cell;
+        mean[k] = (scalar)0.25 * sum;
+        per[k] = (scalar)share * factors[k] / (sums[k] + (scalar)1e-30);
+    }
+}
+
+// ``cells`` = raw + per H raw on a level, H being what row sums of the products of B-splines exceed these by.
+extern "C" __global__ void corrected(
+    const Level *level, whole wraps_x, whole wraps_y, const scalar *mean, const scalar *per, const scalar *raw,
+    scalar *cells) {
+    int nx = level->cells_x, ny = level->cells_y;
+    const scalar *values = raw + level->cells;
+    EACH(cell, (place)nx * ny) {
+        int i = cell / (place)ny, j = cell % (place)ny;
+        scalar missing = (scalar)0, own = values[cell];
+        for (int a = -1; a <= 1; a += 2)
+            for (int b = -1; b <= 1; b += 2) {
+                int x = part_at(i + a, nx, nx, wraps_x), y = part_at(j + b, ny, ny, wraps_y);
+                if (x < 0 || y < 0) continue;
+                place block = (place)(a < 0 ? x : i) * ny + (b < 0 ? y : j);
+                scalar beside = values[(place)x * ny + j] + values[(place)i * ny + y];
+                missing += mean[level->cells + block] * ((scalar)0.609375 * own - (scalar)0.234375 * beside
+                                                         - (scalar)0.140625 * values[(place)x * ny + y]);
+            }
+        cells[level->cells + cell] = own + per[level->cells + cell] * missing;
+    }
 }
 
 // Up and down the last ``number`` levels, which are small, in a single block.
@@ -472,7 +516,7 @@ extern "C" __global__ void turn(
     }
     for (int l = (int)number - 1; l >= 0 && way != FACTORISE; l--) {
         for (place cell = threadIdx.x; cell < (place)levels[l].cells_x * levels[l].cells_y; cell += blockDim.x)
-            fall_to(levels + l, l == number - 1, way, wraps_x, wraps_y, weights[l], sums, factors, cells, cell);
+            fall_to(levels + l, l == number - 1, way, wraps_x, wraps_y, weights[l], sums, factors, cells, cells, cell);
         __syncthreads();
     }
 }
@@ -488,26 +532,42 @@ struct Local {
     double own[4], stiffness, fall[2], bend[2];
 };
 
-// z = inverse times r on the set, with its sum and its products with r and ``other``.
+// Entry of the local stiffness of point (i, j) without its neighbours, those of the nearest points, and those at twice the distance, along x and y.
+__device__ scalar alone(const Level *level, int wraps_x, int wraps_y, const Local *local, const flag *inside, int i, int j) {
+    scalar members_x = AT(inside, i - 1, j) + AT(inside, i + 1, j);
+    scalar members_y = AT(inside, i, j - 1) + AT(inside, i, j + 1);
+    return (scalar)(1.0 + 0.375 * (local->bend[0] + local->bend[1]))
+           + (scalar)(0.25 * local->fall[0]) * members_x + (scalar)(0.25 * local->fall[1]) * members_y;
+}
+
+#define BESIDE(values, i, j) \
+    ((level->nx > 1 ? (scalar)(-0.25 * (local->fall[0] + local->bend[0])) * (AT(values, i - 1, j) + AT(values, i + 1, j)) \
+                          + (scalar)(0.0625 * local->bend[0]) * (AT(values, i - 2, j) + AT(values, i + 2, j)) \
+                    : (scalar)0) \
+     + (level->ny > 1 ? (scalar)(-0.25 * (local->fall[1] + local->bend[1])) * (AT(values, i, j - 1) + AT(values, i, j + 1)) \
+                            + (scalar)(0.0625 * local->bend[1]) * (AT(values, i, j - 2) + AT(values, i, j + 2)) \
+                      : (scalar)0))
+
+// Sum of the row of the local stiffness of every point of the set, zero elsewhere.
+extern "C" __global__ void local_stiffness(
+    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const flag *inside, scalar *together) {
+    EACH(k, (place)level->nx * level->ny) {
+        int i = k / (place)level->ny, j = k % (place)level->ny;
+        together[k] = inside[k] ? alone(level, wraps_x, wraps_y, local, inside, i, j) + BESIDE(inside, i, j) : (scalar)0;
+    }
+}
+
+// z = inverse times r on the set, with its sum and its products with r and ``other``; if ``sums``, the cells count by the row sums ``together``.
 extern "C" __global__ void invert_points(
-    const Level *level, whole wraps_x, whole wraps_y, const Local *local, const scalar *cells, const flag *inside,
-    const scalar *r, const scalar *other, scalar *out, double *partial) {
+    const Level *level, whole wraps_x, whole wraps_y, whole sums, const Local *local, const scalar *cells,
+    const flag *inside, const scalar *together, const scalar *r, const scalar *other, scalar *out, double *partial) {
     double products[3] = {0.0, 0.0, 0.0};
     EACH(k, (place)level->nx * level->ny) {
         scalar z = (scalar)0;
         if (inside[k]) {
             int i = k / (place)level->ny, j = k % (place)level->ny;
-            scalar members_x = AT(inside, i - 1, j) + AT(inside, i + 1, j);
-            scalar members_y = AT(inside, i, j - 1) + AT(inside, i, j + 1);
-            scalar alone = (scalar)(1.0 + 0.375 * (local->bend[0] + local->bend[1]));
-            alone += (scalar)(0.25 * local->fall[0]) * members_x + (scalar)(0.25 * local->fall[1]) * members_y;
-            z = alone * r[k] - by_cells(cells, level, wraps_x, wraps_y, i, j);
-            if (level->nx > 1)
-                z += (scalar)(-0.25 * (local->fall[0] + local->bend[0])) * (AT(r, i - 1, j) + AT(r, i + 1, j))
-                     + (scalar)(0.0625 * local->bend[0]) * (AT(r, i - 2, j) + AT(r, i + 2, j));
-            if (level->ny > 1)
-                z += (scalar)(-0.25 * (local->fall[1] + local->bend[1])) * (AT(r, i, j - 1) + AT(r, i, j + 1))
-                     + (scalar)(0.0625 * local->bend[1]) * (AT(r, i, j - 2) + AT(r, i, j + 2));
+            z = alone(level, wraps_x, wraps_y, local, inside, i, j) * r[k] + BESIDE(r, i, j)
+                - (sums ? together[k] : (scalar)1) * by_cells(cells, level, wraps_x, wraps_y, i, j);
             z *= (scalar)local->stiffness;
         }
         out[k] = z;

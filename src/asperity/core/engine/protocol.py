@@ -110,9 +110,12 @@ class SplineModel:
     inverse_weights
         w of each level for the inverse, over the deflection of a point under its own load.
     stiffness
-        Load for a unit deflection of a single point.
+        Load for a unit deflection of a single point, without the cells.
     fall, bend
         Share of it for the differences from the neighbours in the set, and for the curvature, along x and y.
+    corrections
+        Shares, level by level, in which the inverse makes up for what row sums of the products of B-splines exceed these by: zero up to some level, and where there are any
+        points count by the row sums of the local stiffness. None for no level.
     """
 
     wraps: tuple[bool, bool]
@@ -124,6 +127,7 @@ class SplineModel:
     stiffness: float
     fall: tuple[float, float]
     bend: tuple[float, float]
+    corrections: tuple[float, ...] = ()
 
 
 class Convolution(Protocol):
@@ -218,7 +222,7 @@ class FreeSet(Protocol):
 
 
 class Splines(Protocol):
-    """A compliance of nested splines B and its approximate inverse, symmetric and positive definite, on a free set."""
+    """A compliance of nested splines B and its approximate inverse, positive definite and but for corrections symmetric, on a free set."""
 
     def factorise(self, free: FreeSet) -> None:
         """Prepare the inverse for the points of ``free``."""

@@ -5,9 +5,9 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 5.9, 6.7, 20.6, 6.0, 12.5 and 8.0 pairs; cases that
+elastic, 256², every iterate within its bounds. The constants as they are take 5.8, 6.2, 20.8, 6.0, 12.4 and 7.9 pairs; cases that
 are not named differ from these by 0.3 at most (*free*: 0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that bear on
-them alone; 58.9 pairs.
+them alone; 33.2 pairs. Constants of this module and ``bounds`` that bear on the other kinds were last varied when *film* took 6.7 pairs, the others within 0.2 of these.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
 _CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
-"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 58.7, 63.6; for 1 and 3 doublings: the same."""
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 34.6, 36.0; for 1 and 3 doublings: the same."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
 """Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.4; for 0.2 and 0.3: tight 13.2; for 3, 5, 12 steps the same."""
@@ -136,11 +136,11 @@ take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a 
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 60.6, 56.4, 60.4."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 39.1, 36.9, 32.4."""
 
 _MOST_REFINEMENTS = 3
 """How often they may fail before steps are clipped. A set that follows the errors of loosely solved systems goes in circles on films so stiff that pressures change sign within
-a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 304, 115, 58.9, 58.9."""
+a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 216, 34.7, 36.2, 34.7."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single

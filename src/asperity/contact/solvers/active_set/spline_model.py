@@ -17,6 +17,9 @@ that is
 with f_l the spectrum of the B-splines of level l and s_l = 1 + sum of w N up to it (N points a cell). Row sums are not less than the products, so that M
 is positive definite on any set. Differences between neighbours in the set, and curvatures, add a local stiffness. The eigenvalues of M K lie within a factor
 of 1.5 on half-spaces, whatever the set.
+
+Where c(q) q rises, as that of stiff films does at waves longer than they are thick, what row sums leave of such waves counts for too much. There d is corrected at each level by c H d / T, H being
+what the row sums T exceed the products by, a Laplacian between neighbouring cells, and the deflection P d of the points counts by the row sums of their local stiffness. M is not quite symmetric then.
 """
 
 from __future__ import annotations
@@ -196,48 +199,52 @@ _TRUST = 0.001
 for 0.01, 0.05: film 8.8, 18.0 (constants and cases as in ``solver``)."""
 
 _RELATIVE = 1.0, 1.8, 1.9, 1.6, 1.66, 2.6
-"""Compliance of a level in the inverse over that of the body at pi over the side of its cells, relative to single points; the last holds for all further levels."""
+"""Compliance of a level in the inverse over that of the body at pi over the side of its cells, relative to single points; the last holds for all further levels. Of stiff
+bodies, whose inverse is corrected, it is that of the model."""
 
-_AHEAD, _STEEPER = 2, 0.7
-"""Levels further up at which c(q) q, where it exceeds that of single points, makes the compliance of a level larger still, by this power; the share for the
-curvature falls by the same power from there to the longest waves. Pairs for 0, 1, 3 levels: film 7.9, 7.2, 7.3; for a power of 0, 0.5, 0.9: film 10.0, 7.2, 7.2."""
+_MIDDLE, _FALL, _BEND = 2.02, 0.34, 0.24
+"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength (they are 1.6 to 2.4 on half-spaces), and shares of the local
+stiffness: for differences from the neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5: elastic 6.0, 5.8, 5.8;
+free 21.6, 19.3, 20.8; tight 12.9, 12.4, 12.4; for a bend of 0, 0.12, 0.4: elastic 5.8, 5.8, 6.2; free 20.8, 21.6, 19.3."""
 
-_FALL, _BEND = 0.34, 0.24
-"""Shares of the local stiffness: for differences from the neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5:
-elastic 6.3, 5.9, 5.9; film 7.3, 6.7, 6.8; tight 13.1, 12.5, 12.5; for a bend of 0, 0.12, 0.4: film 8.8, 6.7, 7.2; free
-22.9, 22.1, 19.7."""
+_STIFF = 1.5
+"""Rise of c(q) q over that of the shortest waves, at any wavelength, from which on a body counts as stiff: a film on a softer base. Pairs for 1.1, 3, 1e9 (never): film 6.2, 6.2, 12.5."""
+
+_STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND = 2.4, -0.1, 0.7
+"""The same for stiff bodies. There the cells count by the row sums of the local stiffness, which are larger at the rim of a contact: without, a uniform displacement of a point with neighbours
+missing leaves a pressure, which is a large one where c(q) rises steeply. Pairs for a middle of 2, 2.8: film 6.5, 6.2; for a fall of -0.3, 0.1 and a bend of 0.4, 1: the same."""
+
+_CORRECTION = 0.75
+"""Share in which row sums are corrected on stiff bodies, from the level on that lies ``_AHEAD`` below the first where c(q) q has risen by ``_RISEN``. Pairs for 0, 0.5, 1: film 19.1, 6.2, 6.7."""
+
+_AHEAD, _RISEN = 3, 1.2
+"""Levels, and the rise. Pairs for 1, 2, 9 levels: the same at 512²; at 1024² 0.7 more for 1 on films of E 10 on 4 pixels, and for 2 on those of E 30 on 8. A wave of eight points is reproduced to three fifths by the row sums of points that form cells, one of 16 to nine tenths:
+what is left of it counts as if it deflected like single points."""
 
 _OBLONG = 1.7
-"""Share of it along the longer side of a pixel, times the ratio of the sides."""
-
-_MIDDLE = 2.02
-"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength: they are 1.6 to 2.4 on half-spaces, 1.2 to 2.9 with films of
-E 10 from 8 pixels on, up to 8 with thinner ones, up to 17 with E 100 on 2 pixels."""
+"""Share of the local stiffness along the longer side of a pixel, times the ratio of the sides."""
 
 _NEAR = 3
-"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model. Pairs for 2, 4, 5: film 7.4, 6.5, 6.2, in more time."""
+"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model."""
 
-
-_STEEP = 1.5
-"""Steepness from which on the inverse of nested splines is not good enough by itself. Pairs for 1: the same; for 3 and 1e9 (never): film 7.7."""
+_STEEP = 10.0
+"""Steepness from which on the inverse of nested splines is not good enough by itself, where points form cells along both axes. Pairs for 2, 1e9 (never): stiff 33.2, 91.8."""
 
 
 class SplineCompliance(NamedTuple):
-    """``model`` of a compliance, and its steepness: by which factor c(q) q exceeds that of the shortest waves at waves of 16 points, more than 1 for stiff films thinner than that."""
+    """``model`` of a compliance, its steepness, by which factor c(q) q exceeds that of the shortest waves at waves of 16 points, more than 1 for stiff films thinner than that, and
+    whether its inverse is ``refined`` by steps on the model, being not good enough by itself."""
 
     model: SplineModel
     steepness: float
-
-    @property
-    def steep(self) -> bool:
-        """Whether its inverse is not good enough by itself."""
-        return self.steepness > _STEEP
+    refined: bool
 
 
 def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
     """Nested splines that follow the compliance of ``operator`` over ``scale``, fitted once for a body, boundary and grid.
 
-    Coefficients of the inverse were found by a search for the smallest spread of eigenvalues over half-spaces and films of E 0.3 to 10, 4 to 20 pixels thick.
+    Coefficients of the inverse were found by searches: for the smallest spread of eigenvalues on half-spaces and soft films, and for the fastest conjugate gradients on the contact sets
+    of films of E 10 to 100, 2 to 20 pixels thick.
     """
     return _fit(operator.octaves, operator.boundary, operator.grid, scale)
 
@@ -248,14 +255,9 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
     samples = _samples(grid)
     first, levels, steep = _levels(body, boundary, grid)
     parts = _fitted(samples.parts, samples.waves.compliance(body, boundary, first), np.diff(levels))
-    relative = np.full(len(levels), _RELATIVE[-1])
-    relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
-    relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
-    above = np.maximum(steep, 1.0)[np.minimum(np.arange(len(levels)) + _AHEAD, len(levels) - 1)] ** _STEEPER
-    bent = _BEND * float(above[0] / above[-1])
-    inverse = np.append(levels[0], (relative * levels * above)[1:])  # that of a point is its own
-    rises = np.diff(inverse) / (levels[0] * points[1:])
+    steepness, near = _steepest(steep), _STEEP if all(merges[0]) else _STIFF
     wraps, finest = boundary.wraps, min(grid.spacing)
+    inverse = _stiff_inverse(parts[_LOCAL:], steep) if float(steep.max()) > _STIFF else _plain_inverse(levels)
     local = [
         min(1.0, _OBLONG * finest / side) if n > 1 else 0.0 for side, n in zip(grid.spacing, grid.shape, strict=True)
     ]
@@ -265,12 +267,39 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
         averages=averages_of(grid),
         weights=tuple((parts[_LOCAL:] / (points[1:] * scale)).tolist()),
         own=tuple((parts[:_LOCAL] / scale).tolist()),
-        inverse_weights=tuple(rises.tolist()),
-        stiffness=scale / (_MIDDLE * float(levels[0])),
-        fall=(_FALL * local[0], _FALL * local[1]),
-        bend=(bent * local[0], bent * local[1]),
+        inverse_weights=tuple((inverse.rises / (points[1:] * levels[0])).tolist()),
+        stiffness=scale / (inverse.middle * float(levels[0])),
+        fall=(inverse.fall * local[0], inverse.fall * local[1]),
+        bend=(inverse.bend * local[0], inverse.bend * local[1]),
+        corrections=inverse.corrections,
     )
-    return SplineCompliance(model, _steepest(steep))
+    return SplineCompliance(model, steepness, steepness > near)
+
+
+class _Inverse(NamedTuple):
+    """Coefficients of the inverse: ``rises`` (levels,) of the compliance from level to level in m/Pa, that of a point being one; the others as in ``SplineModel``."""
+
+    middle: float
+    fall: float
+    bend: float
+    rises: RealArray
+    corrections: tuple[float, ...] = ()
+
+
+def _plain_inverse(levels: RealArray) -> _Inverse:
+    """That of a body of these compliances of the ``levels`` (levels + 1,)."""
+    relative = np.full(len(levels), _RELATIVE[-1])
+    relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
+    relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
+    return _Inverse(_MIDDLE, _FALL, _BEND, np.diff(relative * levels))
+
+
+def _stiff_inverse(weights: RealArray, steep: RealArray) -> _Inverse:
+    """That of a stiff body whose model has these ``weights`` (levels,) in m/Pa, and whose c(q) q rises like ``steep`` (levels + 1,)."""
+    ahead = np.minimum(np.arange(1, len(steep)) + _AHEAD, len(steep) - 1)
+    corrected = np.maximum.accumulate(steep)[ahead] > _RISEN
+    shares = tuple(np.where(corrected, _CORRECTION, 0.0).tolist())
+    return _Inverse(_STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND, weights / _STIFF_MIDDLE, shares)
 
 
 def steepness(operator: Operator) -> float:

@@ -1,0 +1,422 @@
+"""Compiled sweeps over nested quadratic B-splines: they sum loads up the levels and prolong deflections down again.
+
+A cell of a level merges two of the level below along one axis or both. Its B-spline reaches half a cell beyond it on either side: a part passes
+three quarters of its load to the cell that it lies in and a quarter to the nearest other, along each axis, and takes its deflection from both in
+the same shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell at either end, beyond the points.
+The compliance averages the loads of neighbouring cells of a level (half of a cell's own and a quarter of that beside it on either side) before they
+deflect it, along the axes for which the model says so.
+
+``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, whether the level below
+merges along x and y to it, and whether it averages along them. Level 0 are the points themselves, in an array with a margin.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .kernels import compiled, natural
+
+START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, AVERAGE_X, AVERAGE_Y = range(8)
+
+MARGIN = 2
+"""Points kept beyond the rim of the array of points, for their neighbours."""
+
+SOLVE, FACTORISE, DEFLECT = range(3)
+"""What a sweep is for: the inverse, g for it, or the deflection by loads."""
+
+PARTS = 64
+"""Parts into which the rows of a level are divided among threads: the line of scratch memory of a thread follows from its first part."""
+
+
+@compiled
+def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
+    """Values beyond the rim of the array of points: those of the other end where the axis wraps, else zero."""
+    start, rows, columns, stride = levels[0, START], levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    for row in range(rows):
+        for k in range(MARGIN):
+            base = start + row * stride
+            points[base - 1 - k] = points[base + (-1 - k) % columns] if wraps[1] else 0.0
+            points[base + columns + k] = points[base + k % columns] if wraps[1] else 0.0
+    for k in range(MARGIN):
+        before, after = start - (1 + k) * stride - MARGIN, start + (rows + k) * stride - MARGIN
+        last, first = start + (-1 - k) % rows * stride - MARGIN, start + k % rows * stride - MARGIN
+        for j in range(columns + 2 * MARGIN):
+            points[before + j] = points[last + j] if wraps[0] else 0.0
+            points[after + j] = points[first + j] if wraps[0] else 0.0
+
+
+@compiled
+def place(rows, index, levels, wraps, values, points):  # type: ignore[no-untyped-def]
+    """Set the array of points to the ``values`` at the points of a set, and beyond its rim."""
+    for row in range(levels[0, ROWS]):
+        shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
+        for k in range(rows[row], rows[row + 1]):
+            points[index[k] + shift] = values[k]
+    _surround(levels, wraps, points)
+
+
+@compiled
+def gather(rows, index, levels, points, out):  # type: ignore[no-untyped-def]
+    """Values of the array of points at the points of a set."""
+    for row in range(levels[0, ROWS]):
+        shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
+        for k in range(rows[row], rows[row + 1]):
+            out[k] = points[index[k] + shift]
+
+
+@compiled
+def local_stiffness(span, levels, members, memory, stencil, alone, together):  # type: ignore[no-untyped-def]
+    """Of the local stiffness at the points of a set: its own entry ``alone``, and the sum ``together`` of its row, for points that yield by the values of the array of points.
+
+    ``members`` of the set are (rows, index), ``memory`` is (found, under, points) as for ``at_points``. ``stencil`` holds the entry without neighbours, what each nearest point along x and y adds to it, the entries of these, and those of the points at twice the distance.
+    """
+    rows, index = members
+    founds, unders, points = memory
+    own, fall_x, fall_y, x1, y1, x2, y2 = stencil
+    height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    thread = -(-span[0] * len(founds) // PARTS)
+    found, under = founds[thread], unders[thread]
+    for row in range(height * span[0] // PARTS, height * span[1] // PARTS):
+        if rows[row] == rows[row + 1]:
+            continue
+        first = np.int64(index[rows[row]]) - row * columns
+        number = np.int64(index[rows[row + 1] - 1]) - row * columns + 1 - first
+        place = levels[0, START] + row * stride + first
+        here = points[place - MARGIN : place + number + MARGIN]
+        up, down = points[place - stride : place - stride + number], points[place + stride : place + stride + number]
+        above = points[place - 2 * stride : place - 2 * stride + number]
+        below = points[place + 2 * stride : place + 2 * stride + number]
+        for j in range(number):
+            x, y = up[j] + down[j], here[j + 1] + here[j + 3]
+            entry = own + fall_x * x + fall_y * y
+            found[j] = entry
+            under[j] = entry + x1 * x + y1 * y + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+        begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(row * columns + first)
+        for k in range(begins, ends):
+            i = natural(index[k]) - before
+            alone[k] = found[i]
+            together[k] = under[i]
+
+
+@compiled
+def rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: ignore[no-untyped-def]
+    """Sums over the cells of the levels ``way[0]`` to ``way[1]`` of the loads on the ``points``, of the rows of the span.
+
+    What a level passes up is left in ``sums``: g S of its sums S, or, to ``DEFLECT``, S itself. To ``FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
+    """
+    near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
+    scratch = lines[-(-span[0] * len(lines) // PARTS)]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
+    for k in range(3):
+        line[k] = 0.0
+    for depth in range(way[0], way[1] + 1):
+        fine, level, weight = levels[depth - 1], levels[depth], weights[depth]
+        source = points if depth == 1 else sums
+        rows, columns, below, stride = fine[ROWS], fine[COLUMNS], fine[START], fine[STRIDE]
+        lead = 1 if wraps[1] else 3
+        for cell in range(level[ROWS] * span[0] // PARTS, level[ROWS] * span[1] // PARTS):
+            own_line = line[lead : lead + columns]
+            if level[MERGE_X]:
+                first = 2 * cell if wraps[0] else 2 * cell - 2
+                before, second, after = first - 1, first + 1, first + 2
+                if wraps[0]:  # an odd number of rows leaves the last cell with one
+                    if before < 0 and rows % 2 == 0:
+                        before = rows - 1
+                    if after >= rows:
+                        after = 0
+                row_a = (
+                    source[below + before * stride : below + before * stride + columns]
+                    if 0 <= before < rows
+                    else nothing
+                )
+                row_b = (
+                    source[below + first * stride : below + first * stride + columns] if 0 <= first < rows else nothing
+                )
+                row_c = (
+                    source[below + second * stride : below + second * stride + columns]
+                    if 0 <= second < rows
+                    else nothing
+                )
+                row_d = (
+                    source[below + after * stride : below + after * stride + columns] if 0 <= after < rows else nothing
+                )
+                for j in range(columns):
+                    own_line[j] = far * (row_a[j] + row_d[j]) + near * (row_b[j] + row_c[j])
+            else:
+                row_b = source[below + cell * stride : below + cell * stride + columns]
+                for j in range(columns):
+                    own_line[j] = row_b[j]
+            start, wide = level[START] + cell * level[STRIDE], level[COLUMNS]
+            out, own = sums[start : start + wide], g[start : start + wide] if way[2] != DEFLECT else unit
+            if level[MERGE_Y]:
+                for k in range(lead + columns, lead + columns + 4):
+                    line[k] = 0.0
+                if wraps[1]:
+                    line[0] = line[columns] if columns % 2 == 0 else 0.0
+                    line[columns + 1 + columns % 2] = line[1]
+                for k in range(wide):
+                    out[k] = far * (line[2 * k] + line[2 * k + 3]) + near * (line[2 * k + 1] + line[2 * k + 2])
+            else:
+                for k in range(wide):
+                    out[k] = own_line[k]
+            if way[2] == FACTORISE:
+                for k in range(wide):
+                    own[k] = one / (one + weight * out[k])
+            for k in range(wide):
+                out[k] *= own[k]
+
+
+@compiled
+def fall(span, levels, way, wraps, weights, lines, sums, g, cells, target):  # type: ignore[no-untyped-def]
+    """Deflections of the ``cells`` of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``rise`` has left in ``sums``.
+
+    They are left in ``target``, which is ``cells`` but for a single level. That of a level is w g S plus g times that of the level above; to ``DEFLECT``, w times the average of S over neighbouring cells plus that of the level above.
+    """
+    near, far, half = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(0.5)
+    scratch = lines[-(-span[0] * len(lines) // PARTS)]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
+    top = len(levels) - 1
+    for depth in range(way[0], way[1] - 1, -1):
+        level, weight, wide, rows = levels[depth], weights[depth], levels[depth, COLUMNS], levels[depth, ROWS]
+        for cell in range(rows * span[0] // PARTS, rows * span[1] // PARTS):
+            start = level[START] + cell * level[STRIDE]
+            out, own = target[start : start + wide], g[start : start + wide] if way[2] != DEFLECT else unit
+            row_b, mixed = sums[start : start + wide], line[1 : wide + 1]
+            if way[2] == DEFLECT and level[AVERAGE_X]:
+                before, after = cell - 1, cell + 1
+                if wraps[0]:
+                    before, after = before if cell > 0 else rows - 1, after if after < rows else 0
+                a, c = level[START] + before * level[STRIDE], level[START] + after * level[STRIDE]
+                row_a = sums[a : a + wide] if before >= 0 else nothing
+                row_c = sums[c : c + wide] if after < rows else nothing
+                for j in range(wide):
+                    mixed[j] = half * row_b[j] + far * (row_a[j] + row_c[j])
+                row_b = mixed
+            if way[2] == DEFLECT and level[AVERAGE_Y]:
+                for j in range(wide):
+                    mixed[j] = row_b[j]
+                line[0], line[wide + 1] = (line[wide], line[1]) if wraps[1] else (nothing[0], nothing[0])
+                for j in range(wide):
+                    out[j] = weight * (half * line[j + 1] + far * (line[j] + line[j + 2]))
+            else:
+                for j in range(wide):
+                    out[j] = weight * row_b[j]
+            if depth == top:
+                continue
+            above = levels[depth + 1]
+            columns = above[COLUMNS]
+            lead = 1 if wraps[1] else 0
+            own_line = line[lead : lead + columns]
+            if above[MERGE_X]:
+                parent = cell >> 1 if wraps[0] else (cell >> 1) + 1
+                beside = parent - 1 if cell & 1 == 0 else parent + 1
+                if wraps[0]:
+                    beside = above[ROWS] - 1 if beside < 0 else 0 if beside >= above[ROWS] else beside
+                a, b = above[START] + parent * above[STRIDE], above[START] + beside * above[STRIDE]
+                row_a, row_b = cells[a : a + columns], cells[b : b + columns]
+                for k in range(columns):
+                    own_line[k] = near * row_a[k] + far * row_b[k]
+            else:
+                a = above[START] + cell * above[STRIDE]
+                row_a = cells[a : a + columns]
+                for k in range(columns):
+                    own_line[k] = row_a[k]
+            if above[MERGE_Y]:
+                if wraps[1]:
+                    line[0], line[columns + 1] = line[columns], line[1]
+                for k in range(wide >> 1):
+                    out[2 * k] += own[2 * k] * (near * line[k + 1] + far * line[k])
+                    out[2 * k + 1] += own[2 * k + 1] * (near * line[k + 1] + far * line[k + 2])
+                if wide & 1:
+                    k = wide >> 1
+                    out[wide - 1] += own[wide - 1] * (near * line[k + 1] + far * line[k])
+            else:
+                for j in range(wide):
+                    out[j] += own[j] * own_line[j]
+
+
+@compiled
+def at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
+    """out = alone values + what the neighbours among the ``points`` add + share times the deflection of the cells of level 1, at the points of a set.
+
+    ``members`` of the set are (rows, index), ``memory`` is (lines, found, under, points, cells), found and under being lines as well: were they rows of the same array, the
+    loop that writes every second value would not be vectorised. ``stencil`` holds the factors of the nearest points along x and y, of those at twice the distance
+    along x and y, of the diagonal ones (if those are zero), and of the deflection of the cells. ``vectors`` are values, alone and share (of one entry each if they are the same at all points, which is
+    a share of one), and two of which the products with out are left in ``products``, row by row, after the sum of out.
+    """
+    rows, index = members
+    lines, founds, unders, points, cells = memory
+    values, alone, share, one, other = vectors
+    each, apart = natural(1) if alone.size > 1 else natural(0), share.size == values.size
+    x1, y1, x2, y2, diagonal, factor = stencil
+    near, far = points.dtype.type(0.75), points.dtype.type(0.25)
+    height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    level = levels[1]
+    wide, merges_x, merges_y = level[COLUMNS], level[MERGE_X], level[MERGE_Y]
+    thread = -(-span[0] * len(lines) // PARTS)
+    line, found, under = lines[thread, 0], founds[thread], unders[thread] if apart else founds[thread]
+    for row in range(height * span[0] // PARTS, height * span[1] // PARTS):
+        total = 0.0
+        with_one = 0.0
+        with_other = 0.0
+        base = row * columns
+        if rows[row] < rows[row + 1]:
+            first = (np.int64(index[rows[row]]) - base) >> 1  # in pairs of columns
+            pairs = ((np.int64(index[rows[row + 1] - 1]) - base) >> 1) + 1 - first
+            parent, beside = row, row
+            if merges_x:
+                parent = row >> 1 if wraps[0] else (row >> 1) + 1
+                beside = parent - 1 if row & 1 == 0 else parent + 1
+                if wraps[0]:
+                    beside = level[ROWS] - 1 if beside < 0 else 0 if beside >= level[ROWS] else beside
+            a, b = level[START] + parent * level[STRIDE], level[START] + beside * level[STRIDE]
+            if merges_y:
+                begin, number = first if wraps[1] else first + 1, pairs
+                left, right = begin - 1 if begin > 0 else wide - 1, begin + number
+                right = 0 if wraps[1] and right >= wide else min(right, wide - 1)
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
+                middle = line[1 : number + 1]
+                for k in range(number):
+                    middle[k] = factor * (near * row_a[k] + far * row_b[k])
+                line[0] = factor * (near * cells[a + left] + far * cells[b + left])
+                line[number + 1] = factor * (near * cells[a + right] + far * cells[b + right])
+                for k in range(number):
+                    under[2 * k] = near * line[k + 1] + far * line[k]
+                    under[2 * k + 1] = near * line[k + 1] + far * line[k + 2]
+            else:
+                begin, number = 2 * first, min(2 * pairs, columns - 2 * first)
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
+                for j in range(number):
+                    under[j] = factor * (near * row_a[j] + far * row_b[j])
+            if apart:
+                for j in range(2 * pairs):
+                    found[j] = points.dtype.type(0.0)
+            place = levels[0, START] + row * stride + 2 * first
+            here = points[place - MARGIN : place + 2 * pairs + MARGIN]
+            up = points[place - stride - 1 : place - stride + 2 * pairs + 1]
+            down = points[place + stride - 1 : place + stride + 2 * pairs + 1]
+            if x2 != 0.0 or y2 != 0.0:
+                above = points[place - 2 * stride : place - 2 * stride + 2 * pairs]
+                below = points[place + 2 * stride : place + 2 * stride + 2 * pairs]
+                for j in range(2 * pairs):
+                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+                    found[j] += nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+            else:
+                for j in range(2 * pairs):
+                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+                    found[j] += nearest + diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
+            begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(base + 2 * first)
+            if apart:
+                for k in range(begins, ends):
+                    i = natural(index[k]) - before
+                    out[k] = found[i] + share[k] * under[i]
+            else:
+                for k in range(begins, ends):
+                    out[k] = found[natural(index[k]) - before]
+            for k in range(begins, ends):
+                z = alone[k * each] * values[k] + out[k]
+                out[k] = z
+                total += z
+                with_one += np.float64(z) * one[k]
+                with_other += np.float64(z) * other[k]
+        products[row, 0] = total
+        products[row, 1] = with_one
+        products[row, 2] = with_other
+
+
+# The correction for row sums. B-splines of neighbouring cells overlap: the products P^T D P of a level, D being what its parts pass up, are their row sums S less
+# a Laplacian H, which follows from D between the middles of neighbouring cells. The inverse takes S for the products; 1 + c H/S times the deflections of a level makes up for most of it.
+
+
+@compiled
+def _between(span, levels, depth, wraps, lines, points, sums, mean):  # type: ignore[no-untyped-def]
+    """Mean of what the four parts between the middles of each cell of a level and those after it pass up, a part that is missing counting as zero."""
+    fine, level = levels[depth - 1], levels[depth]
+    source = points if depth == 1 else sums
+    scratch = lines[-(-span[0] * len(lines) // PARTS)]
+    line, nothing, quarter = scratch[0], scratch[1], mean.dtype.type(0.25)
+    rows, columns, stride, wide = fine[ROWS], fine[COLUMNS], fine[STRIDE], level[COLUMNS]
+    lead, skipped = (0, 1) if wraps[1] else (1, 0)
+    for cell in range(level[ROWS] * span[0] // PARTS, level[ROWS] * span[1] // PARTS):
+        first = 2 * cell + 1 if wraps[0] else 2 * cell - 1
+        second = 0 if wraps[0] and first + 1 == 2 * level[ROWS] else first + 1
+        a, b = fine[START] + first * stride, fine[START] + second * stride
+        row_a = source[a : a + columns] if 0 <= first < rows else nothing
+        row_b = source[b : b + columns] if second < rows else nothing
+        line[0] = line[lead + columns] = line[lead + columns + 1] = line[lead + columns + 2] = nothing[0]
+        own_line = line[lead : lead + columns]
+        for j in range(columns):
+            own_line[j] = row_a[j] + row_b[j]
+        if wraps[1]:
+            line[2 * wide] = line[0]
+        out = mean[level[START] + cell * wide : level[START] + (cell + 1) * wide]
+        for k in range(wide):
+            out[k] = quarter * (line[2 * k + skipped] + line[2 * k + skipped + 1])
+
+
+@compiled
+def _reciprocals(span, levels, depth, share, sums, g, per):  # type: ignore[no-untyped-def]
+    """share / S of the cells of a level, whose g S are in ``sums``."""
+    level, least = levels[depth], per.dtype.type(1e-30)  # where nothing is in contact H is nothing
+    first = level[START] + level[ROWS] * span[0] // PARTS * level[STRIDE]
+    last = level[START] + level[ROWS] * span[1] // PARTS * level[STRIDE]
+    for k in range(natural(first), natural(last)):
+        per[k] = share * g[k] / (sums[k] + least)
+
+
+@compiled
+def corrected(span, levels, depth, wraps, scratch, mean, per, raw, cells):  # type: ignore[no-untyped-def]
+    """``cells`` = raw + per H raw on a level, of the rows of the span; H by the ``mean`` of ``_between``. The ``raw`` values themselves where it merges along one axis only."""
+    level = levels[depth]
+    besides, weights, founds = scratch
+    thread = -(-span[0] * len(founds) // PARTS)
+    beside, weight, found = besides[thread], weights[thread], founds[thread]
+    rows, wide, kind = level[ROWS], level[COLUMNS], cells.dtype.type
+    middle, side, corner = kind(0.609375), kind(0.234375), kind(0.140625)
+    for cell in range(rows * span[0] // PARTS, rows * span[1] // PARTS):
+        start = level[START] + cell * wide
+        own, factor, out = raw[start : start + wide], per[start : start + wide], cells[start : start + wide]
+        for k in range(wide):
+            found[k] = kind(0.0)
+        for way in range(2 if level[MERGE_X] + level[MERGE_Y] == 2 else 0):
+            beyond, block = (cell + 1, cell) if way else (cell - 1, cell - 1)
+            if wraps[0]:
+                beyond, block = (
+                    0 if beyond >= rows else rows - 1 if beyond < 0 else beyond,
+                    rows - 1 if block < 0 else block,
+                )
+            if not 0 <= beyond < rows:
+                continue
+            of_other, of_block = level[START] + beyond * wide, level[START] + block * wide
+            other, blocks = raw[of_other : of_other + wide], mean[of_block : of_block + wide]
+            beside_line, weight_line = beside[1 : wide + 1], weight[1 : wide + 1]
+            for k in range(wide):
+                beside_line[k] = side * own[k] + corner * other[k]
+            for k in range(wide):
+                weight_line[k] = blocks[k]
+            if wraps[1]:
+                beside[0], beside[wide + 1], weight[0] = beside[wide], beside[1], weight[wide]
+            else:
+                beside[0], beside[wide + 1], weight[0] = kind(0.0), kind(0.0), kind(0.0)
+            for k in range(wide):
+                here = middle * own[k] - side * other[k]
+                found[k] += weight[k + 1] * (here - beside[k + 2]) + weight[k] * (here - beside[k])
+        for k in range(wide):
+            out[k] = own[k] + factor[k] * found[k]
+
+
+@compiled
+def overlaps(span, levels, way, wraps, shares, lines, points, sums, g, found):  # type: ignore[no-untyped-def]
+    """``_between`` and ``_reciprocals``, left in the two arrays ``found``, of the levels ``way[0]`` to ``way[1]``, of the rows of the span; on levels that merge along one axis only nothing is corrected."""
+    for depth in range(way[0], way[1] + 1):
+        if levels[depth, MERGE_X] + levels[depth, MERGE_Y] == 2:
+            _between(span, levels, depth, wraps, lines, points, sums, found[0])
+            _reciprocals(span, levels, depth, shares[depth], sums, g, found[1])
+
+
+@compiled
+def fall_corrected(levels, way, wraps, weights, lines, sums, g, correction, cells):  # type: ignore[no-untyped-def]
+    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction`` (scratch, mean, per, raw) of every level."""
+    for depth in range(way[0], way[1] - 1, -1):
+        fall((0, PARTS), levels, (depth, depth, SOLVE), wraps, weights, lines, sums, g, cells, correction[3])
+        corrected((0, PARTS), levels, depth, wraps, *correction, cells)
