@@ -319,9 +319,9 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
                 total += z
                 with_one += np.float64(z) * one[k]
                 with_other += np.float64(z) * other[k]
-        products[row, 0] = total
-        products[row, 1] = with_one
-        products[row, 2] = with_other
+        products[0, row] = total
+        products[1, row] = with_one
+        products[2, row] = with_other
 
 
 # The correction for row sums. B-splines of neighbouring cells overlap: the products P^T D P of a level, D being what its parts pass up, are their row sums S less

@@ -38,7 +38,7 @@ class CpuSplines:
         self._lines = np.zeros((min(blocks.threads, kernels.PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
         self._found, self._under = (np.zeros((len(self._lines), shape[1] + 8), dtype) for _ in range(2))
-        self._products = np.empty((shape[0], 3))
+        self._products = np.empty((3, shape[0]))
         self._wraps, kind = model.wraps, np.dtype(dtype).type
         self._inverse, self._weights = (
             np.array([0.0, *weights], dtype) for weights in (model.inverse_weights, model.weights)
@@ -196,7 +196,7 @@ class CpuSplines:
             products,
         )
         self._share(kernels.at_points, levels, self._wraps, *arguments, serial=self._layout.large == 0)
-        return Products(out, *np.add.reduce(products).tolist())
+        return Products(out, *np.add.reduce(products, axis=1).tolist())
 
     def _share(self, kernel: Any, *arguments: Any, serial: bool) -> None:
         self._blocks.share(kernel, kernels.PARTS, *arguments, serial=serial)
