@@ -98,8 +98,8 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
 
 
 _SETTLING_FROM = 3.0
-"""Steepness of a compliance from which on ``settle`` is worth its time. Pairs at 512² and 1024², 3 to 17 % in contact, with it and without: film of E 100 on 2 pixels
-(steepness 12) 17 and 30 for 22 and 39, of E 30 on 3 (4) 8.5 and 11 for 11 and 15; of E 10 on 4 (2) 6.8 and 7.3 for 7.0 and 8.2, but no less time."""
+"""Steepness of a compliance from which on ``settle`` is worth its time. Pairs at 512² and 1024², means over loads and surfaces, with it and without: film of E 100 on 2 pixels
+(steepness 12) 10.1 and 10.6 for 13.9 and 15.0, of E 30 on 3 (4) 8.3 and 8.7 for 9.8 and 11.0."""
 
 
 def settle(work: Workspace) -> None:
