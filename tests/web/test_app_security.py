@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import http.client
+import os
 import re
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -143,6 +145,19 @@ def test_names_of_uploads_are_never_paths(app: AppServer, cookie: str) -> None:
         assert path.parents[2].name.startswith("asperity-app-")
         assert path.parents[2].stat().st_mode & 0o077 == 0, "the folder of uploads is private"
         assert path.read_bytes() == b"1 2\n3 4\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX systems")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_private_folders_are_gone_however_the_application_is_ended(name: str) -> None:
+    with AppServer(("--demo",)) as app:
+        cookie = app.cookie()
+        _, answer = app.upload(cookie, app.session(cookie), "a.txt", b"1 2\n3 4\n")
+        private = Path(answer["path"]).parents[2]
+        assert private.is_dir()
+        app.process.send_signal(getattr(signal, name))
+        app.process.wait(20.0)
+    assert not private.exists()
 
 
 def test_labels_show_no_folders_and_no_hidden_letters() -> None:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import secrets
+import signal
 import socket
 import tempfile
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,11 +66,32 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
             server = uvicorn.Server(config)
             shown = f"[{options.host}]" if ":" in options.host else options.host
             opened(f"http://{shown}:{port}/?token={token}")
-            server.run(sockets=[listener])
+            with _ended_by_signals(server):
+                server.run(sockets=[listener])
         except KeyboardInterrupt:
             pass
         finally:
             place.close()
+
+
+@contextmanager
+def _ended_by_signals(server: Any) -> Iterator[None]:
+    """Let the signals by which a system ends a process or closes its terminal end the ``server`` like Ctrl-C, so that private folders are removed. Ignored ones remain so.
+
+    The server itself ends by SIGTERM, and then raises it once more.
+    """
+    ends = {"SIGTERM": signal.default_int_handler, "SIGHUP": server.handle_exit}
+    known = {number: end for name, end in ends.items() if (number := getattr(signal, name, None)) is not None}
+    changed = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
+    if threading.current_thread() is not threading.main_thread():
+        changed = []
+    for number in changed:
+        signal.signal(number, known[number])
+    try:
+        yield
+    finally:
+        for number in changed:
+            signal.signal(number, signal.SIG_DFL)
 
 
 def _listening(options: Options) -> socket.socket:
